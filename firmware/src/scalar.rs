@@ -1,0 +1,128 @@
+//! The number that the equations are written in: `f32` in flight, `f64` on the host, dual numbers where the host
+//! wants derivatives.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use crate::math;
+
+/// A real number with the elementary functions that the wheel–soil equations need.
+///
+/// Each implementation gives the same bits on every target: `f64` calls `libm`, `f32` calls [`crate::math`].
+pub trait Scalar:
+    Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + 'static
+{
+    /// The nearest number to a constant of the equations.
+    fn constant(value: f64) -> Self;
+    /// Sine and cosine of an angle in radians.
+    fn sin_cos(self) -> (Self, Self);
+    /// Arc cosine in radians; NaN outside −1 … 1.
+    fn acos(self) -> Self;
+    /// e to the power of `self`.
+    fn exp(self) -> Self;
+    /// Natural logarithm; NaN below zero.
+    fn ln(self) -> Self;
+    /// `self` to the power of `exponent`, for a base of zero or more.
+    fn powf(self, exponent: Self) -> Self;
+    /// Square root; NaN below zero.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// Neither NaN nor infinite.
+    fn is_finite(self) -> bool;
+
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+    /// The lesser of two numbers.
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+    /// The greater of two numbers.
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+    /// Zero.
+    fn zero() -> Self {
+        Self::constant(0.0)
+    }
+    /// One.
+    fn one() -> Self {
+        Self::constant(1.0)
+    }
+}
+
+impl Scalar for f64 {
+    fn constant(value: f64) -> Self {
+        value
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+    fn acos(self) -> Self {
+        libm::acos(self)
+    }
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+    fn ln(self) -> Self {
+        libm::log(self)
+    }
+    fn powf(self, exponent: Self) -> Self {
+        libm::pow(self, exponent)
+    }
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+    fn abs(self) -> Self {
+        libm::fabs(self)
+    }
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}
+
+impl Scalar for f32 {
+    fn constant(value: f64) -> Self {
+        value as f32
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        math::sin_cos(self)
+    }
+    fn acos(self) -> Self {
+        math::acos(self)
+    }
+    fn exp(self) -> Self {
+        math::exp(self)
+    }
+    fn ln(self) -> Self {
+        math::ln(self)
+    }
+    fn powf(self, exponent: Self) -> Self {
+        math::powf(self, exponent)
+    }
+    fn sqrt(self) -> Self {
+        math::sqrt(self)
+    }
+    fn abs(self) -> Self {
+        math::abs(self)
+    }
+    fn is_finite(self) -> bool {
+        f32::is_finite(self)
+    }
+}

@@ -1,0 +1,33 @@
+//! The parameters of a soil.
+
+use crate::scalar::Scalar;
+
+/// A homogeneous soil as the wheel–soil equations see it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Soil<S> {
+    /// Sinkage exponent n (dimensionless), equation 6.
+    pub sinkage_exponent: S,
+    /// Cohesive modulus k_c, Pa/m^(n−1), equation 6.
+    pub cohesive_modulus: S,
+    /// Frictional modulus k_φ, Pa/m^n, equation 6.
+    pub frictional_modulus: S,
+    /// Cohesion c, Pa, equation 1.
+    pub cohesion_pa: S,
+    /// Angle of internal friction φ, rad, equation 1.
+    pub friction_angle_rad: S,
+    /// Shear deformation modulus K, m, equation 1.
+    pub shear_modulus_m: S,
+    /// Position of the peak stress at zero slip, c₁ of equation 10.
+    pub peak_stress_c1: S,
+    /// Shift of the peak stress with slip, c₂ of equation 10.
+    pub peak_stress_c2: S,
+    /// Share of the sinkage that rises behind the wheel, η of equation 11; 0 = no rear contact.
+    pub rebound_ratio: S,
+}
+
+impl<S: Scalar> Soil<S> {
+    /// Stiffness k_c / b + k_φ under a wheel of the given width, Pa/m^n.
+    pub fn stiffness(&self, width_m: S) -> S {
+        self.cohesive_modulus / width_m + self.frictional_modulus
+    }
+}

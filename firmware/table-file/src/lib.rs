@@ -1,0 +1,1 @@
+//! The file that carries a frozen network from the trainer to the flight image.

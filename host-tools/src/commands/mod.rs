@@ -1,0 +1,25 @@
+//! The commands, one file each.
+
+use clap::Subcommand;
+
+use crate::error::HostError;
+
+/// What `kapvik` can be asked to do.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Placeholder until the first command lands.
+    #[command(hide = true)]
+    Nothing,
+}
+
+impl Command {
+    /// Carries out the command.
+    ///
+    /// # Errors
+    /// One that a person can act on: it names the file, line and column where there is one.
+    pub fn execute(self) -> Result<(), HostError> {
+        match self {
+            Self::Nothing => Ok(()),
+        }
+    }
+}

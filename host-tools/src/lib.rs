@@ -1,0 +1,4 @@
+//! What the host does around the flight library: data files, training, identification, the image in QEMU, reports.
+
+pub mod commands;
+pub mod error;
