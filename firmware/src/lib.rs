@@ -4,5 +4,8 @@
 #![cfg_attr(not(test), no_std)]
 
 pub mod math;
+pub mod network;
 pub mod scalar;
+pub mod soil;
 pub mod terramechanics;
+pub mod wheel_state;

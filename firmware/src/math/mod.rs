@@ -1,5 +1,9 @@
 //! Elementary functions in single precision for the flight path.
 
+mod limit;
+
+pub use limit::limit;
+
 /// Sine and cosine of `x` in radians.
 pub fn sin_cos(x: f32) -> (f32, f32) {
     libm::sincosf(x)

@@ -1,0 +1,46 @@
+//! Inputs and the outputs that a sound table gives for them, bit for bit.
+
+use super::numbers;
+use super::shape::{CONTEXT_FEATURES, OUTPUTS, ROVER_WHEELS, WHEEL_FEATURES, WHEEL_INPUTS};
+
+/// Golden pairs of each network.
+pub const GOLDEN_PAIRS: usize = 32;
+
+/// A pair of the per-wheel network: inputs before normalisation, outputs as the network gives them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WheelGolden {
+    /// Inputs.
+    pub input: [f32; WHEEL_INPUTS],
+    /// Outputs.
+    pub output: [f32; OUTPUTS],
+}
+numbers!(WheelGolden: input, output);
+
+impl WheelGolden {
+    /// All zero, for a table that is about to be filled.
+    pub const ZERO: Self = Self { input: [0.0; WHEEL_INPUTS], output: [0.0; OUTPUTS] };
+}
+
+/// A pair of the rover network: inputs before normalisation, outputs as the network gives them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoverGolden {
+    /// Number of wheels, 1 … 6.
+    pub count: f32,
+    /// Inputs that the wheels share.
+    pub context: [f32; CONTEXT_FEATURES],
+    /// Inputs of each wheel; those beyond `count` are of no account.
+    pub wheels: [[f32; WHEEL_FEATURES]; ROVER_WHEELS],
+    /// Outputs.
+    pub output: [f32; OUTPUTS],
+}
+numbers!(RoverGolden: count, context, wheels, output);
+
+impl RoverGolden {
+    /// All zero, for a table that is about to be filled.
+    pub const ZERO: Self = Self {
+        count: 0.0,
+        context: [0.0; CONTEXT_FEATURES],
+        wheels: [[0.0; WHEEL_FEATURES]; ROVER_WHEELS],
+        output: [0.0; OUTPUTS],
+    };
+}

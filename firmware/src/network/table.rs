@@ -1,0 +1,101 @@
+//! The frozen tables: a network with all that is needed to use it.
+
+use super::shape::{CONTEXT_FEATURES, OUTPUTS, WHEEL_FEATURES, WHEEL_INPUTS};
+use super::{
+    GOLDEN_PAIRS, Normalisation, Numbers, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden, WheelNetwork, numbers,
+};
+
+/// The per-wheel network, frozen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WheelTable {
+    /// Coefficient A of the bipolar sigmoid, equation 13.
+    pub gradient: f32,
+    /// Of the inputs.
+    pub normalisation: Normalisation<WHEEL_INPUTS>,
+    /// Weights.
+    pub network: WheelNetwork,
+    /// What the outputs mean.
+    pub posterior: PosteriorScale,
+    /// Pairs that the network must reproduce.
+    pub golden: [WheelGolden; GOLDEN_PAIRS],
+}
+numbers!(WheelTable: gradient, normalisation, network, posterior, golden);
+
+/// The rover network, frozen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoverTable {
+    /// Coefficient A of the bipolar sigmoid, equation 13.
+    pub gradient: f32,
+    /// Of the inputs that the wheels share.
+    pub context: Normalisation<CONTEXT_FEATURES>,
+    /// Of each wheel's own inputs.
+    pub wheel: Normalisation<WHEEL_FEATURES>,
+    /// Weights.
+    pub network: RoverNetwork,
+    /// What the outputs mean.
+    pub posterior: PosteriorScale,
+    /// Pairs that the network must reproduce.
+    pub golden: [RoverGolden; GOLDEN_PAIRS],
+}
+numbers!(RoverTable: gradient, context, wheel, network, posterior, golden);
+
+impl WheelTable {
+    /// All zero, to be filled.
+    pub const ZERO: Self = Self {
+        gradient: 0.0,
+        normalisation: Normalisation::ZERO,
+        network: WheelNetwork::ZERO,
+        posterior: PosteriorScale::ZERO,
+        golden: [WheelGolden::ZERO; GOLDEN_PAIRS],
+    };
+
+    /// The network's outputs for inputs in their own units.
+    pub fn outputs(&self, input: &[f32; WHEEL_INPUTS]) -> [f32; OUTPUTS] {
+        self.network.run(&self.normalisation.apply(input), self.gradient).output
+    }
+
+    /// Golden pairs that the network reproduces bit for bit.
+    pub fn golden_reproduced(&self) -> usize {
+        self.golden.iter().filter(|pair| same_bits(&self.outputs(&pair.input), &pair.output)).count()
+    }
+}
+
+impl RoverTable {
+    /// All zero, to be filled.
+    pub const ZERO: Self = Self {
+        gradient: 0.0,
+        context: Normalisation::ZERO,
+        wheel: Normalisation::ZERO,
+        network: RoverNetwork::ZERO,
+        posterior: PosteriorScale::ZERO,
+        golden: [RoverGolden::ZERO; GOLDEN_PAIRS],
+    };
+
+    /// The network's outputs for inputs in their own units.
+    pub fn outputs<'a>(
+        &self,
+        context: &[f32; CONTEXT_FEATURES],
+        wheels: impl IntoIterator<Item = &'a [f32; WHEEL_FEATURES]>,
+    ) -> [f32; OUTPUTS] {
+        let wheels = wheels.into_iter().map(|features| self.wheel.apply(features));
+        self.network.run(&self.context.apply(context), wheels, self.gradient).output
+    }
+
+    /// Golden pairs that the network reproduces bit for bit.
+    pub fn golden_reproduced(&self) -> usize {
+        let outputs = |pair: &RoverGolden| self.outputs(&pair.context, pair.wheels.iter().take(pair.count as usize));
+        self.golden.iter().filter(|pair| same_bits(&outputs(pair), &pair.output)).count()
+    }
+}
+
+fn same_bits(left: &[f32; OUTPUTS], right: &[f32; OUTPUTS]) -> bool {
+    left.iter().zip(right).all(|(l, r)| l.to_bits() == r.to_bits())
+}
+
+/// CRC-32 (ISO-HDLC) over the bits of all numbers of a table, least significant byte first.
+pub fn checksum(table: &impl Numbers) -> u32 {
+    static CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+    let mut digest = CRC.digest();
+    table.for_each(&mut |number| digest.update(&number.to_bits().to_le_bytes()));
+    digest.finalize()
+}

@@ -1,0 +1,7 @@
+//! The soil estimate: wheel states to the networks' inputs, and their outputs to cohesion, friction angle and modulus.
+
+mod estimate;
+mod features;
+
+pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};
+pub use features::{ContextFeatures, WheelFeatures, context_features, wheel_features};

@@ -1,0 +1,23 @@
+//! Gaussian negative log-likelihood of the targets under the predicted means and variances.
+//!
+//! Its minimum is the posterior mean and the posterior variance, whatever the shape of the posterior.
+
+use kapvik_firmware::network::{OUTPUTS, TARGETS};
+
+/// Bounds of a predicted log-variance on the scale of the prior.
+pub const LOG_VARIANCE: (f32, f32) = (-14.0, 2.0);
+
+/// Loss of one example, and its slope against each output.
+pub fn gaussian(outputs: &[f32; OUTPUTS], target: &[f32; TARGETS]) -> (f32, [f32; OUTPUTS]) {
+    let mut loss = 0.0;
+    let mut slope = [0.0; OUTPUTS];
+    for k in 0..TARGETS {
+        let error = outputs[k] - target[k];
+        let log_variance = outputs[TARGETS + k].clamp(LOG_VARIANCE.0, LOG_VARIANCE.1);
+        let precision = libm::expf(-log_variance);
+        loss += 0.5 * (log_variance + error * error * precision);
+        slope[k] = error * precision;
+        slope[TARGETS + k] = 0.5 * (1.0 - error * error * precision);
+    }
+    (loss, slope)
+}

@@ -1,0 +1,98 @@
+//! The stated priors: what a soil, a wheel and a set of sensors may be, before any data.
+//!
+//! The soil ranges and the noise are those of the experiment that the project compares itself with (φ 22–42°, K
+//! 5–35 mm, n 0.8–1.3, k_φ 0.8–5 MPa/mⁿ, 0.5 N, 1 N, 0.05 N·m, 2 mm and 0.01 per instant on the assumed Kapvik wheel).
+
+use kapvik_firmware::terramechanics::Wheel;
+
+/// A range, and how a number lies in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Least value.
+    pub low: f64,
+    /// Greatest value.
+    pub high: f64,
+    /// Uniform in the logarithm instead of in the number.
+    pub logarithmic: bool,
+}
+
+impl Range {
+    const fn linear(low: f64, high: f64) -> Self {
+        Self { low, high, logarithmic: false }
+    }
+    const fn logarithmic(low: f64, high: f64) -> Self {
+        Self { low, high, logarithmic: true }
+    }
+
+    /// The value at a share 0 … 1 of the range.
+    pub fn at(&self, share: f64) -> f64 {
+        if self.logarithmic {
+            self.low * libm::pow(self.high / self.low, share)
+        } else {
+            self.low + (self.high - self.low) * share
+        }
+    }
+}
+
+/// Cohesion c, Pa.
+pub const COHESION_PA: Range = Range::logarithmic(50.0, 3000.0);
+/// Friction angle φ, rad: 22 … 42°.
+pub const FRICTION_ANGLE_RAD: Range = Range::linear(0.383_972_435_438_752_5, 0.733_038_285_837_618_4);
+/// Shear deformation modulus K, m.
+pub const SHEAR_MODULUS_M: Range = Range::logarithmic(0.005, 0.035);
+/// Sinkage exponent n.
+pub const SINKAGE_EXPONENT: Range = Range::linear(0.8, 1.3);
+/// Stiffness k_c/b + k_φ, Pa/mⁿ.
+pub const STIFFNESS: Range = Range::logarithmic(0.8e6, 5.0e6);
+/// Peak-stress position c₁.
+pub const PEAK_STRESS_C1: Range = Range::linear(0.15, 0.50);
+/// Peak-stress shift c₂.
+pub const PEAK_STRESS_C2: Range = Range::linear(0.0, 0.35);
+
+/// Kapvik's wheel. Assumed, not published (assumption set K0).
+pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
+/// Mean load of Kapvik's wheels in the comparison experiment, N; 40 kg on six wheels.
+pub const KAPVIK_LOAD_N: f64 = 65.4;
+/// Mean load of Kapvik's wheels in training, N.
+pub const KAPVIK_LOADS_N: Range = Range::linear(30.0, 110.0);
+/// Radius of other wheels, m.
+pub const RADIUS_M: Range = Range::logarithmic(0.045, 0.20);
+/// Width over radius of other wheels.
+pub const WIDTH_RATIO: Range = Range::linear(0.5, 1.3);
+/// Mean of W/(rb) of other wheels, Pa.
+pub const PRESSURE_PA: Range = Range::logarithmic(2.2e3, 2.2e4);
+/// Half of the spread of load among the wheels of an instant, as a share of the mean.
+pub const LOAD_SPREAD: Range = Range::linear(0.02, 0.5);
+/// Slip of a wheel.
+pub const SLIP: Range = Range::linear(0.02, 0.70);
+/// Deepest sinkage over radius that is kept; deeper wheels are stuck.
+pub const DEEPEST: f64 = 0.6;
+
+/// One standard deviation per instant over the mean load (DP, W), over load and radius (T), of slip, and over radius
+/// (z): 0.5 N, 1 N, 0.05 N·m, 0.01 and 2 mm on Kapvik's wheel.
+pub const INSTANT_NOISE: RelativeNoise = RelativeNoise {
+    drawbar_pull: 0.5 / KAPVIK_LOAD_N,
+    load: 1.0 / KAPVIK_LOAD_N,
+    torque: 0.05 / (KAPVIK_LOAD_N * 0.075),
+    slip: 0.01,
+    sinkage: 0.002 / 0.075,
+};
+/// Factor on the noise of all channels: a mean of 400 instants … one instant.
+pub const AVERAGING: Range = Range::logarithmic(0.05, 1.0);
+/// Further factor on the noise of a single channel, for other sensors than Kapvik's.
+pub const OTHER_SENSOR: Range = Range::logarithmic(0.25, 3.0);
+
+/// Standard deviations as the networks see them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelativeNoise {
+    /// Of DP/W.
+    pub drawbar_pull: f64,
+    /// Of W/W̄.
+    pub load: f64,
+    /// Of T/(rW).
+    pub torque: f64,
+    /// Of the slip.
+    pub slip: f64,
+    /// Of z/r.
+    pub sinkage: f64,
+}
