@@ -1,1 +1,110 @@
-fn main() {}
+//! Freezes the trained networks into the library: reads the table, proves that it is whole, fits and computes what it
+//! promises, and writes it out as `static` data.
+
+#[path = "src/math/mod.rs"]
+#[allow(dead_code)] // the networks need only a part of it
+mod math;
+#[path = "src/network/mod.rs"]
+#[allow(dead_code, unused_imports)] // what the flight side needs beyond running a network
+mod network;
+
+use std::path::{Path, PathBuf};
+use std::process::exit;
+use std::{env, fs};
+
+use kapvik_table_file::TableFile;
+use network::{GOLDEN_PAIRS, Numbers, PartVisitor, RoverTable, WheelTable, checksum};
+
+/// Names another table than the one in the source tree; `none` builds without one, to train the first of a new shape.
+const OVERRIDE: &str = "KAPVIK_WEIGHTS";
+
+fn main() {
+    println!("cargo::rerun-if-env-changed={OVERRIDE}");
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/network");
+    println!("cargo::rerun-if-changed=src/math");
+    if let Err(message) = freeze() {
+        println!("cargo::error={message}");
+        exit(1);
+    }
+}
+
+fn freeze() -> Result<(), String> {
+    let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR").map_err(|error| error.to_string())?);
+    let (mut wheel, mut rover) = (WheelTable::ZERO, RoverTable::ZERO);
+    let chosen = env::var(OVERRIDE).ok();
+    let trained = chosen.as_deref() != Some("none");
+    if trained {
+        let path = chosen.map_or_else(|| here.join("weights/kapvik.table"), PathBuf::from);
+        println!("cargo::rerun-if-changed={}", path.display());
+        let in_file = |message: String| format!("{}: {message}", path.display());
+        let bytes = fs::read(&path).map_err(|error| in_file(error.to_string()))?;
+        let file = TableFile::parse(&bytes).map_err(|error| in_file(error.to_string()))?;
+        fill(&file, &mut wheel, &mut rover).map_err(in_file)?;
+        prove(&wheel, &rover).map_err(in_file)?;
+    }
+    let out = env::var("OUT_DIR").map_err(|error| error.to_string())?;
+    write(&Path::new(&out).join("frozen.rs"), trained, &wheel, &rover)
+}
+
+/// Takes numbers from a file, part by part; keeps the first thing that does not fit.
+struct Fill<'a> {
+    file: &'a TableFile,
+    wrong: Option<String>,
+}
+
+impl PartVisitor for Fill<'_> {
+    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Numbers) {
+        let mut count = 0;
+        numbers.for_each(&mut |_| count += 1);
+        let wrong = match self.file.block(name) {
+            None => Some(format!("the frozen table has no block {name}")),
+            Some(block) if block.shape != shape || block.words.len() != count => Some(format!(
+                "block {name} of the frozen table has shape {:?} and {} numbers, this build needs {shape:?} and {count}",
+                block.shape,
+                block.words.len()
+            )),
+            Some(block) => {
+                let mut words = block.words.iter();
+                numbers.for_each_mut(&mut |place| *place = words.next().map_or(0.0, |&word| f32::from_bits(word)));
+                block
+                    .words
+                    .iter()
+                    .any(|&word| !f32::from_bits(word).is_finite())
+                    .then(|| format!("block {name} of the frozen table holds a number that is not finite"))
+            }
+        };
+        self.wrong = self.wrong.take().or(wrong);
+    }
+}
+
+fn fill(file: &TableFile, wheel: &mut WheelTable, rover: &mut RoverTable) -> Result<(), String> {
+    let mut fill = Fill { file, wrong: None };
+    wheel.visit_parts(&mut fill);
+    rover.visit_parts(&mut fill);
+    fill.wrong.map_or(Ok(()), Err)
+}
+
+fn prove(wheel: &WheelTable, rover: &RoverTable) -> Result<(), String> {
+    for (name, reproduced) in [("wheel", wheel.golden_reproduced()), ("rover", rover.golden_reproduced())] {
+        if reproduced != GOLDEN_PAIRS {
+            let missed = GOLDEN_PAIRS - reproduced;
+            return Err(format!("the {name} network does not reproduce {missed} of its {GOLDEN_PAIRS} golden pairs"));
+        }
+    }
+    Ok(())
+}
+
+/// The derived `Debug` of the tables is Rust source, and Rust prints an `f32` so that it reads back to the same bits.
+fn write(path: &Path, trained: bool, wheel: &WheelTable, rover: &RoverTable) -> Result<(), String> {
+    let source = format!(
+        "/// Whether a trained table was frozen in.\npub const TRAINED: bool = {trained};\n\
+         /// Checksum of [`WHEEL`].\npub const WHEEL_CRC: u32 = {:#010x};\n\
+         /// Checksum of [`ROVER`].\npub const ROVER_CRC: u32 = {:#010x};\n\
+         /// The per-wheel network.\npub static WHEEL: WheelTable = {wheel:?};\n\
+         /// The rover network.\npub static ROVER: RoverTable = {rover:?};\n",
+        checksum(wheel),
+        checksum(rover)
+    );
+    fs::write(path, source).map_err(|error| format!("{}: {error}", path.display()))
+}

@@ -3,9 +3,12 @@
 //! `no_std`, no allocator, no panic path. The host tools run this same library, and get the same bits.
 #![cfg_attr(not(test), no_std)]
 
+pub mod frozen;
 pub mod math;
 pub mod network;
+pub mod pipeline;
 pub mod scalar;
+pub mod self_test;
 pub mod soil;
 pub mod terramechanics;
 pub mod wheel_state;

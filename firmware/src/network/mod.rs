@@ -6,6 +6,7 @@
 mod golden;
 mod layer;
 mod normalisation;
+mod parts;
 mod posterior;
 mod rover_network;
 mod shape;
@@ -15,6 +16,7 @@ mod wheel_network;
 pub use golden::{GOLDEN_PAIRS, RoverGolden, WheelGolden};
 pub use layer::{Layer, Weights};
 pub use normalisation::Normalisation;
+pub use parts::PartVisitor;
 pub use posterior::{IntervalFactors, KNOTS, Marginal, Posterior, PosteriorScale};
 pub use rover_network::{RoverActivations, RoverNetwork};
 pub use shape::*;

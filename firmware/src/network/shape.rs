@@ -24,3 +24,8 @@ pub const ROVER_POOLED: usize = 20;
 pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_POOLED + CONTEXT_FEATURES + 1;
 /// Neurons in the layer behind the pool.
 pub const ROVER_HEAD: usize = 24;
+
+/// Layer sizes of the per-wheel network, as its frozen table states them.
+pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];
+/// Layer sizes of the rover network, as its frozen table states them.
+pub const ROVER_SHAPE: [usize; 6] = [CONTEXT_FEATURES, WHEEL_FEATURES, ROVER_HIDDEN, ROVER_POOLED, ROVER_HEAD, OUTPUTS];

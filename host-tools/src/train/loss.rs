@@ -21,3 +21,11 @@ pub fn gaussian(outputs: &[f32; OUTPUTS], target: &[f32; TARGETS]) -> (f32, [f32
     }
     (loss, slope)
 }
+
+/// Fisher's information of each output: the precision for a mean, one half for a log-variance.
+pub fn fisher(outputs: &[f32; OUTPUTS]) -> [f32; OUTPUTS] {
+    std::array::from_fn(|k| match outputs.get(k + TARGETS) {
+        Some(&log_variance) => libm::expf(-log_variance.clamp(LOG_VARIANCE.0, LOG_VARIANCE.1)),
+        None => 0.5,
+    })
+}

@@ -5,6 +5,9 @@ use kapvik_firmware::network::{
     WheelActivations, WheelNetwork,
 };
 
+use rand::RngExt;
+
+use super::dataset::stream;
 use super::example::{RoverInput, WheelInput};
 
 /// Coefficient A of the bipolar sigmoid (equation 13): 2 makes it the hyperbolic tangent. Any other value is the same
@@ -174,4 +177,28 @@ impl Trainable for RoverNetwork {
             through_layer(&self.context, &input.context, &slope, &mut gradient.context);
         }
     }
+}
+
+/// Derivative of each output with respect to every weight.
+pub fn output_jacobian<N: Trainable>(network: &N, input: &N::Input, run: &N::Activations) -> [Vec<f32>; OUTPUTS] {
+    std::array::from_fn(|k| {
+        let mut slope = [0.0; OUTPUTS];
+        slope[k] = 1.0;
+        let mut gradient = N::zero();
+        network.backward(input, run, &slope, &mut gradient);
+        flatten(&gradient)
+    })
+}
+
+/// A network with uniform random weights of variance 1 / fan-in and zero biases.
+pub fn initial<N: Trainable>(seed: u64) -> N {
+    let mut random = stream(seed, 0);
+    let mut network = N::fan_in();
+    network.for_each_mut(&mut |weight| {
+        if *weight > 0.0 {
+            let share: f32 = random.random();
+            *weight = (2.0 * share - 1.0) * (3.0 / *weight).sqrt();
+        }
+    });
+    network
 }

@@ -1,15 +1,47 @@
-//! Back-propagation with Adam's step sizes (Kingma & Ba 2015) over mini-batches.
+//! Back-propagation over mini-batches: with momentum as in the seed's references, and with Adam's step sizes.
 
 use rayon::prelude::*;
 
 use super::example::Example;
 use super::loss::gaussian;
-use super::trainable::{Trainable, parameter_count};
+use super::trainable::{Trainable, flatten, parameter_count};
 
 /// Parts of a mini-batch that are summed by themselves, so that the result does not depend on the number of cores.
 const PARTS: usize = 8;
 
-/// State of the method.
+/// Gradient descent with momentum.
+pub struct Momentum {
+    velocity: Vec<f32>,
+}
+
+impl Momentum {
+    const DECAY: f32 = 0.9;
+    /// A gradient longer than this is cut to it.
+    const LONGEST: f32 = 1.0;
+
+    /// For a network of that many numbers.
+    pub fn new<N: Trainable>(network: &N) -> Self {
+        Self { velocity: vec![0.0; parameter_count(network)] }
+    }
+
+    /// One step on a mini-batch; returns its mean loss before the step.
+    pub fn step<N: Trainable>(&mut self, network: &mut N, batch: &[Example<N::Input>], rate: f32) -> f32 {
+        let (loss, gradient) = mean_gradient(network, batch);
+        let slopes = flatten(&gradient);
+        let length = slopes.iter().map(|g| g * g).sum::<f32>().sqrt();
+        let cut = (Self::LONGEST / length).min(1.0);
+        let mut place = slopes.iter().zip(&mut self.velocity);
+        network.for_each_mut(&mut |weight| {
+            if let Some((g, v)) = place.next() {
+                *v = Self::DECAY * *v - rate * cut * g;
+                *weight += *v;
+            }
+        });
+        loss
+    }
+}
+
+/// Step sizes by the first two moments of the gradient (Kingma & Ba 2015).
 pub struct Adam {
     first: Vec<f32>,
     second: Vec<f32>,
@@ -30,8 +62,7 @@ impl Adam {
         let (decay_1, decay_2) = (0.9_f32, 0.999_f32);
         let bias_1 = 1.0 - decay_1.powi(self.step);
         let bias_2 = 1.0 - decay_2.powi(self.step);
-        let mut slopes = Vec::with_capacity(self.first.len());
-        gradient.for_each(&mut |g| slopes.push(g));
+        let slopes = flatten(&gradient);
         let mut place = slopes.iter().zip(&mut self.first).zip(&mut self.second);
         network.for_each_mut(&mut |weight| {
             if let Some(((g, m), v)) = place.next() {
@@ -65,11 +96,21 @@ pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>]) -> 
     let mut sum = N::zero();
     let mut loss = 0.0;
     for (part_loss, part) in &parts {
-        let mut slopes = Vec::new();
-        part.for_each(&mut |g| slopes.push(g));
+        let slopes = flatten(part);
         let mut next = slopes.iter();
         sum.for_each_mut(&mut |g| *g += share * next.next().copied().unwrap_or(0.0));
         loss += share * part_loss;
     }
     (loss, sum)
+}
+
+/// Mean loss over a set.
+pub fn mean_loss<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> f64 {
+    let loss = |example: &Example<N::Input>| {
+        let run = network.run(&example.input);
+        f64::from(gaussian(N::outputs(&run), &example.target).0)
+    };
+    let parts: Vec<f64> =
+        set.par_chunks(set.len().div_ceil(PARTS).max(1)).map(|part| part.iter().map(loss).sum()).collect();
+    parts.iter().sum::<f64>() / set.len() as f64
 }

@@ -1,0 +1,33 @@
+//! The named parts of the tables: what the trainer writes to a file and the build script reads from it.
+
+use super::shape::{ROVER_SHAPE, WHEEL_SHAPE};
+use super::{Numbers, RoverTable, WheelTable};
+
+/// Sees each part of a table in turn.
+pub trait PartVisitor {
+    /// A part: its name in the file, its layer sizes (empty for a plain list), its numbers.
+    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Numbers);
+}
+
+impl WheelTable {
+    /// Shows every part to the visitor.
+    pub fn visit_parts(&mut self, visitor: &mut impl PartVisitor) {
+        visitor.part("wheel.gradient", &[], &mut self.gradient);
+        visitor.part("wheel.normalisation", &[], &mut self.normalisation);
+        visitor.part("wheel.network", &WHEEL_SHAPE, &mut self.network);
+        visitor.part("wheel.posterior", &[], &mut self.posterior);
+        visitor.part("wheel.golden", &[], &mut self.golden);
+    }
+}
+
+impl RoverTable {
+    /// Shows every part to the visitor.
+    pub fn visit_parts(&mut self, visitor: &mut impl PartVisitor) {
+        visitor.part("rover.gradient", &[], &mut self.gradient);
+        visitor.part("rover.context", &[], &mut self.context);
+        visitor.part("rover.wheel", &[], &mut self.wheel);
+        visitor.part("rover.network", &ROVER_SHAPE, &mut self.network);
+        visitor.part("rover.posterior", &[], &mut self.posterior);
+        visitor.part("rover.golden", &[], &mut self.golden);
+    }
+}

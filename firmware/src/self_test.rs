@@ -1,0 +1,42 @@
+//! The test that the networks pass at boot, before the first estimate.
+
+use serde::{Deserialize, Serialize};
+
+use crate::frozen;
+use crate::network::{GOLDEN_PAIRS, RoverTable, WheelTable, checksum};
+
+/// What the test found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SelfTestReport {
+    /// A trained table is there; a build for training the first table of a new shape has none.
+    pub trained: bool,
+    /// The tables in memory are, bit for bit, those that were built in.
+    pub tables_intact: bool,
+    /// Golden pairs of the per-wheel network reproduced bit for bit, of 32.
+    pub wheel_pairs: u8,
+    /// Golden pairs of the rover network reproduced bit for bit, of 32.
+    pub rover_pairs: u8,
+}
+
+impl SelfTestReport {
+    /// Whether estimates may be given.
+    pub fn passed(&self) -> bool {
+        let pairs = usize::from(self.wheel_pairs.min(self.rover_pairs));
+        self.trained && self.tables_intact && pairs == GOLDEN_PAIRS
+    }
+}
+
+/// Tests the frozen tables.
+pub fn run() -> SelfTestReport {
+    examine(&frozen::WHEEL, &frozen::ROVER)
+}
+
+/// Tests tables against the checksums of the frozen ones.
+pub fn examine(wheel: &WheelTable, rover: &RoverTable) -> SelfTestReport {
+    SelfTestReport {
+        trained: frozen::TRAINED,
+        tables_intact: checksum(wheel) == frozen::WHEEL_CRC && checksum(rover) == frozen::ROVER_CRC,
+        wheel_pairs: wheel.golden_reproduced() as u8,
+        rover_pairs: rover.golden_reproduced() as u8,
+    }
+}

@@ -1,0 +1,97 @@
+//! Scenes as the trainers want them: noise drawn, inputs normalised, targets standardised, order shuffled.
+
+use kapvik_firmware::network::{PosteriorScale, TARGETS, WHEEL_INPUTS};
+use kapvik_firmware::soil::{context_features, wheel_features};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::example::{Example, RoverInput, RoverNormalisation, WheelInput, rover_features, targets};
+use super::fifth_input::FifthInput;
+use super::observe::observe;
+use super::prior::{self, Range};
+use super::scene::Scene;
+use kapvik_firmware::network::Normalisation;
+
+/// A stream of random numbers for one purpose (`seed`) and one scene (`index`).
+pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(index as u64);
+    random
+}
+
+/// Mean, standard deviation and range of the targets under the stated prior; intervals still empty.
+pub fn prior_scale() -> PosteriorScale {
+    let mut scale = PosteriorScale::ZERO;
+    let ranges = [prior::COHESION_PA, prior::FRICTION_ANGLE_RAD, prior::SHEAR_MODULUS_M];
+    for (k, Range { low, high, logarithmic }) in ranges.into_iter().enumerate() {
+        let (low, high) = if logarithmic { (libm::log(low), libm::log(high)) } else { (low, high) };
+        scale.mean[k] = (0.5 * (low + high)) as f32;
+        scale.std[k] = ((high - low) / libm::sqrt(12.0)) as f32;
+        scale.low[k] = low as f32;
+        scale.high[k] = high as f32;
+    }
+    scale
+}
+
+fn standardised(scene: &Scene, scale: &PosteriorScale) -> [f32; TARGETS] {
+    let truth = targets(scene);
+    std::array::from_fn(|k| (truth[k] as f32 - scale.mean[k]) / scale.std[k])
+}
+
+/// One noisy observation of each scene for the rover network.
+pub fn rover_examples(scenes: &[Scene], normal: &RoverNormalisation, seed: u64) -> Vec<Example<RoverInput>> {
+    let scale = prior_scale();
+    scenes
+        .par_iter()
+        .enumerate()
+        .map(|(index, scene)| Example {
+            input: normal.apply(&rover_features(&observe(scene, &mut stream(seed, index)))),
+            target: standardised(scene, &scale),
+        })
+        .collect()
+}
+
+/// The per-wheel network's inputs, in their own units, for the first wheel of each scene.
+pub fn wheel_inputs(scenes: &[Scene], fifth: FifthInput, seed: u64) -> Vec<WheelInput> {
+    scenes
+        .par_iter()
+        .enumerate()
+        .map(|(index, scene)| {
+            let mut random = stream(seed, index);
+            let query = observe(scene, &mut random);
+            let state = &query.wheels[0];
+            let sinkage = fifth == FifthInput::Sinkage;
+            let mut own = wheel_features(&query.wheel, state, sinkage);
+            own[3] = fifth.value(scene, &query, 0, &mut random);
+            let shared = context_features(&query.wheel, &query.noise, state.load_n, sinkage);
+            concatenated(&own, &shared)
+        })
+        .collect()
+}
+
+/// A wheel's own inputs, then those that the wheels share.
+fn concatenated(own: &[f32], shared: &[f32]) -> WheelInput {
+    let mut input = [0.0; WHEEL_INPUTS];
+    input.iter_mut().zip(own.iter().chain(shared)).for_each(|(place, value)| *place = *value);
+    input
+}
+
+/// Examples of the per-wheel network from its inputs.
+pub fn wheel_examples(
+    scenes: &[Scene],
+    inputs: &[WheelInput],
+    normal: &Normalisation<WHEEL_INPUTS>,
+) -> Vec<Example<WheelInput>> {
+    let scale = prior_scale();
+    let pairs = scenes.iter().zip(inputs);
+    pairs.map(|(scene, input)| Example { input: normal.apply(input), target: standardised(scene, &scale) }).collect()
+}
+
+/// Shuffles (Fisher–Yates).
+pub fn shuffle<T>(items: &mut [T], seed: u64) {
+    let mut random = stream(seed, 0);
+    for last in (1..items.len()).rev() {
+        items.swap(last, random.random_range(0..=last as u64) as usize);
+    }
+}
