@@ -1,38 +1,38 @@
 //! Elementary functions in single precision for the flight path.
+//!
+//! The floating-point unit of a Cortex-M4F is single precision: an f64 operation is a library call of some fifty
+//! instructions. These functions use f32 addition, multiplication, division and square root, and 32-bit integers,
+//! nothing else: no f64, no 64-bit product, no fused multiply-add, no loop. Each of those operations is correctly rounded
+//! everywhere, so host and target give the same bits. That takes the reset state of the floating-point control register:
+//! round to nearest, subnormals kept.
+//!
+//! An argument that is not a number gives a result that is not a number; whose sign and payload is the one thing that
+//! may differ between machines. No argument panics.
+//!
+//! Errors are in ulp, the distance between the two f32 beside the exact result. They were measured over every f32 of
+//! the stated range by `tests/math_exhaustive.rs`, which fails where a result is worse than stated here. Coefficients
+//! are our own minimax fits: exchange by linear programming on 600 to 3000 Chebyshev nodes in 40-digit arithmetic, each
+//! coefficient rounded to f32 in turn from the lowest degree, the rest refitted. Each file states interval, weight, error.
 
+mod exp;
+mod hyperbolic;
 mod limit;
+mod ln;
+mod power;
+mod rounding;
+mod square_root;
+mod trigonometric;
 
+pub use exp::exp;
+pub use hyperbolic::{bipolar_sigmoid, tanh};
 pub use limit::limit;
+pub use ln::ln;
+pub use power::powf;
+pub use square_root::sqrt;
+pub use trigonometric::{acos, sin_cos};
 
-/// Sine and cosine of `x` in radians.
-pub fn sin_cos(x: f32) -> (f32, f32) {
-    libm::sincosf(x)
-}
-/// Arc cosine in radians.
-pub fn acos(x: f32) -> f32 {
-    libm::acosf(x)
-}
-/// e to the power of `x`.
-pub fn exp(x: f32) -> f32 {
-    libm::expf(x)
-}
-/// Natural logarithm.
-pub fn ln(x: f32) -> f32 {
-    libm::logf(x)
-}
-/// `x` to the power of `y`, x ≥ 0.
-pub fn powf(x: f32, y: f32) -> f32 {
-    libm::powf(x, y)
-}
-/// Square root.
-pub fn sqrt(x: f32) -> f32 {
-    libm::sqrtf(x)
-}
-/// Magnitude.
+/// Magnitude, exact. The sign of a NaN is cleared as well.
+#[inline]
 pub fn abs(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0x7fff_ffff)
-}
-/// Hyperbolic tangent.
-pub fn tanh(x: f32) -> f32 {
-    libm::tanhf(x)
 }

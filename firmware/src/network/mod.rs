@@ -68,7 +68,6 @@ use numbers;
 
 /// The bipolar sigmoid of equation 13 on every neuron of a layer; `gradient` is its coefficient A.
 fn activate<const N: usize>(mut sums: [f32; N], gradient: f32) -> [f32; N] {
-    let half = 0.5 * gradient;
-    sums.iter_mut().for_each(|sum| *sum = math::tanh(half * *sum));
+    sums.iter_mut().for_each(|sum| *sum = math::bipolar_sigmoid(*sum, gradient));
     sums
 }
