@@ -30,4 +30,23 @@ impl<S: Scalar> Soil<S> {
     pub fn stiffness(&self, width_m: S) -> S {
         self.cohesive_modulus / width_m + self.frictional_modulus
     }
+    /// Every parameter is a number, and those whose sign or size the equations rest on are in range: n ≥ 0, K ≥ 0,
+    /// |φ| < π/2, 0 ≤ η ≤ 1. Moduli and cohesion of a fit may be negative, and the equations take them as they are.
+    pub fn is_valid(&self) -> bool {
+        let finite = [
+            self.cohesive_modulus,
+            self.frictional_modulus,
+            self.cohesion_pa,
+            self.sinkage_exponent,
+            self.shear_modulus_m,
+            self.peak_stress_c1,
+            self.peak_stress_c2,
+        ];
+        finite.iter().all(|parameter| parameter.is_finite())
+            && self.sinkage_exponent >= S::zero()
+            && self.shear_modulus_m >= S::zero()
+            && self.friction_angle_rad.abs() < S::constant(core::f64::consts::FRAC_PI_2)
+            && self.rebound_ratio >= S::zero()
+            && self.rebound_ratio <= S::one()
+    }
 }

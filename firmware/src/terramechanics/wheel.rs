@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::scalar::Scalar;
+
 /// A rigid wheel. Grousers act only through an effect; equations 1–11 use the radius alone.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Wheel<S> {
@@ -9,4 +11,11 @@ pub struct Wheel<S> {
     pub radius_m: S,
     /// Width b, m.
     pub width_m: S,
+}
+
+impl<S: Scalar> Wheel<S> {
+    /// Radius and width are numbers above zero.
+    pub fn is_valid(&self) -> bool {
+        [self.radius_m, self.width_m].iter().all(|length| *length > S::zero() && length.is_finite())
+    }
 }
