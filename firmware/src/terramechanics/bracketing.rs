@@ -25,7 +25,7 @@ pub(super) fn solve<S: Scalar, E>(
     let (mut reference, mut since_halved) = (high.0 - low.0, 0);
     for _ in 0..STEPS {
         let width = high.0 - low.0;
-        if best.1.abs() <= tolerance || !(width > S::constant(S::EPSILON) * high.0) {
+        if best.1.abs() <= tolerance || width <= S::constant(S::EPSILON) * high.0 {
             break;
         }
         if width <= half * reference {

@@ -61,10 +61,8 @@ impl<S: Scalar> Contact<S> {
 /// step on depth = 2 sin²(θ/2) brings them back.
 fn rim_angle<S: Scalar>(depth: S) -> S {
     let sine = (depth * (S::constant(2.0) - depth)).sqrt();
-    if !(sine > S::zero()) {
-        return (S::one() - depth).acos();
-    }
     let angle = (S::one() - depth).acos().max(sine);
     let half_sine = (S::constant(0.5) * angle).sin();
-    angle + (depth - S::constant(2.0) * half_sine * half_sine) / sine
+    let missing = depth - S::constant(2.0) * half_sine * half_sine;
+    if sine > S::zero() { angle + missing / sine } else { angle }
 }
