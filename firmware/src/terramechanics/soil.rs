@@ -25,6 +25,23 @@ pub struct Soil<S> {
     pub rebound_ratio: S,
 }
 
+impl<S> Soil<S> {
+    /// The same soil in another scalar.
+    pub fn map<T>(self, convert: impl Fn(S) -> T) -> Soil<T> {
+        Soil {
+            sinkage_exponent: convert(self.sinkage_exponent),
+            cohesive_modulus: convert(self.cohesive_modulus),
+            frictional_modulus: convert(self.frictional_modulus),
+            cohesion_pa: convert(self.cohesion_pa),
+            friction_angle_rad: convert(self.friction_angle_rad),
+            shear_modulus_m: convert(self.shear_modulus_m),
+            peak_stress_c1: convert(self.peak_stress_c1),
+            peak_stress_c2: convert(self.peak_stress_c2),
+            rebound_ratio: convert(self.rebound_ratio),
+        }
+    }
+}
+
 impl<S: Scalar> Soil<S> {
     /// Stiffness k_c / b + k_φ under a wheel of the given width, Pa/m^n.
     pub fn stiffness(&self, width_m: S) -> S {

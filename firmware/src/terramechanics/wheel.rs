@@ -13,6 +13,13 @@ pub struct Wheel<S> {
     pub width_m: S,
 }
 
+impl<S> Wheel<S> {
+    /// The same wheel in another scalar.
+    pub fn map<T>(self, convert: impl Fn(S) -> T) -> Wheel<T> {
+        Wheel { radius_m: convert(self.radius_m), width_m: convert(self.width_m) }
+    }
+}
+
 impl<S: Scalar> Wheel<S> {
     /// Radius and width are numbers above zero.
     pub fn is_valid(&self) -> bool {
