@@ -2,7 +2,7 @@
 //! promises, and writes it out as `static` data.
 
 #[path = "src/math/mod.rs"]
-#[allow(dead_code)] // the networks need only a part of it
+#[allow(dead_code, unused_imports)] // the networks need only a part of it
 mod math;
 #[path = "src/network/mod.rs"]
 #[allow(dead_code, unused_imports)] // what the flight side needs beyond running a network

@@ -22,8 +22,15 @@ pub trait Scalar:
     + SubAssign
     + 'static
 {
+    /// The distance from one to the next number: what a computation can hope for. That of `f64` unless said otherwise.
+    const EPSILON: f64 = f64::EPSILON;
+
     /// The nearest number to a constant of the equations.
     fn constant(value: f64) -> Self;
+    /// The nearest number to an entry of a table.
+    fn tabulated(entry: &Tabulated) -> Self {
+        Self::constant(entry.double)
+    }
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Arc cosine in radians; NaN outside −1 … 1.
@@ -67,6 +74,21 @@ pub trait Scalar:
     }
 }
 
+/// An entry of a table of constants, held in both precisions: single precision then converts nothing at run time, which
+/// would cost more than the arithmetic on a processor without double precision.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tabulated {
+    double: f64,
+    single: f32,
+}
+
+impl Tabulated {
+    /// The entry that is nearest to `value` in each precision.
+    pub const fn new(value: f64) -> Self {
+        Self { double: value, single: value as f32 }
+    }
+}
+
 impl Scalar for f64 {
     fn constant(value: f64) -> Self {
         value
@@ -98,8 +120,13 @@ impl Scalar for f64 {
 }
 
 impl Scalar for f32 {
+    const EPSILON: f64 = f32::EPSILON as f64;
+
     fn constant(value: f64) -> Self {
         value as f32
+    }
+    fn tabulated(entry: &Tabulated) -> Self {
+        entry.single
     }
     fn sin_cos(self) -> (Self, Self) {
         math::sin_cos(self)

@@ -25,9 +25,45 @@ pub struct Soil<S> {
     pub rebound_ratio: S,
 }
 
+impl<S> Soil<S> {
+    /// The same soil in another scalar.
+    pub fn map<T>(self, convert: impl Fn(S) -> T) -> Soil<T> {
+        Soil {
+            sinkage_exponent: convert(self.sinkage_exponent),
+            cohesive_modulus: convert(self.cohesive_modulus),
+            frictional_modulus: convert(self.frictional_modulus),
+            cohesion_pa: convert(self.cohesion_pa),
+            friction_angle_rad: convert(self.friction_angle_rad),
+            shear_modulus_m: convert(self.shear_modulus_m),
+            peak_stress_c1: convert(self.peak_stress_c1),
+            peak_stress_c2: convert(self.peak_stress_c2),
+            rebound_ratio: convert(self.rebound_ratio),
+        }
+    }
+}
+
 impl<S: Scalar> Soil<S> {
     /// Stiffness k_c / b + k_φ under a wheel of the given width, Pa/m^n.
     pub fn stiffness(&self, width_m: S) -> S {
         self.cohesive_modulus / width_m + self.frictional_modulus
+    }
+    /// Every parameter is a number, and those whose sign or size the equations rest on are in range: n ≥ 0, K ≥ 0,
+    /// |φ| < π/2, 0 ≤ η ≤ 1. Moduli and cohesion of a fit may be negative, and the equations take them as they are.
+    pub fn is_valid(&self) -> bool {
+        let finite = [
+            self.cohesive_modulus,
+            self.frictional_modulus,
+            self.cohesion_pa,
+            self.sinkage_exponent,
+            self.shear_modulus_m,
+            self.peak_stress_c1,
+            self.peak_stress_c2,
+        ];
+        finite.iter().all(|parameter| parameter.is_finite())
+            && self.sinkage_exponent >= S::zero()
+            && self.shear_modulus_m >= S::zero()
+            && self.friction_angle_rad.abs() < S::constant(core::f64::consts::FRAC_PI_2)
+            && self.rebound_ratio >= S::zero()
+            && self.rebound_ratio <= S::one()
     }
 }
