@@ -1,5 +1,7 @@
 //! The commands, one file each.
 
+mod train;
+
 use clap::Subcommand;
 
 use crate::error::HostError;
@@ -7,9 +9,8 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
-    /// Placeholder until the first command lands.
-    #[command(hide = true)]
-    Nothing,
+    /// Train the networks and write the frozen table.
+    Train(train::TrainArgs),
 }
 
 impl Command {
@@ -19,7 +20,7 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
-            Self::Nothing => Ok(()),
+            Self::Train(args) => args.run(),
         }
     }
 }

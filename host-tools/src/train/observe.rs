@@ -1,6 +1,5 @@
 //! What the sensors see of a scene.
 
-use kapvik_firmware::terramechanics::Wheel;
 use kapvik_firmware::wheel_state::{SoilQuery, WheelState};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -25,6 +24,5 @@ pub fn observe(scene: &Scene, random: &mut ChaCha8Rng) -> SoilQuery {
             sinkage_m: state.sinkage_m.filter(|_| scene.sinkage_seen).map(|z| blur(z, noise.sinkage_m)),
         })
         .collect();
-    let wheel = Wheel { radius_m: scene.wheel.radius_m as f32, width_m: scene.wheel.width_m as f32 };
-    SoilQuery { wheel, noise, wheels }
+    SoilQuery { wheel: scene.wheel.map(|metres| metres as f32), noise, wheels }
 }

@@ -24,7 +24,7 @@ pub struct Scene {
 /// What a set of scenes is for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Design {
-    /// Half Kapvik, half other wheels; one to six wheels; all noise levels.
+    /// Half Kapvik, half other wheels; one to six wheels, alike or at spread slips; all noise levels.
     Training,
     /// Kapvik, six wheels at slips 0.05–0.60, loads within ±8 % of 65.4 N.
     Kapvik {
@@ -105,19 +105,41 @@ fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
         (other, prior::PRESSURE_PA.at(load) * other.radius_m * other.width_m)
     };
     let spread = prior::LOAD_SPREAD.at(shares.next());
-    let (one, two) = (prior::SLIP.at(shares.next()), prior::SLIP.at(shares.next()));
+    let slips = Slips::draw(shares);
     let noise = draw_noise(shares, &wheel, load_n);
     let (fewer, count) = (shares.next(), shares.next());
     let count = if fewer < 0.5 { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
     let sinkage_seen = shares.next() < 0.5;
     let wheels = (0..count)
-        .map(|_| {
-            let slip = one + (two - one) * shares.next();
+        .map(|place| {
+            let slip = slips.of(place, count, shares.next());
             let load = load_n * (1.0 + spread * (2.0 * shares.next() - 1.0));
             state(&wheel, &soil, slip, load)
         })
         .collect::<Option<_>>()?;
     Some(Scene { wheel, soil, wheels, noise, sinkage_seen })
+}
+
+/// How slip differs among the wheels of an instant.
+struct Slips {
+    ends: (f64, f64),
+    /// One wheel in each of as many equal steps as there are wheels, instead of anywhere between the ends.
+    stepped: bool,
+}
+
+impl Slips {
+    /// Half of the scenes have wheels driven at deliberately different rim speeds.
+    fn draw(shares: &mut Shares) -> Self {
+        let (stepped, one, two) = (shares.next() < 0.5, shares.next(), shares.next());
+        let (low, high) =
+            if stepped { (prior::SPREAD_SLIP_LOW, prior::SPREAD_SLIP_HIGH) } else { (prior::SLIP, prior::SLIP) };
+        Self { ends: (low.at(one), high.at(two)), stepped }
+    }
+
+    fn of(&self, place: usize, count: usize, share: f64) -> f64 {
+        let share = if self.stepped { (place as f64 + share) / count as f64 } else { share };
+        self.ends.0 + (self.ends.1 - self.ends.0) * share
+    }
 }
 
 fn draw_kapvik(shares: &mut Shares, soil: Soil<f64>, instants: u32, sinkage: bool) -> Option<Scene> {

@@ -1,0 +1,126 @@
+//! `kapvik train`: trains the networks and writes the frozen table.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::error::HostError;
+use crate::train::comparison::{Row, compare_fifth_inputs, compare_trainers};
+use crate::train::curve::draw;
+use crate::train::emit::{Provenance, table_file};
+use crate::train::fifth_input::FifthInput;
+use crate::train::plan::Plan;
+use crate::train::rover_training::train_rover;
+use crate::train::scene::{Design, Scene, scenes};
+use crate::train::wheel_training::train_wheel;
+
+/// A candidate for the fifth input must lower the held-out loss by this much (nats) to be worth a sensor.
+const WORTH_A_SENSOR: f64 = 0.02;
+
+/// Train the networks and write the frozen table.
+#[derive(Args)]
+pub struct TrainArgs {
+    /// The table; `firmware/weights/kapvik.table` is the one that the next build freezes in.
+    #[arg(short, long, value_name = "WEIGHTS")]
+    output: PathBuf,
+    /// Seed of every random draw; the same seed gives the same bytes.
+    #[arg(long, default_value_t = 1)]
+    seed: u32,
+    /// A run of seconds, to see that everything works; its table is not worth flying.
+    #[arg(long)]
+    quick: bool,
+    /// Also draw the validation curves.
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
+}
+
+impl TrainArgs {
+    /// Trains, prints both comparisons, writes the table.
+    ///
+    /// # Errors
+    /// Where a file cannot be written.
+    pub fn run(&self) -> Result<(), HostError> {
+        let plan = if self.quick { Plan::quick(self.seed) } else { Plan::full(self.seed) };
+        let training = with_progress("scenes", |_| scenes(Design::Training, plan.scenes, plan.seed));
+        let held_out = with_progress("held-out scenes", |_| scenes(Design::Training, plan.held_out, !plan.seed));
+        let six = |scenes: &[Scene]| -> Vec<Scene> {
+            let six = scenes.iter().filter(|scene| scene.wheels.len() == scene.wheels.capacity());
+            six.take(plan.comparison_scenes).cloned().collect()
+        };
+        let (few, few_held_out) = (six(&training), six(&held_out));
+        let trainers = with_progress("trainers", |bar| compare_trainers(&plan, &few, &few_held_out, bar));
+        print_rows("Trainers (per-wheel network, sinkage as fifth input)", &trainers);
+        let inputs = with_progress("fifth inputs", |bar| compare_fifth_inputs(&plan, &few, &few_held_out, bar));
+        print_rows("Fifth inputs (per-wheel network, Levenberg–Marquardt)", &inputs);
+        judge_fifth_inputs(&inputs);
+        let fifth = FifthInput::None;
+        let (wheel, wheel_curve) =
+            with_progress("per-wheel network", |bar| train_wheel(&plan, fifth, &training, &held_out, bar));
+        let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
+        println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
+        let losses = [wheel_curve.last(), rover_curve.last()];
+        let file = table_file(wheel, rover, &Provenance { plan: &plan, fifth, losses });
+        std::fs::write(&self.output, file.to_text()).map_err(HostError::file(&self.output))?;
+        if let Some(picture) = &self.picture {
+            let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
+            let panels = [
+                ("Trainers", curves.as_slice()),
+                ("Per-wheel network", std::slice::from_ref(&wheel_curve)),
+                ("Rover network", std::slice::from_ref(&rover_curve)),
+            ];
+            std::fs::write(picture, draw(&panels)?).map_err(HostError::file(picture))?;
+        }
+        Ok(())
+    }
+}
+
+/// Says how much a fifth input would be worth. The flight side gives none, so that is what is shipped.
+fn judge_fifth_inputs(rows: &[Row]) {
+    let loss = |fifth: FifthInput| {
+        rows.iter().find(|row| row.name == fifth.name()).map_or(f64::INFINITY, |row| row.curve.last())
+    };
+    let easier = FifthInput::ALL.into_iter().filter(|&fifth| fifth != FifthInput::Sinkage);
+    let Some(best) = easier.min_by(|&a, &b| loss(a).total_cmp(&loss(b))) else { return };
+    let gain = loss(FifthInput::None) - loss(best);
+    let verdict = if gain < WORTH_A_SENSOR { "not worth a further signal" } else { "worth a further signal" };
+    println!(
+        "Shipped: no fifth input. Best of the others without a sinkage sensor: {}, {gain:.4} nats better: {verdict} \
+         (bound {WORTH_A_SENSOR}).\n",
+        best.name()
+    );
+}
+
+fn with_progress<T>(name: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
+    let bar = ProgressBar::new(1);
+    let style = ProgressStyle::with_template("{prefix:20} {bar:30} {pos}/{len} {elapsed} {msg}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.set_prefix(name);
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    let result = work(&bar);
+    bar.finish_and_clear();
+    result
+}
+
+fn print_rows(title: &str, rows: &[Row]) {
+    println!("{title}");
+    println!(
+        "  {:28} {:>10} {:>9} {:>9} {:>9} {:>9} {:>12} {:>8}",
+        "", "loss/nats", "φ RMSE/°", "K med./%", "R² ln c", "R² ln K", "presented", "s"
+    );
+    for row in rows {
+        let [c, phi, k] = &row.score;
+        println!(
+            "  {:28} {:>10.4} {:>9.3} {:>9.1} {:>9.3} {:>9.3} {:>12} {:>8.1}",
+            row.name,
+            row.curve.last(),
+            phi.rmse.to_degrees(),
+            100.0 * k.median_ratio_error,
+            c.r_squared,
+            k.r_squared,
+            row.presentations,
+            row.curve.points.last().map_or(0.0, |point| point.0)
+        );
+    }
+    println!();
+}

@@ -1,0 +1,91 @@
+//! Validation curves, and their picture.
+
+use plotters::prelude::*;
+
+use crate::error::HostError;
+
+/// Loss on held-out cases over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What was trained, and how.
+    pub name: String,
+    /// Seconds since training began, and mean negative log-likelihood per case (nats, up to a constant).
+    pub points: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// An empty curve.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), points: Vec::new() }
+    }
+
+    /// The last loss.
+    pub fn last(&self) -> f64 {
+        self.points.last().map_or(f64::NAN, |point| point.1)
+    }
+}
+
+/// Draws curves side by side into one SVG: a panel for each group, seconds on a logarithmic axis.
+///
+/// # Errors
+/// Where the drawing library refuses; it does so for empty curves.
+pub fn draw(panels: &[(&str, &[Curve])]) -> Result<String, HostError> {
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, (460 * panels.len() as u32, 340)).into_drawing_area();
+        root.fill(&WHITE).map_err(failed)?;
+        for (area, (title, curves)) in root.split_evenly((1, panels.len())).iter().zip(panels) {
+            draw_panel(area, title, curves)?;
+        }
+        root.present().map_err(failed)?;
+    }
+    Ok(svg)
+}
+
+fn failed<E: std::fmt::Display>(error: E) -> HostError {
+    HostError::Failed(format!("the curves could not be drawn: {error}"))
+}
+
+fn draw_panel(
+    area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
+    title: &str,
+    curves: &[Curve],
+) -> Result<(), HostError> {
+    let points = || curves.iter().flat_map(|curve| &curve.points);
+    let bound = |pick: fn(&(f64, f64)) -> f64, fold: fn(f64, f64) -> f64, start| points().map(pick).fold(start, fold);
+    let (early, late) = (bound(|p| p.0, f64::min, f64::MAX).max(0.05), bound(|p| p.0, f64::max, 0.1));
+    let (low, high) = (bound(|p| p.1, f64::min, f64::MAX), bound(|p| p.1, f64::max, f64::MIN));
+    let margin = 0.05 * (high - low).max(1e-3);
+    let mut chart = ChartBuilder::on(area)
+        .caption(title, ("sans-serif", 17))
+        .margin(12)
+        .x_label_area_size(36)
+        .y_label_area_size(52)
+        .build_cartesian_2d((early..late * 1.05).log_scale(), low - margin..high + margin)
+        .map_err(failed)?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .x_desc("seconds")
+        .y_desc("held-out loss (nats)")
+        .label_style(("sans-serif", 12))
+        .draw()
+        .map_err(failed)?;
+    let colours = [
+        RGBColor(0, 114, 178),
+        RGBColor(213, 94, 0),
+        RGBColor(0, 158, 115),
+        RGBColor(204, 121, 167),
+        RGBColor(90, 90, 90),
+    ];
+    for (curve, colour) in curves.iter().zip(colours) {
+        chart
+            .draw_series(LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2)))
+            .map_err(failed)?
+            .label(curve.name.clone())
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+    }
+    let style = ("sans-serif", 12);
+    chart.configure_series_labels().background_style(WHITE.mix(0.85)).label_font(style).draw().map_err(failed)
+}

@@ -1,0 +1,82 @@
+//! The frozen table as a file.
+
+use kapvik_firmware::network::{Numbers, PartVisitor, RoverTable, WheelTable};
+use kapvik_table_file::{Block, TableFile};
+
+use super::fifth_input::FifthInput;
+use super::plan::Plan;
+use super::prior::{self, Range};
+
+/// Collects the parts of a table as blocks.
+struct Blocks(Vec<Block>);
+
+impl PartVisitor for Blocks {
+    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Numbers) {
+        let mut words = Vec::new();
+        numbers.for_each(&mut |number| words.push(number.to_bits()));
+        self.0.push(Block { name: name.to_owned(), shape: shape.to_vec(), words });
+    }
+}
+
+/// What stands in the file beside the numbers.
+pub struct Provenance<'a> {
+    /// The run that made the table.
+    pub plan: &'a Plan,
+    /// The per-wheel network's fifth input.
+    pub fifth: FifthInput,
+    /// Held-out losses of the per-wheel and of the rover network.
+    pub losses: [f64; 2],
+}
+
+/// The file of two tables.
+pub fn table_file(mut wheel: WheelTable, mut rover: RoverTable, provenance: &Provenance<'_>) -> TableFile {
+    let mut blocks = Blocks(Vec::new());
+    wheel.visit_parts(&mut blocks);
+    rover.visit_parts(&mut blocks);
+    TableFile { notes: notes(provenance), blocks: blocks.0 }
+}
+
+fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
+    let Provenance { plan, fifth, losses } = provenance;
+    let noise = prior::INSTANT_NOISE;
+    let notes = [
+        ("made by", format!("kapvik train {}", env!("CARGO_PKG_VERSION"))),
+        ("seed", plan.seed.to_string()),
+        ("scenes", format!("{} for training, {} held out", plan.scenes, plan.held_out)),
+        ("epochs", format!("{} rover network, {} per-wheel network", plan.rover_epochs, plan.wheel_epochs)),
+        ("held-out loss", format!("{:.4} per-wheel, {:.4} rover (nats)", losses[0], losses[1])),
+        ("activation", "bipolar sigmoid 2 / (1 + exp(-A x)) - 1, A in the blocks *.gradient".into()),
+        ("effects", "none: equations 1-11".into()),
+        ("fifth input", fifth.name().into()),
+        ("targets", "ln c (Pa), phi (rad), ln K (m); means, then log-variances on the scale of the prior".into()),
+        ("prior c", range(prior::COHESION_PA, "Pa")),
+        ("prior phi", range(prior::FRICTION_ANGLE_RAD, "rad")),
+        ("prior K", range(prior::SHEAR_MODULUS_M, "m")),
+        ("prior n", range(prior::SINKAGE_EXPONENT, "")),
+        ("prior k_eff", range(prior::STIFFNESS, "Pa/m^n")),
+        ("prior c1", range(prior::PEAK_STRESS_C1, "")),
+        ("prior c2", range(prior::PEAK_STRESS_C2, "")),
+        ("wheels", format!("half Kapvik's (assumed), half radius {}", range(prior::RADIUS_M, "m"))),
+        ("pressures", format!("W/(rb) {}", range(prior::PRESSURE_PA, "Pa"))),
+        ("slip", range(prior::SLIP, "")),
+        (
+            "noise",
+            format!(
+                "per instant DP/W {:.5}, W/W {:.5}, T/(rW) {:.5}, slip {:.5}, z/r {:.5}; averaging factor {}",
+                noise.drawbar_pull,
+                noise.load,
+                noise.torque,
+                noise.slip,
+                noise.sinkage,
+                range(prior::AVERAGING, "")
+            ),
+        ),
+    ];
+    notes.map(|(key, value)| (key.to_owned(), value)).to_vec()
+}
+
+fn range(range: Range, unit: &str) -> String {
+    let Range { low, high, logarithmic } = range;
+    let kind = if logarithmic { "logarithmic" } else { "uniform" };
+    format!("{low} ... {high} {unit} {kind}").replace("  ", " ")
+}
