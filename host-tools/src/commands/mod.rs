@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod bench;
 mod train;
 
 use clap::Subcommand;
@@ -9,6 +10,9 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Speed and quality, side by side with the alternatives, in one run
+    #[command(subcommand)]
+    Bench(bench::Subject),
     /// Train the networks and write the frozen table.
     Train(train::TrainArgs),
 }
@@ -20,6 +24,7 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Bench(subject) => subject.execute(),
             Self::Train(args) => args.run(),
         }
     }

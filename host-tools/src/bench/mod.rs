@@ -1,0 +1,4 @@
+//! Measurements, one subject a file.
+
+pub mod network;
+pub mod training;

@@ -1,0 +1,40 @@
+//! `kapvik bench`: how good and how fast we are, beside the alternatives.
+
+use clap::{Args, Subcommand};
+
+use crate::bench::{network, training};
+use crate::error::HostError;
+
+/// What to measure.
+#[derive(Subcommand)]
+pub enum Subject {
+    /// Errors and coverage of the frozen rover network on unseen cases
+    Network(Cases),
+    /// Training time to the same validation loss, beside scikit-learn and PyTorch
+    Training,
+}
+
+/// Which cases.
+#[derive(Args)]
+pub struct Cases {
+    /// Unseen cases of each kind.
+    #[arg(long, default_value_t = 20_000)]
+    cases: usize,
+    /// Seed of the cases; training has used none above 2³¹ or equal to 1.
+    #[arg(long, default_value_t = 2026)]
+    seed: u32,
+}
+
+impl Subject {
+    /// Measures, and prints a table.
+    ///
+    /// # Errors
+    /// Where an alternative that is there does not work.
+    pub fn execute(self) -> Result<(), HostError> {
+        match self {
+            Self::Network(Cases { cases, seed }) => network::print(cases, seed),
+            Self::Training => training::print()?,
+        }
+        Ok(())
+    }
+}
