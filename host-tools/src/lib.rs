@@ -1,5 +1,8 @@
 //! What the host does around the flight library: data files, training, identification, the image in QEMU, reports.
 
+pub mod bench;
 pub mod commands;
+pub mod data;
 pub mod error;
+pub mod soil_catalogue;
 pub mod train;

@@ -1,5 +1,9 @@
 //! The commands, one file each.
 
+mod bench;
+mod forward;
+mod soils;
+
 use clap::Subcommand;
 
 use crate::error::HostError;
@@ -7,9 +11,19 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
-    /// Placeholder until the first command lands.
-    #[command(hide = true)]
-    Nothing,
+    /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
+    ///
+    /// Each row of IN.csv gives `slip` (-1 to 1) and one of `sinkage_m` and `load_n`; the columns `drawbar_pull_n`,
+    /// `load_n`, `torque_nm` and `sinkage_m` are filled in, appended where the table does not have them and computed
+    /// anew where it does. Where a row gives both, the sinkage decides, and the load is computed like the rest. What
+    /// decides, and every other column, stays as it was written. A row that gives neither, has no slip, or asks for a
+    /// load that the soil cannot carry is an error: then nothing is written.
+    Forward(forward::Arguments),
+    /// The catalogue of soils of the literature, with sources
+    Soils,
+    /// Speed, side by side with the alternatives, in one run
+    #[command(subcommand)]
+    Bench(bench::Subject),
 }
 
 impl Command {
@@ -19,7 +33,9 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
-            Self::Nothing => Ok(()),
+            Self::Forward(arguments) => forward::execute(&arguments),
+            Self::Soils => soils::execute(),
+            Self::Bench(subject) => subject.execute(),
         }
     }
 }
