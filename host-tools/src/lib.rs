@@ -2,5 +2,7 @@
 
 pub mod bench;
 pub mod commands;
+pub mod data;
 pub mod error;
+pub mod soil_catalogue;
 pub mod train;

@@ -2,12 +2,14 @@
 
 use clap::{Args, Subcommand};
 
-use crate::bench::{network, training};
+use crate::bench::{forward, network, training};
 use crate::error::HostError;
 
 /// What to measure.
 #[derive(Subcommand)]
 pub enum Subject {
+    /// Evaluations of equations 1–11 per second, beside a Simpson loop and SciPy's quad
+    Forward,
     /// Errors and coverage of the frozen rover network on unseen cases
     Network(Cases),
     /// Training time to the same validation loss, beside scikit-learn and PyTorch
@@ -32,6 +34,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Forward => forward::print()?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),
             Self::Training => training::print()?,
         }

@@ -1,6 +1,8 @@
 //! The commands, one file each.
 
 mod bench;
+mod forward;
+mod soils;
 mod train;
 
 use clap::Subcommand;
@@ -13,8 +15,18 @@ pub enum Command {
     /// Speed and quality, side by side with the alternatives, in one run
     #[command(subcommand)]
     Bench(bench::Subject),
-    /// Train the networks and write the frozen table.
-    Train(train::TrainArgs),
+    /// Train the networks and write the frozen table
+    Train(train::Arguments),
+    /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
+    ///
+    /// Each row of IN.csv gives `slip` (-1 to 1) and one of `sinkage_m` and `load_n`; the columns `drawbar_pull_n`,
+    /// `load_n`, `torque_nm` and `sinkage_m` are filled in, appended where the table does not have them and computed
+    /// anew where it does. Where a row gives both, the sinkage decides, and the load is computed like the rest. What
+    /// decides, and every other column, stays as it was written. A row that gives neither, has no slip, or asks for a
+    /// load that the soil cannot carry is an error: then nothing is written.
+    Forward(forward::Arguments),
+    /// The catalogue of soils of the literature, with sources
+    Soils,
 }
 
 impl Command {
@@ -25,7 +37,9 @@ impl Command {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Bench(subject) => subject.execute(),
-            Self::Train(args) => args.run(),
+            Self::Train(arguments) => train::execute(&arguments),
+            Self::Forward(arguments) => forward::execute(&arguments),
+            Self::Soils => soils::execute(),
         }
     }
 }
