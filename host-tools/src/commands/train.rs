@@ -51,7 +51,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let trainers = with_progress("trainers", |bar| compare_trainers(&plan, &few, &few_held_out, bar));
     print_rows("Trainers (per-wheel network, sinkage as fifth input)", &trainers);
     let inputs = with_progress("fifth inputs", |bar| compare_fifth_inputs(&plan, &few, &few_held_out, bar));
-    print_rows("Fifth inputs (per-wheel network, Levenberg–Marquardt)", &inputs);
+    print_rows("Fifth inputs (per-wheel network, Adam)", &inputs);
     judge_fifth_inputs(&inputs);
     let fifth = FifthInput::None;
     let (wheel, wheel_curve) =

@@ -29,7 +29,7 @@ impl Plan {
             rover_epochs: 60,
             wheel_epochs: 40,
             comparison_scenes: 16_000,
-            comparison_steps: 16,
+            comparison_steps: 12,
         }
     }
 
