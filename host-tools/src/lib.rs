@@ -2,3 +2,7 @@
 
 pub mod commands;
 pub mod error;
+pub mod flight_computer;
+pub mod process;
+pub mod qemu;
+pub mod setup;

@@ -1,5 +1,8 @@
 //! The commands, one file each.
 
+mod setup;
+mod test;
+
 use clap::Subcommand;
 
 use crate::error::HostError;
@@ -7,9 +10,10 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
-    /// Placeholder until the first command lands.
-    #[command(hide = true)]
-    Nothing,
+    /// Find or install what the flight image is built and run with: the Arm target and QEMU
+    Setup(setup::Arguments),
+    /// Every test: host, firmware in QEMU, documentation
+    Test(test::Arguments),
 }
 
 impl Command {
@@ -19,7 +23,8 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
-            Self::Nothing => Ok(()),
+            Self::Setup(arguments) => setup::execute(&arguments),
+            Self::Test(arguments) => test::execute(&arguments),
         }
     }
 }
