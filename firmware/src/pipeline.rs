@@ -26,7 +26,9 @@ fn check_wheel(wheel: &Wheel<f32>) -> Result<(), Refusal> {
 }
 
 fn check_noise(noise: &WheelNoise) -> Result<(), Refusal> {
-    [noise.drawbar_pull_n, noise.load_n, noise.torque_nm, noise.slip, noise.sinkage_m].into_iter().try_for_each(positive)
+    [noise.drawbar_pull_n, noise.load_n, noise.torque_nm, noise.slip, noise.sinkage_m]
+        .into_iter()
+        .try_for_each(positive)
 }
 
 fn check_state(state: &WheelState) -> Result<(), Refusal> {

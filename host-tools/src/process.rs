@@ -48,11 +48,10 @@ pub fn output_of(command: &mut Command) -> Option<String> {
 pub fn run_with_spinner(command: &mut Command, what: &str) -> Result<String, HostError> {
     let spinner = spinner(what);
     let failed = |reason: String| HostError::Failed(format!("{what}: {reason}"));
-    let mut child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(|error| failed(format!("{} cannot be started: {error}", command.get_program().to_string_lossy())))?;
+    let mut child =
+        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().map_err(|error| {
+            failed(format!("{} cannot be started: {error}", command.get_program().to_string_lossy()))
+        })?;
     let mut stdout = child.stdout.take();
     let reader = std::thread::spawn(move || {
         let mut text = Vec::new();
@@ -63,7 +62,8 @@ pub fn run_with_spinner(command: &mut Command, what: &str) -> Result<String, Hos
         String::from_utf8_lossy(&text).into_owned()
     });
     let mut said = Vec::new();
-    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()).map_while(Result::ok) {
+    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()).map_while(Result::ok)
+    {
         spinner.set_message(format!("{what}: {}", line.trim()));
         said.push(line);
     }
@@ -79,7 +79,8 @@ pub fn run_with_spinner(command: &mut Command, what: &str) -> Result<String, Hos
 
 /// A spinner for what has no known length. Shown on a terminal only.
 pub fn spinner(what: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}").unwrap_or_else(|_| ProgressStyle::default_spinner());
+    let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}")
+        .unwrap_or_else(|_| ProgressStyle::default_spinner());
     let spinner = ProgressBar::new_spinner().with_style(style).with_message(what.to_owned());
     spinner.enable_steady_tick(Duration::from_millis(100));
     spinner

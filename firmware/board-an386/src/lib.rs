@@ -4,14 +4,14 @@
 #![no_std]
 #![cfg(target_os = "none")]
 
+pub mod bench;
 mod fault;
 mod log;
 pub mod stack;
-pub mod ticks;
+mod ticks;
 pub mod uart;
 
 pub use cortex_m_rt::entry;
-pub use semihosting::{print, println};
 
 /// Ends QEMU with the given exit code.
 pub fn exit(code: i32) -> ! {

@@ -18,13 +18,11 @@ struct State {
 // SAFETY: both cells are used only between `acquire` and `release`, where interrupts are off and `TAKEN` is set.
 unsafe impl Sync for State {}
 
-static STATE: State = State {
-    encoder: UnsafeCell::new(defmt::Encoder::new()),
-    restore: UnsafeCell::new(RestoreState::invalid()),
-};
+static STATE: State =
+    State { encoder: UnsafeCell::new(defmt::Encoder::new()), restore: UnsafeCell::new(RestoreState::invalid()) };
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
-defmt::timestamp!("{=u32:us}", ticks::microseconds());
+defmt::timestamp!("{=u32:us}", ticks::now());
 
 // SAFETY: `acquire` to `release` is a critical section, and a second `acquire` in between ends the program.
 unsafe impl defmt::Logger for UartLogger {

@@ -20,22 +20,22 @@ pub fn high_water_bytes() -> u32 {
     (top - word) as u32
 }
 
-/// Paints what lies below the caller's frame, so that the next measurement starts there. Gives the depth of the caller.
+/// Paints what lies below the caller's frame, so that the next measurement starts there. Gives the depth so far, bytes.
 #[inline(never)]
 pub fn repaint() -> u32 {
-    let (top, bottom) = bounds();
-    let pointer = cortex_m::register::msp::read() as usize;
-    let mut word = bottom;
-    while word + MARGIN < pointer {
-        // SAFETY: `word` is within the stack region and at least `MARGIN` below the stack pointer: nobody's frame.
-        unsafe { (word as *mut u32).write_volatile(STACK_PAINT_VALUE) };
-        word += 4;
-    }
-    (top - pointer) as u32
+    // Interrupts are off: nobody else has a frame below this one.
+    critical_section::with(|_| {
+        let (top, bottom) = bounds();
+        let pointer = cortex_m::register::msp::read() as usize;
+        let mut word = bottom;
+        while word < pointer {
+            // SAFETY: `word` is within the stack region, word aligned and below the stack pointer: in nobody's frame.
+            unsafe { (word as *mut u32).write_volatile(STACK_PAINT_VALUE) };
+            word += 4;
+        }
+        (top - pointer) as u32
+    })
 }
-
-/// Left unpainted below the stack pointer, bytes: room for an interrupt's frame while painting.
-const MARGIN: usize = 0x100;
 
 /// Addresses of the top and the bottom of the stack region.
 fn bounds() -> (usize, usize) {

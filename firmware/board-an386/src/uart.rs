@@ -155,7 +155,7 @@ impl LinkUart {
         }) {
             return None;
         }
-        crate::ticks::start_microseconds();
+        crate::ticks::count_microseconds();
         start_log();
         UART0.baud_divider(BAUD_DIVIDER);
         listen();

@@ -112,10 +112,7 @@ impl FrameBuffer {
         let content = postcard::to_slice(&(header, body), &mut self.payload).map_err(|_| LinkError::Oversized)?.len();
         let checksum = CHECKSUM.checksum(self.payload.get(..content).ok_or(LinkError::Oversized)?);
         let length = content + CHECKSUM_BYTES;
-        self.payload
-            .get_mut(content..length)
-            .ok_or(LinkError::Oversized)?
-            .copy_from_slice(&checksum.to_le_bytes());
+        self.payload.get_mut(content..length).ok_or(LinkError::Oversized)?.copy_from_slice(&checksum.to_le_bytes());
         let payload = self.payload.get(..length).ok_or(LinkError::Oversized)?;
         let stuffed = cobs::try_encode(payload, &mut self.wire).map_err(|_| LinkError::Oversized)?;
         *self.wire.get_mut(stuffed).ok_or(LinkError::Oversized)? = 0;

@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod bench;
 mod setup;
 mod test;
 
@@ -10,6 +11,8 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Speed, memory and instruction counts
+    Bench(bench::Arguments),
     /// Find or install what the flight image is built and run with: the Arm target and QEMU
     Setup(setup::Arguments),
     /// Every test: host, firmware in QEMU, documentation
@@ -23,6 +26,7 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Bench(arguments) => bench::execute(&arguments),
             Self::Setup(arguments) => setup::execute(&arguments),
             Self::Test(arguments) => test::execute(&arguments),
         }

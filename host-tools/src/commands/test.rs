@@ -9,7 +9,10 @@ pub struct Arguments {}
 
 /// Runs every test.
 pub fn execute(_: &Arguments) -> Result<(), HostError> {
-    let mut c = crate::flight_computer::FlightComputer::start(crate::flight_computer::Computer::Qemu, crate::qemu::LogView::Everything)?;
+    let mut c = crate::flight_computer::FlightComputer::start(
+        crate::flight_computer::Computer::Qemu,
+        crate::qemu::LogView::Everything,
+    )?;
     println!("{:?}", c.boot_report()?);
     println!("{:?}", c.health()?);
     Ok(())

@@ -58,7 +58,8 @@ impl Machine {
     /// # Errors
     /// Where QEMU cannot be started.
     pub fn start(toolchain: &Toolchain, image: &Image, clock: Clock, view: LogView) -> Result<Self, HostError> {
-        let folder = tempfile::Builder::new().prefix("kapvik-").tempdir().map_err(HostError::file(&std::env::temp_dir()))?;
+        let folder =
+            tempfile::Builder::new().prefix("kapvik-").tempdir().map_err(HostError::file(&std::env::temp_dir()))?;
         let (link_path, log_path) = (folder.path().join("link"), folder.path().join("log"));
         let link_port = listen(&link_path)?;
         let log_port = listen(&log_path)?;
@@ -112,7 +113,10 @@ impl Machine {
                 Ok(None) if Instant::now() < deadline => std::thread::sleep(POLL),
                 _ => {
                     let ended = self.finish();
-                    return Err(HostError::Failed(format!("QEMU was still running after {patience:?}\n{}", tail(&ended))));
+                    return Err(HostError::Failed(format!(
+                        "QEMU was still running after {patience:?}\n{}",
+                        tail(&ended)
+                    )));
                 }
             }
         };

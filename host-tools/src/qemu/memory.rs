@@ -1,8 +1,8 @@
 //! How much of the board's memory an image takes.
 
-use object::elf::{FileHeader32, PT_LOAD};
+use object::Endianness;
+use object::elf::PT_LOAD;
 use object::read::elf::{ElfFile32, ProgramHeader};
-use object::{Endianness, Object};
 
 use crate::error::HostError;
 

@@ -107,7 +107,8 @@ fn from_debian() -> Result<(TargetRoute, String), HostError> {
         Some(version) => version.clone(),
         None => {
             apt::install(&DEBIAN_PACKAGES).map_err(|error| failed(last_line(&error.to_string())))?;
-            debian_compiler().ok_or_else(|| failed("its compiler is too old, or its library has no source".to_owned()))?
+            debian_compiler()
+                .ok_or_else(|| failed("its compiler is too old, or its library has no source".to_owned()))?
         }
     };
     let linker = rust_lld().ok_or_else(|| {
