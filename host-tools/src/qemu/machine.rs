@@ -96,6 +96,11 @@ impl Machine {
         self.link.try_clone().map_err(|error| HostError::Failed(format!("serial link: {error}")))
     }
 
+    /// The number of QEMU's process.
+    pub fn process_id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// What the image has logged so far.
     pub fn log(&self) -> Vec<LogLine> {
         self.log.lines()
