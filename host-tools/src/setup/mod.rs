@@ -10,7 +10,7 @@ use clap::ValueEnum;
 
 use crate::error::HostError;
 
-pub use target::TargetRoute;
+pub use target::{TARGET, TargetRoute};
 
 /// Where the Arm target comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
