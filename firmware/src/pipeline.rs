@@ -11,13 +11,16 @@ pub fn answer(query: &SoilQuery) -> QueryAnswer {
     if let Err(reason) = common {
         return QueryAnswer::refused(count, reason);
     }
-    let wheels = query.wheels.iter().map(|state| check_state(state).and(Err(Refusal::NoNetwork))).collect();
-    let rover = if query.wheels.is_empty() {
-        Err(Refusal::NoWheels)
-    } else {
-        query.wheels.iter().try_for_each(check_state).and(Err(Refusal::NoNetwork))
+    let rover = match query.wheels.iter().try_for_each(check_state) {
+        Ok(()) if query.wheels.is_empty() => Refusal::NoWheels,
+        Ok(()) => Refusal::NoNetwork,
+        Err(reason) => reason,
     };
-    QueryAnswer { wheels, rover }
+    let mut answer = QueryAnswer::refused(0, rover);
+    for state in &query.wheels {
+        answer.push(check_state(state).and(Err(Refusal::NoNetwork)));
+    }
+    answer
 }
 
 fn check_wheel(wheel: &Wheel<f32>) -> Result<(), Refusal> {

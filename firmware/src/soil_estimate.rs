@@ -61,6 +61,14 @@ pub struct QueryAnswer {
 impl QueryAnswer {
     /// The same refusal for the rover and for each of `wheels` wheels.
     pub fn refused(wheels: usize, reason: Refusal) -> Self {
-        Self { wheels: core::iter::repeat_n(Err(reason), wheels.min(MAX_WHEELS)).collect(), rover: Err(reason) }
+        let mut answer = Self { wheels: Vec::new(), rover: Err(reason) };
+        (0..wheels).for_each(|_| answer.push(Err(reason)));
+        answer
+    }
+
+    /// Adds what the next wheel says. A query has no more wheels than an answer has room for.
+    pub fn push(&mut self, wheel: Result<SoilEstimate, Refusal>) {
+        // Not `collect`: heapless panics where it overflows.
+        let _ = self.wheels.push(wheel);
     }
 }

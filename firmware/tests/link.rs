@@ -5,8 +5,8 @@ use std::convert::Infallible;
 
 use embedded_io::{ErrorType, Read, ReadReady, Write};
 use kapvik_firmware::link::{
-    CHECKSUM, FrameBuffer, FrameReceiver, Header, Link, LinkError, LinkHealth, NO_SEQUENCE, PAYLOAD_CAPACITY, Reply,
-    Request, next_sequence,
+    CHECKSUM, FrameBuffer, FrameReceiver, Header, Incoming, Link, LinkError, LinkHealth, NO_SEQUENCE, PAYLOAD_CAPACITY,
+    Reply, Request, next_sequence,
 };
 use kapvik_firmware::soil_estimate::{ParameterEstimate, QueryAnswer, Refusal, SoilEstimate};
 use kapvik_firmware::terramechanics::Wheel;
@@ -46,19 +46,19 @@ impl Write for Port {
     }
 }
 
-/// What a link makes of these bytes: number and request, or the reason against it, of each frame; and its counters.
-fn receive(bytes: &[u8]) -> (Vec<(u16, Result<Request, LinkError>)>, LinkHealth) {
+/// What a link makes of these bytes: each frame that arrived, and the counters.
+fn receive(bytes: &[u8]) -> (Vec<Incoming>, LinkHealth) {
     let mut link = Link::new(Port::default());
     link.port().input.extend(bytes);
     let mut frames = Vec::new();
     while !link.port().input.is_empty() {
-        frames.extend(link.receive().map(|incoming| (incoming.sequence, incoming.request)));
+        frames.extend(link.receive());
     }
     (frames, link.health())
 }
 
 fn reasons(bytes: &[u8]) -> Vec<Option<LinkError>> {
-    receive(bytes).0.into_iter().map(|(_, request)| request.err()).collect()
+    receive(bytes).0.into_iter().map(|incoming| incoming.request.err()).collect()
 }
 
 fn encode(sequence: u16, request: &Request) -> Vec<u8> {
@@ -85,7 +85,7 @@ fn checksum_is_the_published_one() {
 #[test]
 fn the_wire_format_is_as_documented() {
     assert_eq!(encode(1, &Request::Hello), HELLO);
-    assert_eq!(receive(&HELLO).0, [(1, Ok(Request::Hello))]);
+    assert_eq!(receive(&HELLO).0, [Incoming { sequence: 1, request: Ok(Request::Hello) }]);
 }
 
 #[test]
@@ -115,9 +115,9 @@ fn each_damage_has_its_reason() {
 #[test]
 fn a_number_that_could_be_read_is_repeated() {
     let (frames, _) = receive(&frame_around(&[1, 9, 200]));
-    assert_eq!(frames, [(9, Err(LinkError::Undecodable))]);
+    assert_eq!(frames, [Incoming { sequence: 9, request: Err(LinkError::Undecodable) }]);
     let (frames, _) = receive(&[3, 1, 1, 0]);
-    assert_eq!(frames, [(NO_SEQUENCE, Err(LinkError::Short))]);
+    assert_eq!(frames, [Incoming { sequence: NO_SEQUENCE, request: Err(LinkError::Short) }]);
 }
 
 #[test]
@@ -199,7 +199,7 @@ proptest! {
     #[test]
     fn requests_arrive_as_sent(requests in proptest::collection::vec((any::<u16>(), any_request()), 1..8)) {
         let bytes: Vec<u8> = requests.iter().flat_map(|(number, request)| encode(*number, request)).collect();
-        let expected: Vec<_> = requests.into_iter().map(|(number, request)| (number, Ok(request))).collect();
+        let expected: Vec<_> = requests.into_iter().map(|(sequence, request)| Incoming { sequence, request: Ok(request) }).collect();
         prop_assert_eq!(receive(&bytes).0, expected);
     }
 
@@ -222,7 +222,7 @@ proptest! {
     fn a_good_frame_is_understood_after_any_garbage(garbage in proptest::collection::vec(any::<u8>(), 0..3000)) {
         let bytes: Vec<u8> = garbage.iter().copied().chain([0]).chain(HELLO).collect();
         let (frames, health) = receive(&bytes);
-        prop_assert_eq!(frames.last(), Some(&(1, Ok(Request::Hello))));
+        prop_assert_eq!(frames.last(), Some(&Incoming { sequence: 1, request: Ok(Request::Hello) }));
         prop_assert_eq!(frames.len() as u32, health.frames_ok + health.refused());
     }
 
@@ -233,8 +233,8 @@ proptest! {
         let place = place.index(good.len());
         bad[place] ^= flip;
         bad.push(0);
-        for (_, received) in receive(&bad).0 {
-            prop_assert!(received.is_err(), "byte {} of {:?} damaged, but taken as {:?}", place, request, received);
+        for received in receive(&bad).0 {
+            prop_assert!(received.request.is_err(), "byte {} of {:?} damaged, taken as {:?}", place, request, received);
         }
     }
 }
