@@ -2,7 +2,9 @@
 
 mod bench;
 mod forward;
+mod setup;
 mod soils;
+mod test;
 mod train;
 
 use clap::Subcommand;
@@ -27,6 +29,10 @@ pub enum Command {
     Forward(forward::Arguments),
     /// The catalogue of soils of the literature, with sources
     Soils,
+    /// Find or install what the flight image is built and run with: the Arm target and QEMU
+    Setup(setup::Arguments),
+    /// Every test: host, firmware in QEMU, documentation
+    Test(test::Arguments),
 }
 
 impl Command {
@@ -40,6 +46,8 @@ impl Command {
             Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
             Self::Soils => soils::execute(),
+            Self::Setup(arguments) => setup::execute(&arguments),
+            Self::Test(arguments) => test::execute(&arguments),
         }
     }
 }
