@@ -32,7 +32,7 @@ pub use power::powf;
 pub use square_root::sqrt;
 pub use trigonometric::{acos, sin_cos};
 
-/// Whether `from` ≤ |x| < `to`, of two positive numbers: one comparison, false for NaN.
+/// Whether `from` ≤ |x| < `to`, of two numbers of zero or more: one comparison, false for NaN.
 ///
 /// Below a magnitude where the first term of a series is all, the functions leave by this test. On the target that saves
 /// little, but the powers of tiny arguments are subnormal or vanish, which costs a desktop processor hundreds of cycles.
