@@ -2,6 +2,9 @@
 
 use super::Numbers;
 
+/// Sums that are worked on at once: as many as stay in the target's registers beside their operands.
+const TILE: usize = 8;
+
 /// Weights from `I` inputs to `O` sums; one row an input, so that sums run in parallel and their order is fixed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights<const I: usize, const O: usize>(pub [[f32; O]; I]);
@@ -10,12 +13,20 @@ impl<const I: usize, const O: usize> Weights<I, O> {
     /// All weights zero.
     pub const ZERO: Self = Self([[0.0; O]; I]);
 
-    /// `sums` with the weighted inputs added.
+    /// `sums` with the weighted inputs added, each sum over the inputs in their order.
     pub fn add_to(&self, mut sums: [f32; O], input: &[f32; I]) -> [f32; O] {
-        for (x, row) in input.iter().zip(&self.0) {
-            for (sum, weight) in sums.iter_mut().zip(row) {
-                *sum += x * weight;
+        let (tiles, rest) = sums.as_chunks_mut::<TILE>();
+        for (place, tile) in tiles.iter_mut().enumerate() {
+            let mut held = *tile;
+            for (x, row) in input.iter().zip(&self.0) {
+                if let Some(weights) = row.as_chunks::<TILE>().0.get(place) {
+                    held.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += x * weight);
+                }
             }
+            *tile = held;
+        }
+        for (x, row) in input.iter().zip(&self.0) {
+            rest.iter_mut().zip(row.as_chunks::<TILE>().1).for_each(|(sum, weight)| *sum += x * weight);
         }
         sums
     }

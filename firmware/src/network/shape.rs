@@ -19,11 +19,11 @@ pub const ROVER_WHEELS: usize = 6;
 /// Neurons in the first layer that the wheels share.
 pub const ROVER_HIDDEN: usize = 24;
 /// Neurons whose mean and variance over the wheels are pooled.
-pub const ROVER_POOLED: usize = 20;
+pub const ROVER_POOLED: usize = 16;
 /// Inputs of the layer behind the pool: means, variances, the shared inputs and the number of wheels.
 pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_POOLED + CONTEXT_FEATURES + 1;
 /// Neurons in the layer behind the pool.
-pub const ROVER_HEAD: usize = 24;
+pub const ROVER_HEAD: usize = 16;
 
 /// Layer sizes of the per-wheel network, as its frozen table states them.
 pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];
