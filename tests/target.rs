@@ -26,14 +26,19 @@ fn host_and_target_give_the_same_bits() {
 
 #[test]
 fn functions_cost_no_more_than_their_budget() {
-    let mut too_dear = Vec::new();
-    for (name, budget) in budgets().instructions {
-        let kernel = bench().kernels.iter().find(|kernel| kernel.name == name);
-        let cost = kernel.unwrap_or_else(|| panic!("{name} has a budget, but is not measured")).instructions;
-        println!("{name}: {cost} of {budget} instructions");
-        if cost > budget {
-            too_dear.push(format!("{name}: {cost} instructions, budget {budget}"));
+    let budgets = budgets().instructions;
+    let mut wrong = Vec::new();
+    for kernel in &bench().kernels {
+        let (name, cost) = (&kernel.name, kernel.instructions);
+        match budgets.get(name) {
+            None => wrong.push(format!("{name} is measured, but has no budget; it costs {cost} instructions")),
+            Some(budget) if cost > *budget => wrong.push(format!("{name}: {cost} instructions, budget {budget}")),
+            Some(budget) => println!("{name}: {cost} of {budget} instructions"),
         }
     }
-    assert!(too_dear.is_empty(), "{too_dear:?}");
+    let measured = |name: &String| bench().kernels.iter().any(|kernel| kernel.name == *name);
+    wrong.extend(
+        budgets.keys().filter(|name| !measured(name)).map(|name| format!("{name} has a budget, but is not measured")),
+    );
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

@@ -77,7 +77,7 @@ fn from_rustup() -> Result<(TargetRoute, String), HostError> {
         return Err(failed("there is no rustup on this machine".to_owned()));
     }
     run_with_spinner(command("rustup").args(["target", "add", TARGET]), "rustup target add")
-        .map_err(|error| failed(last_line(&error.to_string())))?;
+        .map_err(|error| failed(cause(&error.to_string())))?;
     if toolchain_has_target() {
         Ok((TargetRoute::Rustup, format!("target: {TARGET}, added by rustup")))
     } else {
@@ -85,9 +85,11 @@ fn from_rustup() -> Result<(TargetRoute, String), HostError> {
     }
 }
 
-/// The last line that says something: the one that names the cause.
-fn last_line(text: &str) -> String {
-    text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim().to_owned()
+/// The line that names the cause: the first that calls itself an error, else the last that says something.
+fn cause(text: &str) -> String {
+    let error = text.lines().find(|line| line.starts_with("error") || line.starts_with("E: "));
+    let said = error.or_else(|| text.lines().rev().find(|line| !line.trim().is_empty()));
+    said.unwrap_or_default().trim().to_owned()
 }
 
 /// Whether the compiler that cargo uses here has a ready-made library for the target.
@@ -106,7 +108,7 @@ fn from_debian() -> Result<(TargetRoute, String), HostError> {
     let compiler = match &found {
         Some(version) => version.clone(),
         None => {
-            apt::install(&DEBIAN_PACKAGES).map_err(|error| failed(last_line(&error.to_string())))?;
+            apt::install(&DEBIAN_PACKAGES).map_err(|error| failed(cause(&error.to_string())))?;
             debian_compiler()
                 .ok_or_else(|| failed("its compiler is too old, or its library has no source".to_owned()))?
         }
@@ -125,8 +127,9 @@ fn debian_compiler() -> Option<String> {
     output_of(debian(DEBIAN_CARGO).arg("--version"))?;
     let sysroot = output_of(debian(DEBIAN_RUSTC).args(["--print", "sysroot"]))?;
     let source = Path::new(&sysroot).join("lib/rustlib/src/rust/library/core/Cargo.toml");
-    let new_enough = release(version.split_whitespace().nth(1)?)? >= release(LEAST_RELEASE)?;
-    (source.is_file() && new_enough).then_some(version)
+    let number = version.split_whitespace().nth(1)?;
+    let new_enough = release(number)? >= release(LEAST_RELEASE)?;
+    (source.is_file() && new_enough).then(|| format!("rustc {number}"))
 }
 
 /// The least release of the compiler that compiles the workspace.
