@@ -9,4 +9,5 @@ pub mod process;
 pub mod qemu;
 pub mod setup;
 pub mod soil_catalogue;
+pub mod limit;
 pub mod train;
