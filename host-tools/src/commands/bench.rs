@@ -42,7 +42,7 @@ impl Subject {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Forward => forward::print(),
-            Self::Limit(arguments) => limit::run(&arguments, None)?,
+            Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),
             Self::Target => target::execute()?,
             Self::Training => training::print()?,

@@ -1,14 +1,14 @@
 //! Cases: observations drawn from the prior, with their truth and their posterior.
 
 use kapvik_firmware::wheel_state::SoilQuery;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::coordinates::{Targets, targets_of};
+use super::coordinates::Targets;
 use super::sampler::Effort;
 use super::summary::{NoSummary, Summary};
 use super::wheel_likelihood::LoadPrior;
+use crate::train::dataset::stream;
+use crate::train::example::targets;
 use crate::train::observe::observe;
 use crate::train::prior;
 use crate::train::scene::{Design, Scene, scenes};
@@ -46,12 +46,11 @@ pub fn cases(
     done: impl Fn() + Sync,
 ) -> Result<Vec<Case>, NoSummary> {
     let case = |(index, scene): (usize, &Scene)| {
-        let mut random = ChaCha8Rng::seed_from_u64(u64::from(seed));
-        random.set_stream(index as u64);
+        let mut random = stream(u64::from(seed), index);
         let query = observe(scene, &mut random);
         let summary = Summary::of(&query, load, effort, &mut random)?;
         done();
-        Ok(Case { query, truth: targets_of(&scene.soil), summary })
+        Ok(Case { query, truth: targets(scene), summary })
     };
     scenes(design, count, seed).par_iter().enumerate().map(case).collect()
 }

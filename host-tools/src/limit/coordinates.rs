@@ -17,20 +17,45 @@ pub type Coordinates = SVector<f64, DIMENSION>;
 /// ln c (c in Pa), φ (rad), ln K (K in m): what is estimated.
 pub type Targets = [f64; 3];
 
+/// The ranges, in the order of the coordinates.
+const RANGES: [Range; DIMENSION] = [
+    prior::COHESION_PA,
+    prior::FRICTION_ANGLE_RAD,
+    prior::SHEAR_MODULUS_M,
+    prior::SINKAGE_EXPONENT,
+    prior::STIFFNESS,
+    prior::PEAK_STRESS_C1,
+    prior::PEAK_STRESS_C2,
+];
+
 /// The soil at a point.
 pub fn soil_at(point: &Coordinates) -> Soil<f64> {
-    let value = |range: Range, place: usize| range.at(normal_distribution(point[place]));
+    let [c, phi, shear, n, stiffness, c1, c2] = parameters_at(point);
     Soil {
-        cohesion_pa: value(prior::COHESION_PA, 0),
-        friction_angle_rad: value(prior::FRICTION_ANGLE_RAD, 1),
-        shear_modulus_m: value(prior::SHEAR_MODULUS_M, 2),
-        sinkage_exponent: value(prior::SINKAGE_EXPONENT, 3),
-        frictional_modulus: value(prior::STIFFNESS, 4),
+        cohesion_pa: c,
+        friction_angle_rad: phi,
+        shear_modulus_m: shear,
+        sinkage_exponent: n,
+        frictional_modulus: stiffness,
         cohesive_modulus: 0.0,
-        peak_stress_c1: value(prior::PEAK_STRESS_C1, 5),
-        peak_stress_c2: value(prior::PEAK_STRESS_C2, 6),
+        peak_stress_c1: c1,
+        peak_stress_c2: c2,
         rebound_ratio: 0.0,
     }
+}
+
+fn parameters_at(point: &Coordinates) -> [f64; DIMENSION] {
+    std::array::from_fn(|axis| RANGES[axis].at(normal_distribution(point[axis])))
+}
+
+/// Change of each parameter with its own coordinate.
+pub fn slopes_at(point: &Coordinates) -> [f64; DIMENSION] {
+    let parameters = parameters_at(point);
+    std::array::from_fn(|axis| {
+        let Range { low, high, logarithmic } = RANGES[axis];
+        let by_share = if logarithmic { parameters[axis] * libm::log(high / low) } else { high - low };
+        by_share * normal_density(point[axis])
+    })
 }
 
 /// What is estimated of a soil.
@@ -41,4 +66,8 @@ pub fn targets_of(soil: &Soil<f64>) -> Targets {
 /// Distribution function of the standard normal.
 pub fn normal_distribution(x: f64) -> f64 {
     0.5 * libm::erfc(-x * std::f64::consts::FRAC_1_SQRT_2)
+}
+
+fn normal_density(x: f64) -> f64 {
+    0.5 * std::f64::consts::FRAC_2_SQRT_PI * std::f64::consts::FRAC_1_SQRT_2 * libm::exp(-0.5 * x * x)
 }

@@ -1,9 +1,11 @@
 //! What a wheel does where its slip and its load are given, and how that changes with them and with the soil.
 
-use kapvik_firmware::terramechanics::{Soil, Wheel, WheelForces, wheel_forces};
+use kapvik_firmware::scalar::Scalar;
+use kapvik_firmware::terramechanics::{Soil, Wheel, wheel_forces};
 use nalgebra::{SMatrix, Vector3};
 
-use super::coordinates::{Coordinates, DIMENSION, soil_at};
+use super::coordinates::{Coordinates, DIMENSION, slopes_at, soil_at};
+use super::dual::Dual;
 
 /// Drawbar pull (N), torque (N·m) and sinkage (m), in this order.
 pub type Channels = Vector3<f64>;
@@ -24,12 +26,6 @@ pub struct Response {
     pub by_soil: Slopes,
 }
 
-/// Relative step of the sinkage for its slopes.
-const SINKAGE_STEP: f64 = 1e-4;
-/// Step of the slip for its slopes.
-const SLIP_STEP: f64 = 1e-4;
-/// Step of a coordinate for its slopes.
-const COORDINATE_STEP: f64 = 1e-4;
 /// The sinkage has been found once a step changes its logarithm by less; what is left is corrected to first order.
 const NEAR: f64 = 3e-3;
 /// Newton steps before a load is given up.
@@ -37,56 +33,26 @@ const STEPS: usize = 20;
 /// Sinkage over radius beyond which no load is looked for.
 const BOTTOM: f64 = 0.9;
 
-/// Channels and load at a sinkage, and their changes with its logarithm.
-struct Foothold {
-    sinkage_m: f64,
-    channels: Channels,
-    load_n: f64,
-    by_ln_sinkage: Channels,
-    load_by_ln_sinkage: f64,
-}
+/// c, φ, K, n, k_φ, the share of the contact ahead of the peak stress (c₁ + c₂ i), slip, sinkage.
+const VARIABLES: usize = 8;
+const PEAK: usize = 5;
+const SLIP: usize = 6;
+const SINKAGE: usize = 7;
 
 /// The response of a wheel on the soil at `point`, by Newton's method on ln W as a function of ln z from `guess_m`; none
 /// where the soil carries the load at no sinkage up to 0.9 r.
 pub fn respond(wheel: &Wheel<f64>, point: &Coordinates, slip: f64, load_n: f64, guess_m: f64) -> Option<Response> {
     let soil = soil_at(point);
-    let (foot, step) = foothold(wheel, &soil, slip, load_n, guess_m)?;
-    let by_load = foot.by_ln_sinkage / foot.load_by_ln_sinkage;
-    // A change at constant sinkage, less what brings the load back.
-    let change = |soil: &Soil<f64>, slip: f64, step: f64| {
-        let (channels, load_n) = at(wheel, soil, slip, foot.sinkage_m)?;
-        Some((channels - foot.channels - by_load * (load_n - foot.load_n)) / step)
-    };
-    let mut by_soil = Slopes::zeros();
-    for (axis, mut column) in by_soil.column_iter_mut().enumerate() {
-        let beside = soil_at(&(point + Coordinates::ith(axis, COORDINATE_STEP)));
-        column.copy_from(&change(&beside, slip, COORDINATE_STEP)?);
-    }
-    Some(Response {
-        value: foot.channels + foot.by_ln_sinkage * step,
-        by_slip: change(&soil, slip + SLIP_STEP, SLIP_STEP)?,
-        by_load,
-        by_soil,
-    })
-}
-
-/// A sinkage that carries almost the given load, and the step of its logarithm that is left.
-fn foothold(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64, guess_m: f64) -> Option<(Foothold, f64)> {
     let mut sinkage_m = guess_m.clamp(1e-4 * wheel.radius_m, BOTTOM * wheel.radius_m);
     for _ in 0..STEPS {
-        let (channels, load_here_n) = at(wheel, soil, slip, sinkage_m)?;
-        let (deeper, load_deeper_n) = at(wheel, soil, slip, sinkage_m * (1.0 + SINKAGE_STEP))?;
-        let load_by_ln_sinkage = (load_deeper_n - load_here_n) / SINKAGE_STEP;
-        if !(load_here_n > 0.0 && load_by_ln_sinkage > 0.0) {
+        let (channels, load) = forces(wheel, &soil, slip, sinkage_m)?;
+        let load_by_ln_sinkage = load.slopes[SINKAGE] * sinkage_m;
+        if !(load.value > 0.0 && load_by_ln_sinkage > 0.0) {
             return None;
         }
-        let step = libm::log(load_n / load_here_n) * load_here_n / load_by_ln_sinkage;
+        let step = libm::log(load_n / load.value) * load.value / load_by_ln_sinkage;
         if step.abs() < NEAR {
-            let by_ln_sinkage = (deeper - channels) / SINKAGE_STEP;
-            return Some((
-                Foothold { sinkage_m, channels, load_n: load_here_n, by_ln_sinkage, load_by_ln_sinkage },
-                step,
-            ));
+            return Some(at_load(point, &soil, slip, step * load_by_ln_sinkage, &channels, &load));
         }
         sinkage_m *= libm::exp(step.clamp(-1.0, 1.0));
         if sinkage_m > BOTTOM * wheel.radius_m {
@@ -96,8 +62,60 @@ fn foothold(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64, guess_
     None
 }
 
-/// Channels and load (N) at a slip and a sinkage.
-fn at(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, sinkage_m: f64) -> Option<(Channels, f64)> {
-    let WheelForces { drawbar_pull_n, load_n, torque_nm } = wheel_forces(wheel, soil, slip, sinkage_m).ok()?;
-    Some((Channels::new(drawbar_pull_n, torque_nm, sinkage_m), load_n))
+/// From forces at a sinkage to the response at a load that is `missing_n` greater.
+fn at_load(
+    point: &Coordinates,
+    soil: &Soil<f64>,
+    slip: f64,
+    missing_n: f64,
+    channels: &[Dual<VARIABLES>; 3],
+    load: &Dual<VARIABLES>,
+) -> Response {
+    let by = |variable: usize| Channels::from(channels.map(|channel| channel.slopes[variable]));
+    let by_load = by(SINKAGE) / load.slopes[SINKAGE];
+    // A change at constant sinkage, less what brings the load back.
+    let at_constant_load = |variable: usize| by(variable) - by_load * load.slopes[variable];
+    let (by_peak, scale) = (at_constant_load(PEAK), slopes_at(point));
+    let mut by_soil = Slopes::zeros();
+    for (axis, mut column) in by_soil.column_iter_mut().enumerate() {
+        let by_parameter = match axis {
+            PEAK => by_peak,
+            SLIP => by_peak * slip,
+            _ => at_constant_load(axis),
+        };
+        column.copy_from(&(by_parameter * scale[axis]));
+    }
+    Response {
+        value: Channels::from(channels.map(|channel| channel.value)) + by_load * missing_n,
+        by_slip: at_constant_load(SLIP) + by_peak * soil.peak_stress_c2,
+        by_load,
+        by_soil,
+    }
+}
+
+/// Drawbar pull, torque and sinkage, and the load, at a slip and a sinkage.
+fn forces(
+    wheel: &Wheel<f64>,
+    soil: &Soil<f64>,
+    slip: f64,
+    sinkage_m: f64,
+) -> Option<([Dual<VARIABLES>; 3], Dual<VARIABLES>)> {
+    let constant = Dual::<VARIABLES>::constant;
+    let variable = Dual::<VARIABLES>::variable;
+    let wheel = Wheel { radius_m: constant(wheel.radius_m), width_m: constant(wheel.width_m) };
+    let soil = Soil {
+        cohesion_pa: variable(soil.cohesion_pa, 0),
+        friction_angle_rad: variable(soil.friction_angle_rad, 1),
+        shear_modulus_m: variable(soil.shear_modulus_m, 2),
+        sinkage_exponent: variable(soil.sinkage_exponent, 3),
+        frictional_modulus: variable(soil.frictional_modulus, 4),
+        cohesive_modulus: constant(soil.cohesive_modulus),
+        // Only the sum of c₁ and c₂ i counts: one variable instead of two.
+        peak_stress_c1: variable(soil.peak_stress_c1 + soil.peak_stress_c2 * slip, PEAK),
+        peak_stress_c2: constant(0.0),
+        rebound_ratio: constant(soil.rebound_ratio),
+    };
+    let sinkage_m = variable(sinkage_m, SINKAGE);
+    let found = wheel_forces(&wheel, &soil, variable(slip, SLIP), sinkage_m).ok()?;
+    Some(([found.drawbar_pull_n, found.torque_nm, sinkage_m], found.load_n))
 }
