@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::coordinates::Targets;
 use super::sampler::Effort;
-use super::summary::{NoSummary, Summary};
+use super::summary::{NoPosterior, Summary, draws};
 use super::wheel_likelihood::LoadPrior;
 use crate::train::dataset::stream;
 use crate::train::example::targets;
@@ -44,11 +44,11 @@ pub fn cases(
     load: LoadPrior,
     effort: &Effort,
     done: impl Fn() + Sync,
-) -> Result<Vec<Case>, NoSummary> {
+) -> Result<Vec<Case>, NoPosterior> {
     let case = |(index, scene): (usize, &Scene)| {
         let mut random = stream(u64::from(seed), index);
         let query = observe(scene, &mut random);
-        let summary = Summary::of(&query, load, effort, &mut random)?;
+        let summary = Summary::new(&draws(&query, load, effort, &mut random)?);
         done();
         Ok(Case { query, truth: targets(scene), summary })
     };

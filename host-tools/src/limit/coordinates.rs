@@ -3,9 +3,11 @@
 //! Each parameter's share of its range is the normal distribution function of a coordinate. A box-shaped prior has no
 //! edges there, so that a sampler needs no rule for them.
 
+use kapvik_firmware::network::TARGETS;
 use kapvik_firmware::terramechanics::Soil;
 use nalgebra::SVector;
 
+use crate::train::example::soil_targets;
 use crate::train::prior::{self, Range};
 
 /// Parameters that the prior of a soil draws.
@@ -15,7 +17,7 @@ pub const DIMENSION: usize = 7;
 pub type Coordinates = SVector<f64, DIMENSION>;
 
 /// ln c (c in Pa), φ (rad), ln K (K in m): what is estimated.
-pub type Targets = [f64; 3];
+pub type Targets = [f64; TARGETS];
 
 /// The ranges, in the order of the coordinates.
 const RANGES: [Range; DIMENSION] = [
@@ -58,9 +60,9 @@ pub fn slopes_at(point: &Coordinates) -> [f64; DIMENSION] {
     })
 }
 
-/// What is estimated of a soil.
-pub fn targets_of(soil: &Soil<f64>) -> Targets {
-    [libm::log(soil.cohesion_pa), soil.friction_angle_rad, libm::log(soil.shear_modulus_m)]
+/// What is estimated of the soil at a point.
+pub fn targets_at(point: &Coordinates) -> Targets {
+    soil_targets(&soil_at(point))
 }
 
 /// Distribution function of the standard normal.

@@ -4,7 +4,7 @@ use kapvik_firmware::wheel_state::SoilQuery;
 use rand::RngExt;
 use thiserror::Error;
 
-use super::coordinates::{DIMENSION, Targets, soil_at, targets_of};
+use super::coordinates::{DIMENSION, Targets, targets_at};
 use super::diagnostics::Diagnosis;
 use super::mode::mode;
 use super::posterior::SoilPosterior;
@@ -43,7 +43,7 @@ pub struct Summary {
 
 /// Why there is no posterior to tell of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum NoSummary {
+pub enum NoPosterior {
     /// The middle of the prior cannot be evaluated.
     #[error("the soil in the middle of the prior cannot carry the wheels")]
     Mode,
@@ -52,31 +52,30 @@ pub enum NoSummary {
     Start,
 }
 
-impl Summary {
-    /// Of an observation.
-    ///
-    /// # Errors
-    /// Where the observation is so far from the prior that there is no posterior to sample.
-    pub fn of(
-        query: &SoilQuery,
-        load: LoadPrior,
-        effort: &Effort,
-        random: &mut impl RngExt,
-    ) -> Result<Self, NoSummary> {
-        let posterior = SoilPosterior::new(query, load);
-        let mode = mode(&posterior).ok_or(NoSummary::Mode)?;
-        let straightened = Straightened::new(&posterior, &mode);
-        let place = straightened.place(mode);
-        let draws = sample(&straightened, Student::standard(), &place, effort, random).ok_or(NoSummary::Start)?;
-        Ok(Self::from_draws(&draws))
-    }
+/// Draws of the posterior of an observation.
+///
+/// # Errors
+/// Where the observation is so far from the prior that there is no posterior to sample.
+pub fn draws(
+    query: &SoilQuery,
+    load: LoadPrior,
+    effort: &Effort,
+    random: &mut impl RngExt,
+) -> Result<Draws<DIMENSION>, NoPosterior> {
+    let posterior = SoilPosterior::new(query, load);
+    let mode = mode(&posterior).ok_or(NoPosterior::Mode)?;
+    let straightened = Straightened::new(&posterior, &mode);
+    let place = straightened.place(mode);
+    sample(&straightened, Student::standard(), &place, effort, random).ok_or(NoPosterior::Start)
+}
 
-    /// From draws of the coordinates.
-    pub fn from_draws(draws: &Draws<DIMENSION>) -> Self {
+impl Summary {
+    /// Of draws of the coordinates.
+    pub fn new(draws: &Draws<DIMENSION>) -> Self {
         let axes: [Diagnosis; DIMENSION] = std::array::from_fn(|axis| draws.diagnose(|point| point[axis]));
         Self {
-            targets: std::array::from_fn(|k| draws.diagnose(|point| targets_of(&soil_at(point))[k])),
-            draws: draws.iter().map(|point| targets_of(&soil_at(point))).collect(),
+            targets: std::array::from_fn(|k| draws.diagnose(|point| targets_at(point)[k])),
+            draws: draws.iter().map(|point| targets_at(point)).collect(),
             split_r_hat: axes.iter().map(|axis| axis.split_r_hat).fold(1.0, f64::max),
             effective_size: axes.iter().map(|axis| axis.effective_size).fold(f64::INFINITY, f64::min),
             converged: draws.converged,
