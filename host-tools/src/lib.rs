@@ -5,6 +5,7 @@ pub mod commands;
 pub mod data;
 pub mod error;
 pub mod flight_computer;
+pub mod limit;
 pub mod process;
 pub mod qemu;
 pub mod setup;

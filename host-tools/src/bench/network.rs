@@ -17,6 +17,11 @@ pub fn rover_posterior(query: &SoilQuery) -> Posterior {
     frozen::ROVER.posterior.read(&frozen::ROVER.outputs(&features.context, features.wheels.iter().copied()))
 }
 
+/// The mean of [`rover_posterior`].
+pub fn rover_mean(query: &SoilQuery) -> [f64; TARGETS] {
+    rover_posterior(query).map(|marginal| f64::from(marginal.mean))
+}
+
 /// The cases that are reported, by name.
 pub const DESIGNS: [(&str, Design); 5] = [
     ("one instant", Design::Kapvik { instants: 1, sinkage: true }),

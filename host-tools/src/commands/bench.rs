@@ -4,6 +4,7 @@ mod target;
 
 use clap::{Args, Subcommand};
 
+use crate::bench::limit::{self, LimitArguments};
 use crate::bench::{forward, network, training};
 use crate::error::HostError;
 
@@ -12,6 +13,8 @@ use crate::error::HostError;
 pub enum Subject {
     /// Evaluations of equations 1–11 per second, beside a Simpson loop and SciPy's quad
     Forward,
+    /// The accuracy that no estimator of the soil can beat: the mean of the exact posterior
+    Limit(LimitArguments),
     /// Errors and coverage of the frozen rover network on unseen cases
     Network(Cases),
     /// Instructions and stack of the flight functions, memory of the flight image
@@ -39,6 +42,7 @@ impl Subject {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Forward => forward::print(),
+            Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),
             Self::Target => target::execute()?,
             Self::Training => training::print()?,

@@ -2,6 +2,7 @@
 
 use kapvik_firmware::network::{CONTEXT_FEATURES, Normalisation, ROVER_WHEELS, TARGETS, WHEEL_FEATURES, WHEEL_INPUTS};
 use kapvik_firmware::soil::{ContextFeatures, WheelFeatures};
+use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use super::scene::Scene;
@@ -29,7 +30,11 @@ pub struct Example<I> {
 
 /// ln c, φ, ln K of a scene's soil.
 pub fn targets(scene: &Scene) -> [f64; TARGETS] {
-    let soil = &scene.soil;
+    soil_targets(&scene.soil)
+}
+
+/// ln c, φ, ln K of a soil.
+pub fn soil_targets(soil: &Soil<f64>) -> [f64; TARGETS] {
     [libm::log(soil.cohesion_pa), soil.friction_angle_rad, libm::log(soil.shear_modulus_m)]
 }
 

@@ -1,0 +1,150 @@
+//! How near an estimator comes to the posterior mean, which none can beat.
+
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use kapvik_firmware::wheel_state::SoilQuery;
+
+use crate::error::HostError;
+use crate::limit::accuracy::{Errors, Measured};
+use crate::limit::case::{Case, KAPVIK_LOADS, cases};
+use crate::limit::coordinates::Targets;
+use crate::limit::summary::EFFORT;
+use crate::train::prior::{self, Range};
+use crate::train::scene::Design;
+
+/// An estimator of ln c (c in Pa), φ (rad) and ln K (K in m).
+pub type Estimator<'a> = dyn Fn(&SoilQuery) -> Targets + 'a;
+
+/// Options of `kapvik bench limit`.
+#[derive(Debug, Clone, Args)]
+pub struct LimitArguments {
+    /// Observations at each noise level
+    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub cases: u32,
+    /// Seed of soils, noise and sampling; training has used none above 2³¹ or equal to 1
+    #[arg(long, default_value_t = 2026)]
+    pub seed: u32,
+    /// Whether the sinkage is seen
+    #[arg(long, value_enum, default_value_t = Sinkage::Seen)]
+    pub sinkage: Sinkage,
+}
+
+/// Whether the sinkage is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Sinkage {
+    /// It is.
+    Seen,
+    /// It is not.
+    Unseen,
+    /// One after the other.
+    Both,
+}
+
+impl Sinkage {
+    fn each(self) -> &'static [bool] {
+        match self {
+            Self::Seen => &[true],
+            Self::Unseen => &[false],
+            Self::Both => &[true, false],
+        }
+    }
+}
+
+/// A target as it is printed: name, factor on the number, its range under the prior.
+const TARGETS: [(&str, f64, Range); 3] = [
+    ("ln c", 1.0, prior::COHESION_PA),
+    ("φ, °", 180.0 / std::f64::consts::PI, prior::FRICTION_ANGLE_RAD),
+    ("ln K", 1.0, prior::SHEAR_MODULUS_M),
+];
+
+/// Prints the limit for one and for a mean of 100 instants, and beside it the estimator.
+///
+/// # Errors
+/// Where the posterior of a case cannot be sampled.
+pub fn run(arguments: &LimitArguments, estimator: Option<&Estimator<'_>>) -> Result<(), HostError> {
+    for &sinkage in arguments.sinkage.each() {
+        for instants in [1, 100] {
+            let bar = progress(arguments.cases, instants);
+            let design = Design::Kapvik { instants, sinkage };
+            let found = cases(design, arguments.cases as usize, arguments.seed, KAPVIK_LOADS, &EFFORT, || bar.inc(1));
+            bar.finish_and_clear();
+            let found = found.map_err(|error| HostError::Failed(format!("bench limit: {error}")))?;
+            print(&found, instants, sinkage, estimator);
+        }
+    }
+    Ok(())
+}
+
+fn progress(cases: u32, instants: u32) -> ProgressBar {
+    let template = "{prefix} {wide_bar} {pos}/{len} {eta}";
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(u64::from(cases)).with_style(style).with_prefix(format!("posteriors, instants: {instants}"))
+}
+
+fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: Option<&Estimator<'_>>) {
+    let seen = if sinkage { "seen" } else { "unseen" };
+    println!("{} cases, mean of {instants} instant(s), sinkage {seen}", cases.len());
+    let limit = Errors::new(cases.iter().map(|case| (case.summary.means(), case.truth)));
+    let other = estimator.map(|estimator| Errors::new(cases.iter().map(|case| (estimator(&case.query), case.truth))));
+    println!(
+        "  {:<6}{:>16}{:>14}{:>10}{:>12}{:>8}{:>16}{:>16}",
+        "", "limit RMSE", "posterior std", "R²", "sampling", "SBC", "estimator RMSE", "ratio"
+    );
+    for (target, (name, factor, range)) in TARGETS.iter().enumerate() {
+        let rmse = limit.rmse(target);
+        let spread = root_mean(cases, |case| case.summary.targets[target].std);
+        let sampling = root_mean(cases, |case| case.summary.targets[target].standard_error());
+        let explained = 1.0 - (rmse.value / prior_std(range)).powi(2);
+        print!("  {name:<6}{:>16}{:>14.3}{explained:>10.2}", text(rmse, *factor), spread * factor);
+        print!("{:>12.4}{:>8.3}", sampling * factor, farthest_rank(cases, target));
+        match &other {
+            Some(other) => {
+                println!("{:>16}{:>16}", text(other.rmse(target), *factor), text(other.ratio(&limit, target), 1.0));
+            }
+            None => println!(),
+        }
+    }
+    let against = |errors: &Errors| 100.0 * errors.median_relative(2);
+    print!("  median error of K: {:.1} %", against(&limit));
+    println!("{}", other.map_or(String::new(), |other| format!(", estimator {:.1} %", against(&other))));
+    print_convergence(cases);
+}
+
+fn print_convergence(cases: &[Case]) {
+    let converged = cases.iter().filter(|case| case.summary.converged).count();
+    let worst = cases.iter().map(|case| case.summary.split_r_hat).fold(1.0, f64::max);
+    let least = cases.iter().map(|case| case.summary.effective_size).fold(f64::INFINITY, f64::min);
+    let evaluations = cases.iter().map(|case| case.summary.evaluations).sum::<usize>() / cases.len();
+    println!(
+        "  chains converged in {converged} of {}; split-R̂ ≤ {worst:.3}, effective size ≥ {least:.0}; {evaluations} evaluations each",
+        cases.len()
+    );
+    // Dvoretzky, Kiefer and Wolfowitz: the bound that a distribution of so many ranks passes in 99 of 100 trials.
+    let bound = libm::sqrt(libm::log(2.0 / 0.01) / (2.0 * cases.len() as f64));
+    println!(
+        "  SBC: farthest of the ranks' distribution from the uniform one; calibrated draws stay below {bound:.3}\n"
+    );
+}
+
+/// Distance of the ranks' distribution from the uniform one (Kolmogorov's statistic).
+fn farthest_rank(cases: &[Case], target: usize) -> f64 {
+    let mut ranks: Vec<f64> = cases.iter().map(|case| case.summary.ranks(&case.truth)[target]).collect();
+    ranks.sort_by(f64::total_cmp);
+    let count = ranks.len() as f64;
+    let gap = |(place, rank): (usize, &f64)| (rank - place as f64 / count).max((place as f64 + 1.0) / count - rank);
+    ranks.iter().enumerate().map(gap).fold(0.0, f64::max)
+}
+
+fn root_mean(cases: &[Case], value: impl Fn(&Case) -> f64) -> f64 {
+    libm::sqrt(cases.iter().map(|case| value(case) * value(case)).sum::<f64>() / cases.len() as f64)
+}
+
+/// Standard deviation of a target under the prior: it is uniform.
+fn prior_std(range: &Range) -> f64 {
+    let width = if range.logarithmic { libm::log(range.high / range.low) } else { range.high - range.low };
+    width / libm::sqrt(12.0)
+}
+
+fn text(measured: Measured, factor: f64) -> String {
+    format!("{:.3} ± {:.3}", measured.value * factor, measured.standard_error * factor)
+}
