@@ -1,5 +1,7 @@
 //! What the host does around the flight library: data files, training, identification, the image in QEMU, reports.
 
 pub mod commands;
+pub mod data;
 pub mod error;
+pub mod identify;
 pub mod train;

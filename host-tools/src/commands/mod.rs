@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod identify;
 mod train;
 
 use clap::Subcommand;
@@ -9,6 +10,8 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Cohesion, friction angle and shear modulus from a wheel campaign
+    Identify(identify::Arguments),
     /// Train the networks and write the frozen table.
     Train(train::TrainArgs),
 }
@@ -20,6 +23,7 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Identify(arguments) => identify::execute(&arguments),
             Self::Train(args) => args.run(),
         }
     }
