@@ -1,7 +1,9 @@
 //! What the host does around the flight library: data files, training, identification, the image in QEMU, reports.
 
+pub mod bench;
 pub mod commands;
 pub mod data;
 pub mod error;
 pub mod identify;
+pub mod soil_catalogue;
 pub mod train;

@@ -2,6 +2,9 @@
 
 mod identify;
 mod train;
+mod bench;
+mod forward;
+mod soils;
 
 use clap::Subcommand;
 
@@ -14,6 +17,19 @@ pub enum Command {
     Identify(identify::Arguments),
     /// Train the networks and write the frozen table.
     Train(train::TrainArgs),
+    /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
+    ///
+    /// Each row of IN.csv gives `slip` (-1 to 1) and one of `sinkage_m` and `load_n`; the columns `drawbar_pull_n`,
+    /// `load_n`, `torque_nm` and `sinkage_m` are filled in, appended where the table does not have them and computed
+    /// anew where it does. Where a row gives both, the sinkage decides, and the load is computed like the rest. What
+    /// decides, and every other column, stays as it was written. A row that gives neither, has no slip, or asks for a
+    /// load that the soil cannot carry is an error: then nothing is written.
+    Forward(forward::Arguments),
+    /// The catalogue of soils of the literature, with sources
+    Soils,
+    /// Speed, side by side with the alternatives, in one run
+    #[command(subcommand)]
+    Bench(bench::Subject),
 }
 
 impl Command {
@@ -25,6 +41,9 @@ impl Command {
         match self {
             Self::Identify(arguments) => identify::execute(&arguments),
             Self::Train(args) => args.run(),
+            Self::Forward(arguments) => forward::execute(&arguments),
+            Self::Soils => soils::execute(),
+            Self::Bench(subject) => subject.execute(),
         }
     }
 }

@@ -1,0 +1,3 @@
+//! Measurements of speed, one subject a file.
+
+pub mod forward;

@@ -1,0 +1,204 @@
+//! Tables in CSV: a header of column names with their units, then numbers, a field left empty where nothing was measured.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use csv::{Reader, ReaderBuilder, StringRecord, Terminator, WriterBuilder};
+
+use super::atomic_write::write_atomically;
+use super::text::TextFile;
+use crate::error::HostError;
+
+/// A CSV table, its fields as they were written.
+#[derive(Debug, Clone)]
+pub struct Table {
+    path: PathBuf,
+    header: Vec<String>,
+    rows: Vec<Row>,
+}
+
+/// A row of a table.
+#[derive(Debug, Clone)]
+struct Row {
+    /// Line of the file, from 1.
+    line: u64,
+    fields: Vec<String>,
+}
+
+/// A column of a table, by its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column(usize);
+
+impl Table {
+    /// Reads a table. A byte-order mark, either kind of line end and quoted fields are taken as they come.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or is not UTF-8, has no header, names a column twice, or has a row that is longer or
+    /// shorter than the header.
+    pub fn read(path: &Path) -> Result<Self, HostError> {
+        Self::parse(&TextFile::read(path)?)
+    }
+
+    /// Reads a table from text.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(file: &TextFile) -> Result<Self, HostError> {
+        let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(file.text().as_bytes());
+        let mut table = Self { path: file.path().to_path_buf(), header: Vec::new(), rows: Vec::new() };
+        let mut record = StringRecord::new();
+        while table.read_record(&mut reader, &mut record)? {
+            let line = record.position().map_or(0, csv::Position::line);
+            let fields: Vec<String> = record.iter().map(str::to_owned).collect();
+            if table.header.is_empty() {
+                table.header = fields;
+                table.check_header(line)?;
+            } else {
+                table.check_length(line, fields.len())?;
+                table.rows.push(Row { line, fields });
+            }
+        }
+        if table.header.is_empty() {
+            return Err(table.error(1, 1, "the file is empty: expected a header with the names of the columns"));
+        }
+        Ok(table)
+    }
+
+    fn read_record(&self, reader: &mut Reader<&[u8]>, record: &mut StringRecord) -> Result<bool, HostError> {
+        reader.read_record(record).map_err(|error| {
+            let line = error.position().map_or(1, csv::Position::line);
+            self.error(line, 1, format!("not a row of a CSV table: {error}"))
+        })
+    }
+
+    fn check_header(&self, line: u64) -> Result<(), HostError> {
+        for (place, name) in self.header.iter().enumerate() {
+            let column = place as u64 + 1;
+            if name.trim().is_empty() {
+                return Err(self.error(line, column, "this column has no name: expected one in the header"));
+            }
+            if self.header.iter().take(place).any(|other| other == name) {
+                return Err(self.error(
+                    line,
+                    column,
+                    format!("a second column is named `{name}`: expected each name once"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_length(&self, line: u64, length: usize) -> Result<(), HostError> {
+        let expected = self.header.len();
+        if length == expected {
+            return Ok(());
+        }
+        let column = length.min(expected) as u64 + 1;
+        Err(self.error(line, column, format!("{length} fields in this row: expected {expected}, as in the header")))
+    }
+
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there is none but the header.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// The names of the columns.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The column of that name.
+    pub fn column(&self, name: &str) -> Option<Column> {
+        self.header.iter().position(|other| other == name).map(Column)
+    }
+
+    /// The column of that name, which the caller cannot do without.
+    ///
+    /// # Errors
+    /// Where the header does not have it.
+    pub fn required_column(&self, name: &str) -> Result<Column, HostError> {
+        self.column(name).ok_or_else(|| {
+            let found = self.header.join(", ");
+            self.error(1, 1, format!("no column `{name}`: expected one in the header (found {found})"))
+        })
+    }
+
+    /// The column of that name, appended with empty fields if it is not there yet.
+    pub fn column_or_append(&mut self, name: &str) -> Column {
+        self.column(name).unwrap_or_else(|| {
+            self.header.push(name.to_owned());
+            self.rows.iter_mut().for_each(|row| row.fields.push(String::new()));
+            Column(self.header.len() - 1)
+        })
+    }
+
+    /// The line of the file that a row stands on, from 1; 1 beyond the table.
+    pub fn line(&self, row: usize) -> u64 {
+        self.rows.get(row).map_or(1, |row| row.line)
+    }
+
+    /// A field as it was written; empty beyond the table.
+    pub fn text(&self, row: usize, column: Column) -> &str {
+        self.rows.get(row).and_then(|row| row.fields.get(column.0)).map_or("", String::as_str)
+    }
+
+    /// A number, or none where the field is empty.
+    ///
+    /// # Errors
+    /// Where the field holds something that is not a finite number.
+    pub fn number(&self, row: usize, column: Column) -> Result<Option<f64>, HostError> {
+        let text = self.text(row, column).trim();
+        if text.is_empty() {
+            return Ok(None);
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(self.error_at(row, column, format!("`{text}`: expected a finite number, or nothing"))),
+        }
+    }
+
+    /// Sets a field.
+    pub fn set(&mut self, row: usize, column: Column, text: String) {
+        if let Some(field) = self.rows.get_mut(row).and_then(|row| row.fields.get_mut(column.0)) {
+            *field = text;
+        }
+    }
+
+    /// An error at a field, which its message names by its column.
+    pub fn error_at(&self, row: usize, column: Column, message: impl AsRef<str>) -> HostError {
+        let line = self.line(row);
+        let name = self.header.get(column.0).map_or("", String::as_str);
+        self.error(line, column.0 as u64 + 1, format!("{name}: {}", message.as_ref()))
+    }
+
+    /// An error about the table as a whole, at its header.
+    pub fn error_in_header(&self, message: impl Into<String>) -> HostError {
+        self.error(1, 1, message)
+    }
+
+    fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
+        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
+    }
+
+    /// Writes the table: beside its place, then renamed there.
+    ///
+    /// # Errors
+    /// Where the file system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), HostError> {
+        write_atomically(path, |out| self.write_to(out).map_err(|error| HostError::file(path)(error.into())))
+    }
+
+    fn write_to(&self, out: &mut dyn Write) -> Result<(), csv::Error> {
+        let mut writer = WriterBuilder::new().terminator(Terminator::Any(b'\n')).from_writer(out);
+        writer.write_record(&self.header)?;
+        for row in &self.rows {
+            writer.write_record(&row.fields)?;
+        }
+        Ok(writer.flush()?)
+    }
+}

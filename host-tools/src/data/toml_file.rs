@@ -1,0 +1,75 @@
+//! TOML files whose problems are told by line and column.
+
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, Error, ValueDeserializer};
+
+use super::text::TextFile;
+use crate::error::HostError;
+
+/// A TOML file.
+#[derive(Debug, Clone)]
+pub struct TomlFile {
+    file: TextFile,
+}
+
+impl TomlFile {
+    /// A file whose text is already in memory.
+    pub fn new(file: TextFile) -> Self {
+        Self { file }
+    }
+
+    /// Reads a file; what it says is looked at by [`Self::section_or_whole`] and the like.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or is not UTF-8.
+    pub fn read(path: &Path) -> Result<Self, HostError> {
+        Ok(Self { file: TextFile::read(path)? })
+    }
+
+    /// The whole file as a `T`.
+    ///
+    /// # Errors
+    /// Where the file is not TOML, or not a `T`.
+    pub fn whole<T: DeserializeOwned>(&self) -> Result<T, HostError> {
+        toml::from_str(self.file.text()).map_err(|error| self.error(&error))
+    }
+
+    /// The table `[name]` as a `T`; without such a table, the whole file as a `T`.
+    ///
+    /// So a file that describes one thing may be written bare, and one that describes several has a table for each.
+    ///
+    /// # Errors
+    /// Where the file is not TOML, or the table not a `T`.
+    pub fn section_or_whole<T: DeserializeOwned>(&self, name: &str) -> Result<T, HostError> {
+        let document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
+        let section = document.get_ref().iter().find(|(key, _)| key.get_ref() == name);
+        let Some((_, section)) = section else { return self.whole() };
+        T::deserialize(ValueDeserializer::from(section.clone())).map_err(|error| match error.span() {
+            Some(_) => self.error(&error),
+            None => self.error_at(section, error.message()),
+        })
+    }
+
+    /// An error at a value of this file.
+    pub fn error_at<T>(&self, place: &Spanned<T>, message: impl Into<String>) -> HostError {
+        self.file.error_at(place.span().start, message)
+    }
+
+    /// An error at the character that starts `offset` bytes into the text.
+    pub fn error_at_offset(&self, offset: usize, message: impl Into<String>) -> HostError {
+        self.file.error_at(offset, message)
+    }
+
+    /// An error about the file as a whole, at its first character.
+    pub fn error_at_start(&self, message: impl Into<String>) -> HostError {
+        self.file.error_at(0, message)
+    }
+
+    fn error(&self, error: &Error) -> HostError {
+        let start = error.span().map_or(0, |span| span.start);
+        self.file.error_at(start, error.message().replace('\n', ", "))
+    }
+}
