@@ -1,0 +1,109 @@
+//! `kapvik run`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use kapvik_firmware::pipeline::SoilAnswer;
+use kapvik_firmware::wheel_state::SoilQuery;
+
+use crate::data::atomic_write::write_atomically;
+use crate::data::campaign::Campaign;
+use crate::error::HostError;
+use crate::flight_computer::{Computer, FlightComputer};
+use crate::identify::identify;
+use crate::process::workspace;
+use crate::qemu::{Binary, Image, LogView, MemoryUse};
+use crate::report::{self, Findings, FlightFacts, ModelCheck};
+use crate::setup;
+
+/// Options of `kapvik run`.
+#[derive(Args)]
+pub struct Arguments {
+    /// A wheel campaign NAME.csv, with NAME.toml beside it; without one, the measured figures that the project carries
+    #[arg(value_name = "CAMPAIGN.csv")]
+    campaign: Option<PathBuf>,
+    /// Where the flight library runs; both give the same bits
+    #[arg(long, value_enum, default_value_t = Computer::Qemu)]
+    on: Computer,
+    /// Where the report goes [default: target/kapvik-run/report.html]
+    #[arg(long, value_name = "OUT.html")]
+    report: Option<PathBuf>,
+    /// Where the picture of the estimates goes, if it is wanted by itself
+    #[arg(long, value_name = "OUT.svg")]
+    picture: Option<PathBuf>,
+}
+
+/// What the project carries: figures of a smooth wheel, read off published curves.
+const CARRIED: (&str, &str, &str) = (
+    "ding2011-smooth.csv",
+    include_str!("../../data/ding2011-smooth.csv"),
+    include_str!("../../data/ding2011-smooth.toml"),
+);
+
+/// Streams wheel states to the flight computer, and shows what it makes of them.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let campaign = match &arguments.campaign {
+        Some(path) => Campaign::read(path)?,
+        None => Campaign::parse(Path::new(CARRIED.0), CARRIED.1, CARRIED.2)?,
+    };
+    let findings = find(campaign, arguments.on)?;
+    println!("{}", report::terminal(&findings));
+    for line in report::flight_lines(&findings) {
+        println!("{line}");
+    }
+    let path = match &arguments.report {
+        Some(path) => path.clone(),
+        None => default_report()?,
+    };
+    write_text(&path, &report::page(&findings))?;
+    println!("\nreport: {}", path.display());
+    if let Some(path) = &arguments.picture {
+        let picture = report::picture(&findings)
+            .ok_or_else(|| HostError::Failed("no run has an estimate to make a picture of".to_owned()))?;
+        write_text(path, &picture)?;
+        println!("picture: {}", path.display());
+    }
+    Ok(())
+}
+
+fn find(campaign: Campaign, on: Computer) -> Result<Findings, HostError> {
+    let (mut computer, memory) = start(on)?;
+    let boot = computer.boot_report()?;
+    if !boot.self_test.passed() {
+        return Err(HostError::Failed(format!("the flight computer's self-test failed: {:?}", boot.self_test)));
+    }
+    let mut answers: Vec<SoilAnswer> = Vec::new();
+    let identification = identify(&campaign, &mut |query: &SoilQuery| {
+        let answer = computer.query(query)?;
+        answers.push(answer.clone());
+        Ok(answer)
+    })?;
+    let health = computer.health()?;
+    let fingerprint = report::fingerprint(&answers)
+        .map_err(|error| HostError::Failed(format!("the answers have no fingerprint: {error}")))?;
+    let flight = FlightFacts { computer: on, boot, health, memory, log: computer.log(), fingerprint };
+    Ok(Findings { model: ModelCheck::of(&campaign), campaign, identification, flight })
+}
+
+fn start(on: Computer) -> Result<(FlightComputer, Option<MemoryUse>), HostError> {
+    match on {
+        Computer::Host => Ok((FlightComputer::in_process()?, None)),
+        Computer::Qemu => {
+            let toolchain = setup::prepare(None)?;
+            let image = Image::build(&toolchain, Binary::Flight)?;
+            let memory = MemoryUse::of(&image)?;
+            Ok((FlightComputer::in_qemu(&toolchain, &image, LogView::Information)?, Some(memory)))
+        }
+    }
+}
+
+/// In the build folder, so that nothing appears where a person keeps files.
+fn default_report() -> Result<PathBuf, HostError> {
+    let folder = workspace().join("target/kapvik-run");
+    std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
+    Ok(folder.join("report.html"))
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), HostError> {
+    write_atomically(path, |out| out.write_all(text.as_bytes()).map_err(HostError::file(path)))
+}

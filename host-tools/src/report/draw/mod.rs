@@ -1,0 +1,16 @@
+//! Drawing in SVG: scales, axes and the few shapes that the pictures are made of.
+
+mod axis;
+mod scale;
+mod shapes;
+
+pub use axis::{bottom_axis, left_axis};
+pub use scale::{Pixels, Scale};
+pub use shapes::{Anchor, dot, line, path, ring, text, vertical_band};
+
+/// A length in pixels, short: a tenth is finer than a screen shows.
+pub fn px(length: f64) -> String {
+    let rounded = (length * 10.0).round() / 10.0;
+    // Minus zero reads like a mistake.
+    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}
