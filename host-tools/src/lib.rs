@@ -5,5 +5,6 @@ pub mod commands;
 pub mod data;
 pub mod error;
 pub mod identify;
+pub mod report;
 pub mod soil_catalogue;
 pub mod train;

@@ -1,3 +1,5 @@
-//! Measurements of speed, one subject a file.
+//! Measurements, one subject a file.
 
 pub mod forward;
+pub mod network;
+pub mod training;

@@ -1,10 +1,11 @@
 //! The commands, one file each.
 
-mod identify;
-mod train;
 mod bench;
 mod forward;
+mod identify;
+mod run;
 mod soils;
+mod train;
 
 use clap::Subcommand;
 
@@ -13,10 +14,15 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Speed and quality, side by side with the alternatives, in one run
+    #[command(subcommand)]
+    Bench(bench::Subject),
+    /// Soil from measured wheel states, through the flight image in QEMU, with a report to open in a browser
+    Run(run::Arguments),
     /// Cohesion, friction angle and shear modulus from a wheel campaign
     Identify(identify::Arguments),
-    /// Train the networks and write the frozen table.
-    Train(train::TrainArgs),
+    /// Train the networks and write the frozen table
+    Train(train::Arguments),
     /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
     ///
     /// Each row of IN.csv gives `slip` (-1 to 1) and one of `sinkage_m` and `load_n`; the columns `drawbar_pull_n`,
@@ -27,9 +33,6 @@ pub enum Command {
     Forward(forward::Arguments),
     /// The catalogue of soils of the literature, with sources
     Soils,
-    /// Speed, side by side with the alternatives, in one run
-    #[command(subcommand)]
-    Bench(bench::Subject),
 }
 
 impl Command {
@@ -39,11 +42,12 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Run(arguments) => run::execute(&arguments),
             Self::Identify(arguments) => identify::execute(&arguments),
-            Self::Train(args) => args.run(),
+            Self::Bench(subject) => subject.execute(),
+            Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
             Self::Soils => soils::execute(),
-            Self::Bench(subject) => subject.execute(),
         }
     }
 }

@@ -18,9 +18,9 @@ use crate::train::wheel_training::train_wheel;
 /// A candidate for the fifth input must lower the held-out loss by this much (nats) to be worth a sensor.
 const WORTH_A_SENSOR: f64 = 0.02;
 
-/// Train the networks and write the frozen table.
+/// Options of `kapvik train`.
 #[derive(Args)]
-pub struct TrainArgs {
+pub struct Arguments {
     /// The table; `firmware/weights/kapvik.table` is the one that the next build freezes in.
     #[arg(short, long, value_name = "WEIGHTS")]
     output: PathBuf,
@@ -35,44 +35,42 @@ pub struct TrainArgs {
     picture: Option<PathBuf>,
 }
 
-impl TrainArgs {
-    /// Trains, prints both comparisons, writes the table.
-    ///
-    /// # Errors
-    /// Where a file cannot be written.
-    pub fn run(&self) -> Result<(), HostError> {
-        let plan = if self.quick { Plan::quick(self.seed) } else { Plan::full(self.seed) };
-        let training = with_progress("scenes", |_| scenes(Design::Training, plan.scenes, plan.seed));
-        let held_out = with_progress("held-out scenes", |_| scenes(Design::Training, plan.held_out, !plan.seed));
-        let six = |scenes: &[Scene]| -> Vec<Scene> {
-            let six = scenes.iter().filter(|scene| scene.wheels.len() == scene.wheels.capacity());
-            six.take(plan.comparison_scenes).cloned().collect()
-        };
-        let (few, few_held_out) = (six(&training), six(&held_out));
-        let trainers = with_progress("trainers", |bar| compare_trainers(&plan, &few, &few_held_out, bar));
-        print_rows("Trainers (per-wheel network, sinkage as fifth input)", &trainers);
-        let inputs = with_progress("fifth inputs", |bar| compare_fifth_inputs(&plan, &few, &few_held_out, bar));
-        print_rows("Fifth inputs (per-wheel network, Levenberg–Marquardt)", &inputs);
-        judge_fifth_inputs(&inputs);
-        let fifth = FifthInput::None;
-        let (wheel, wheel_curve) =
-            with_progress("per-wheel network", |bar| train_wheel(&plan, fifth, &training, &held_out, bar));
-        let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
-        println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
-        let losses = [wheel_curve.last(), rover_curve.last()];
-        let file = table_file(wheel, rover, &Provenance { plan: &plan, fifth, losses });
-        std::fs::write(&self.output, file.to_text()).map_err(HostError::file(&self.output))?;
-        if let Some(picture) = &self.picture {
-            let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
-            let panels = [
-                ("Trainers", curves.as_slice()),
-                ("Per-wheel network", std::slice::from_ref(&wheel_curve)),
-                ("Rover network", std::slice::from_ref(&rover_curve)),
-            ];
-            std::fs::write(picture, draw(&panels)?).map_err(HostError::file(picture))?;
-        }
-        Ok(())
+/// Trains, prints both comparisons, writes the table.
+///
+/// # Errors
+/// Where a file cannot be written.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let plan = if arguments.quick { Plan::quick(arguments.seed) } else { Plan::full(arguments.seed) };
+    let training = with_progress("scenes", |_| scenes(Design::Training, plan.scenes, plan.seed));
+    let held_out = with_progress("held-out scenes", |_| scenes(Design::Training, plan.held_out, !plan.seed));
+    let six = |scenes: &[Scene]| -> Vec<Scene> {
+        let six = scenes.iter().filter(|scene| scene.wheels.len() == scene.wheels.capacity());
+        six.take(plan.comparison_scenes).cloned().collect()
+    };
+    let (few, few_held_out) = (six(&training), six(&held_out));
+    let trainers = with_progress("trainers", |bar| compare_trainers(&plan, &few, &few_held_out, bar));
+    print_rows("Trainers (per-wheel network, sinkage as fifth input)", &trainers);
+    let inputs = with_progress("fifth inputs", |bar| compare_fifth_inputs(&plan, &few, &few_held_out, bar));
+    print_rows("Fifth inputs (per-wheel network, Adam)", &inputs);
+    judge_fifth_inputs(&inputs);
+    let fifth = FifthInput::None;
+    let (wheel, wheel_curve) =
+        with_progress("per-wheel network", |bar| train_wheel(&plan, fifth, &training, &held_out, bar));
+    let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
+    println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
+    let losses = [wheel_curve.last(), rover_curve.last()];
+    let file = table_file(wheel, rover, &Provenance { plan: &plan, fifth, losses });
+    std::fs::write(&arguments.output, file.to_text()).map_err(HostError::file(&arguments.output))?;
+    if let Some(picture) = &arguments.picture {
+        let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
+        let panels = [
+            ("Trainers", curves.as_slice()),
+            ("Per-wheel network", std::slice::from_ref(&wheel_curve)),
+            ("Rover network", std::slice::from_ref(&rover_curve)),
+        ];
+        std::fs::write(picture, draw(&panels)?).map_err(HostError::file(picture))?;
     }
+    Ok(())
 }
 
 /// Says how much a fifth input would be worth. The flight side gives none, so that is what is shipped.

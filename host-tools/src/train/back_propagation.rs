@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::example::Example;
-use super::loss::gaussian;
+use super::loss::{Loss, gaussian};
 use super::trainable::{Trainable, flatten, parameter_count};
 
 /// Parts of a mini-batch that are summed by themselves, so that the result does not depend on the number of cores.
@@ -26,7 +26,7 @@ impl Momentum {
 
     /// One step on a mini-batch; returns its mean loss before the step.
     pub fn step<N: Trainable>(&mut self, network: &mut N, batch: &[Example<N::Input>], rate: f32) -> f32 {
-        let (loss, gradient) = mean_gradient(network, batch);
+        let (loss, gradient) = mean_gradient(network, batch, gaussian);
         let slopes = flatten(&gradient);
         let length = slopes.iter().map(|g| g * g).sum::<f32>().sqrt();
         let cut = (Self::LONGEST / length).min(1.0);
@@ -46,18 +46,24 @@ pub struct Adam {
     first: Vec<f32>,
     second: Vec<f32>,
     step: i32,
+    loss: Loss,
 }
 
 impl Adam {
-    /// For a network of that many numbers.
+    /// For a network of that shape, on the Gaussian likelihood.
     pub fn new<N: Trainable>(network: &N) -> Self {
+        Self::with_loss(network, gaussian)
+    }
+
+    /// For a network of that shape, on another loss.
+    pub fn with_loss<N: Trainable>(network: &N, loss: Loss) -> Self {
         let count = parameter_count(network);
-        Self { first: vec![0.0; count], second: vec![0.0; count], step: 0 }
+        Self { first: vec![0.0; count], second: vec![0.0; count], step: 0, loss }
     }
 
     /// One step on a mini-batch; returns its mean loss before the step.
     pub fn step<N: Trainable>(&mut self, network: &mut N, batch: &[Example<N::Input>], rate: f32) -> f32 {
-        let (loss, gradient) = mean_gradient(network, batch);
+        let (loss, gradient) = mean_gradient(network, batch, self.loss);
         self.step += 1;
         let (decay_1, decay_2) = (0.9_f32, 0.999_f32);
         let bias_1 = 1.0 - decay_1.powi(self.step);
@@ -76,7 +82,7 @@ impl Adam {
 }
 
 /// Mean loss and mean gradient over a batch.
-pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>]) -> (f32, N) {
+pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>], loss: Loss) -> (f32, N) {
     let size = batch.len().div_ceil(PARTS).max(1);
     let parts: Vec<(f32, N)> = batch
         .par_chunks(size)
@@ -85,30 +91,35 @@ pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>]) -> 
             let mut total = 0.0;
             for example in part {
                 let run = network.run(&example.input);
-                let (loss, slope) = gaussian(N::outputs(&run), &example.target);
+                let (error, slope) = loss(N::outputs(&run), &example.target);
                 network.backward(&example.input, &run, &slope, &mut gradient);
-                total += loss;
+                total += error;
             }
             (total, gradient)
         })
         .collect();
     let share = 1.0 / batch.len() as f32;
     let mut sum = N::zero();
-    let mut loss = 0.0;
+    let mut mean = 0.0;
     for (part_loss, part) in &parts {
         let slopes = flatten(part);
         let mut next = slopes.iter();
         sum.for_each_mut(&mut |g| *g += share * next.next().copied().unwrap_or(0.0));
-        loss += share * part_loss;
+        mean += share * part_loss;
     }
-    (loss, sum)
+    (mean, sum)
 }
 
-/// Mean loss over a set.
+/// Mean negative log-likelihood over a set.
 pub fn mean_loss<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> f64 {
+    mean_of(network, set, gaussian)
+}
+
+/// Mean of any loss over a set.
+pub fn mean_of<N: Trainable>(network: &N, set: &[Example<N::Input>], loss: Loss) -> f64 {
     let loss = |example: &Example<N::Input>| {
         let run = network.run(&example.input);
-        f64::from(gaussian(N::outputs(&run), &example.target).0)
+        f64::from(loss(N::outputs(&run), &example.target).0)
     };
     let parts: Vec<f64> =
         set.par_chunks(set.len().div_ceil(PARTS).max(1)).map(|part| part.iter().map(loss).sum()).collect();

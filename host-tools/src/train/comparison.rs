@@ -98,7 +98,7 @@ pub fn compare_fifth_inputs(plan: &Plan, scenes: &[Scene], held_out: &[Scene], p
     progress.set_length(FifthInput::ALL.len() as u64);
     let rows = FifthInput::ALL.into_iter().map(|fifth| {
         progress.set_message(fifth.name());
-        let row = run(plan, &Sets::new(plan, scenes, held_out, fifth), Trainer::LevenbergMarquardt, fifth.name());
+        let row = run(plan, &Sets::new(plan, scenes, held_out, fifth), Trainer::Adam, fifth.name());
         progress.inc(1);
         row
     });
@@ -166,7 +166,7 @@ fn by_batches(
     mut step: impl FnMut(&mut WheelNetwork, &[Example<WheelInput>], f32),
 ) {
     let mut examples = course.sets.training.clone();
-    let epochs = 8 * plan.comparison_steps;
+    let epochs = 10 * plan.comparison_steps;
     for epoch in 0..epochs {
         shuffle(&mut examples, course.sets.order + 1 + epoch as u64);
         let share = epoch as f32 / epochs as f32;

@@ -7,7 +7,23 @@ use kapvik_firmware::network::{OUTPUTS, TARGETS};
 /// Bounds of a predicted log-variance on the scale of the prior.
 pub const LOG_VARIANCE: (f32, f32) = (-14.0, 2.0);
 
-/// Loss of one example, and its slope against each output.
+/// A loss: from outputs and target to the loss of one example and its slope against each output.
+pub type Loss = fn(&[f32; OUTPUTS], &[f32; TARGETS]) -> (f32, [f32; OUTPUTS]);
+
+/// Mean square error of the means alone, for comparison with libraries that know no other loss.
+pub fn mean_square(outputs: &[f32; OUTPUTS], target: &[f32; TARGETS]) -> (f32, [f32; OUTPUTS]) {
+    let share = 1.0 / TARGETS as f32;
+    let mut loss = 0.0;
+    let mut slope = [0.0; OUTPUTS];
+    for k in 0..TARGETS {
+        let error = outputs[k] - target[k];
+        loss += share * error * error;
+        slope[k] = 2.0 * share * error;
+    }
+    (loss, slope)
+}
+
+/// Negative log-likelihood of one example, and its slope against each output.
 pub fn gaussian(outputs: &[f32; OUTPUTS], target: &[f32; TARGETS]) -> (f32, [f32; OUTPUTS]) {
     let mut loss = 0.0;
     let mut slope = [0.0; OUTPUTS];

@@ -28,8 +28,8 @@ impl Plan {
             held_out: 60_000,
             rover_epochs: 60,
             wheel_epochs: 40,
-            comparison_scenes: 30_000,
-            comparison_steps: 24,
+            comparison_scenes: 16_000,
+            comparison_steps: 12,
         }
     }
 
