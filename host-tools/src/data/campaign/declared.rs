@@ -1,8 +1,10 @@
 //! `[declared]`: the effects that the model is told of.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
-use serde::Deserialize;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::error::HostError;
@@ -36,13 +38,10 @@ pub const EFFECT_IDS: [&str; 22] = [
 ];
 
 /// What stands in `[declared]`: `effects = […]`, and a table of parameters for an effect.
-pub(super) type DeclaredTable = BTreeMap<Spanned<String>, Spanned<Entry>>;
-
-#[derive(Debug, Deserialize)]
-#[serde(untagged, expecting = "expected a list of effects, or a table of an effect's parameters")]
-pub(super) enum Entry {
-    Effects(Vec<Spanned<String>>),
-    Parameters(BTreeMap<String, f64>),
+#[derive(Debug, Default)]
+pub(super) struct DeclaredTable {
+    effects: Vec<Spanned<String>>,
+    parameters: Vec<(Spanned<String>, BTreeMap<String, f64>)>,
 }
 
 /// The effects that the model is told of, in the order of the file; none is the seed's equations 1–11 exactly.
@@ -55,31 +54,19 @@ pub struct Declared {
 impl Declared {
     /// # Errors
     /// At an id that there is not, or parameters of an effect that is not in the list.
-    pub(super) fn read(mut table: DeclaredTable, file: &TomlFile) -> Result<Self, HostError> {
-        let list = table.iter().find(|(key, _)| key.get_ref() == "effects").map(|(key, _)| key.clone());
+    pub(super) fn read(table: DeclaredTable, file: &TomlFile) -> Result<Self, HostError> {
         let mut declared = Self::default();
-        if let Some(entry) = list.and_then(|key| table.remove(&key)) {
-            let Entry::Effects(ids) = entry.get_ref() else {
-                return Err(file.error_at(&entry, "effects: expected a list, [] for the seed's equations"));
-            };
-            for id in ids {
-                check_id(id, file)?;
-                declared.effects.push((id.get_ref().clone(), BTreeMap::new()));
-            }
-        }
-        for (id, entry) in table {
+        for id in table.effects {
             check_id(&id, file)?;
-            let effect = declared.effects.iter_mut().find(|(name, _)| name == id.get_ref());
-            match (effect, entry.into_inner()) {
-                (Some((_, parameters)), Entry::Parameters(given)) => *parameters = given,
-                (Some(_), Entry::Effects(_)) => {
-                    return Err(file.error_at(&id, "expected a table of the effect's parameters"));
-                }
-                (None, _) => {
-                    let message = format!("parameters of {}, which `effects` does not list", id.get_ref());
-                    return Err(file.error_at(&id, message));
-                }
-            }
+            declared.effects.push((id.into_inner(), BTreeMap::new()));
+        }
+        for (id, given) in table.parameters {
+            check_id(&id, file)?;
+            let Some((_, parameters)) = declared.effects.iter_mut().find(|(name, _)| name == id.get_ref()) else {
+                let message = format!("parameters of {}, which `effects` does not list", id.get_ref());
+                return Err(file.error_at(&id, message));
+            };
+            *parameters = given;
         }
         Ok(declared)
     }
@@ -95,4 +82,33 @@ fn check_id(id: &Spanned<String>, file: &TomlFile) -> Result<(), HostError> {
         return Ok(());
     }
     Err(file.error_at(id, format!("no effect `{}`: expected one of {}", id.get_ref(), EFFECT_IDS.join(", "))))
+}
+
+impl<'de> Deserialize<'de> for DeclaredTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(TableVisitor)
+    }
+}
+
+/// By hand, because what a value must be depends on its key.
+struct TableVisitor;
+
+impl<'de> Visitor<'de> for TableVisitor {
+    type Value = DeclaredTable;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a table with `effects = […]`, and a table of parameters for an effect")
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<DeclaredTable, M::Error> {
+        let mut table = DeclaredTable::default();
+        while let Some(key) = map.next_key::<Spanned<String>>()? {
+            if key.get_ref() == "effects" {
+                table.effects = map.next_value()?;
+            } else {
+                table.parameters.push((key, map.next_value()?));
+            }
+        }
+        Ok(table)
+    }
 }
