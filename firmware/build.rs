@@ -23,14 +23,30 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=src/network");
     println!("cargo::rerun-if-changed=src/math");
-    if let Err(message) = freeze() {
+    println!("cargo::rerun-if-changed=../memory.x");
+    if let Err(message) = manifest_folder().and_then(|folder| link_search(&folder).and_then(|()| freeze(&folder))) {
         println!("cargo::error={message}");
         exit(1);
     }
 }
 
-fn freeze() -> Result<(), String> {
-    let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR").map_err(|error| error.to_string())?);
+fn manifest_folder() -> Result<PathBuf, String> {
+    env::var("CARGO_MANIFEST_DIR").map(PathBuf::from).map_err(|error| error.to_string())
+}
+
+/// Lays the image out as the workspace's `memory.x` says. Here and not in the configuration of cargo, where the
+/// environment variable `RUSTFLAGS` would silently replace it.
+fn link_search(here: &Path) -> Result<(), String> {
+    let workspace = here.parent().ok_or("the package is not inside the workspace")?;
+    println!("cargo::rustc-link-search={}", workspace.display());
+    if env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none") {
+        println!("cargo::rustc-link-arg-bins=-Tlink.x");
+        println!("cargo::rustc-link-arg-bins=-Tdefmt.x");
+    }
+    Ok(())
+}
+
+fn freeze(here: &Path) -> Result<(), String> {
     let (mut wheel, mut rover) = (WheelTable::ZERO, RoverTable::ZERO);
     let chosen = env::var(OVERRIDE).ok();
     let trained = chosen.as_deref() != Some("none");

@@ -3,12 +3,15 @@
 //! `no_std`, no allocator, no panic path. The host tools run this same library, and get the same bits.
 #![cfg_attr(not(test), no_std)]
 
+pub mod fingerprint;
 pub mod frozen;
+pub mod link;
 pub mod math;
 pub mod network;
 pub mod pipeline;
 pub mod scalar;
 pub mod self_test;
 pub mod soil;
+pub mod telemetry;
 pub mod terramechanics;
 pub mod wheel_state;

@@ -1,29 +1,18 @@
 //! Wheel states in, soil out: the one function that a board calls.
 
 use heapless::Vec;
-use serde::{Deserialize, Serialize};
 
 use crate::frozen;
 use crate::network::WHEEL_INPUTS;
-use crate::soil::{Refusal, SoilEstimate, WheelFeatures, context_features, wheel_features};
+use crate::soil::{QueryAnswer, Refusal, SoilEstimate, context_features, wheel_features};
 use crate::terramechanics::Wheel;
-use crate::wheel_state::{SoilQuery, WHEELS, WheelNoise, WheelState};
-
-/// What is estimated from a [`SoilQuery`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SoilAnswer {
-    /// The soil under each wheel by itself, in the order of the query; the per-wheel network, which needs no sinkage.
-    pub wheels: Vec<Result<SoilEstimate, Refusal>, WHEELS>,
-    /// The soil under all wheels together; the rover network, which uses sinkage where every wheel has it.
-    pub rover: Result<SoilEstimate, Refusal>,
-}
+use crate::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
 /// Estimates the soil. Every number that comes out is finite, whatever comes in.
-pub fn answer(query: &SoilQuery) -> SoilAnswer {
-    SoilAnswer {
-        wheels: query.wheels.iter().map(|state| estimate_wheel(query, state)).collect(),
-        rover: estimate_rover(query),
-    }
+pub fn answer(query: &SoilQuery) -> QueryAnswer {
+    let mut answer = QueryAnswer { wheels: Vec::new(), rover: estimate_rover(query) };
+    query.wheels.iter().for_each(|state| answer.push(estimate_wheel(query, state)));
+    answer
 }
 
 /// The soil under one wheel.
@@ -51,11 +40,10 @@ pub fn estimate_rover(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
         return Err(Refusal::OutOfRange);
     }
     let context = context_features(&query.wheel, &query.noise, query.mean_load_n(), sinkage);
-    let wheels: Vec<WheelFeatures, WHEELS> =
-        query.wheels.iter().map(|state| wheel_features(&query.wheel, state, sinkage)).collect();
+    let features = query.wheels.iter().map(|state| wheel_features(&query.wheel, state, sinkage));
     let table = &frozen::ROVER;
-    let posterior = table.posterior.read(&table.outputs(&context, &wheels));
-    let inside = table.context.contains(&context) && wheels.iter().all(|features| table.wheel.contains(features));
+    let posterior = table.posterior.read(&table.outputs(&context, features.clone()));
+    let inside = table.context.contains(&context) && features.into_iter().all(|wheel| table.wheel.contains(&wheel));
     Ok(SoilEstimate::new(&posterior, inside))
 }
 

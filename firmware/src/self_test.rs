@@ -7,6 +7,7 @@ use crate::network::{GOLDEN_PAIRS, RoverTable, WheelTable, checksum};
 
 /// What the test found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SelfTestReport {
     /// A trained table is there; a build for training the first table of a new shape has none.
     pub trained: bool,

@@ -57,17 +57,15 @@ impl RoverNetwork {
         gradient: f32,
     ) -> RoverActivations {
         let shared = self.context.apply(context);
-        let wheels: Vec<_, ROVER_WHEELS> = wheels
-            .into_iter()
-            .take(ROVER_WHEELS)
-            .map(|features| {
-                let hidden = activate(self.wheel.add_to(shared, &features), gradient);
-                (hidden, activate(self.embedding.apply(&hidden), gradient))
-            })
-            .collect();
-        let pool = pool(wheels.iter().map(|(_, embedded)| embedded), context);
+        let mut activations = Vec::<_, ROVER_WHEELS>::new();
+        for features in wheels.into_iter().take(ROVER_WHEELS) {
+            let hidden = activate(self.wheel.add_to(shared, &features), gradient);
+            // Not `collect`: heapless panics where it overflows, which the bound above rules out.
+            let _ = activations.push((hidden, activate(self.embedding.apply(&hidden), gradient)));
+        }
+        let pool = pool(activations.iter().map(|(_, embedded)| embedded), context);
         let head = activate(self.head.apply(&pool), gradient);
-        RoverActivations { wheels, pool, head, output: self.output.apply(&head) }
+        RoverActivations { wheels: activations, pool, head, output: self.output.apply(&head) }
     }
 }
 

@@ -72,18 +72,19 @@ impl RoverTable {
     };
 
     /// The network's outputs for inputs in their own units.
-    pub fn outputs<'a>(
+    pub fn outputs(
         &self,
         context: &[f32; CONTEXT_FEATURES],
-        wheels: impl IntoIterator<Item = &'a [f32; WHEEL_FEATURES]>,
+        wheels: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
     ) -> [f32; OUTPUTS] {
-        let wheels = wheels.into_iter().map(|features| self.wheel.apply(features));
+        let wheels = wheels.into_iter().map(|features| self.wheel.apply(&features));
         self.network.run(&self.context.apply(context), wheels, self.gradient).output
     }
 
     /// Golden pairs that the network reproduces bit for bit.
     pub fn golden_reproduced(&self) -> usize {
-        let outputs = |pair: &RoverGolden| self.outputs(&pair.context, pair.wheels.iter().take(pair.count as usize));
+        let outputs =
+            |pair: &RoverGolden| self.outputs(&pair.context, pair.wheels.iter().copied().take(pair.count as usize));
         self.golden.iter().filter(|pair| same_bits(&outputs(pair), &pair.output)).count()
     }
 }

@@ -35,6 +35,7 @@ pub struct SoilEstimate {
 
 /// Why there is no estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// The query holds no wheel.
     NoWheels,

@@ -14,7 +14,7 @@ use crate::train::score::{Score, score};
 /// The posterior of ln c, φ, ln K that the frozen rover network gives for a query.
 pub fn rover_posterior(query: &SoilQuery) -> Posterior {
     let features = rover_features(query);
-    frozen::ROVER.posterior.read(&frozen::ROVER.outputs(&features.context, &features.wheels))
+    frozen::ROVER.posterior.read(&frozen::ROVER.outputs(&features.context, features.wheels.iter().copied()))
 }
 
 /// The cases that are reported, by name.

@@ -1,5 +1,7 @@
 //! `kapvik bench`: how good and how fast we are, beside the alternatives.
 
+mod target;
+
 use clap::{Args, Subcommand};
 
 use crate::bench::{forward, network, training};
@@ -12,6 +14,8 @@ pub enum Subject {
     Forward,
     /// Errors and coverage of the frozen rover network on unseen cases
     Network(Cases),
+    /// Instructions and stack of the flight functions, memory of the flight image
+    Target,
     /// Training time to the same validation loss, beside scikit-learn and PyTorch
     Training,
 }
@@ -36,6 +40,7 @@ impl Subject {
         match self {
             Self::Forward => forward::print(),
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),
+            Self::Target => target::execute()?,
             Self::Training => training::print()?,
         }
         Ok(())

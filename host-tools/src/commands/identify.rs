@@ -7,6 +7,7 @@ use clap::Args;
 use crate::data::atomic_write::write_atomically;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
+use crate::flight_computer::FlightComputer;
 use crate::identify::{Document, Method, identify};
 
 /// Options of `kapvik identify`.
@@ -26,7 +27,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let campaign = Campaign::read(&arguments.campaign)?;
     let Method::Network = arguments.method;
-    let identification = identify(&campaign, &mut |query| Ok(kapvik_firmware::pipeline::answer(query)))?;
+    let mut computer = FlightComputer::in_process()?;
+    let identification = identify(&campaign, &mut |query| computer.query(query))?;
     write_json(&arguments.json, &Document::of(&campaign, &identification))
 }
 

@@ -4,7 +4,9 @@ mod bench;
 mod forward;
 mod identify;
 mod run;
+mod setup;
 mod soils;
+mod test;
 mod train;
 
 use clap::Subcommand;
@@ -14,11 +16,11 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Soil from measured wheel states, through the flight image in QEMU, with a report to open in a browser
+    Run(run::Arguments),
     /// Speed and quality, side by side with the alternatives, in one run
     #[command(subcommand)]
     Bench(bench::Subject),
-    /// Soil from measured wheel states, through the flight image in QEMU, with a report to open in a browser
-    Run(run::Arguments),
     /// Cohesion, friction angle and shear modulus from a wheel campaign
     Identify(identify::Arguments),
     /// Train the networks and write the frozen table
@@ -33,6 +35,10 @@ pub enum Command {
     Forward(forward::Arguments),
     /// The catalogue of soils of the literature, with sources
     Soils,
+    /// Find or install what the flight image is built and run with: the Arm target and QEMU
+    Setup(setup::Arguments),
+    /// Every test: host, firmware in QEMU, documentation
+    Test(test::Arguments),
 }
 
 impl Command {
@@ -48,6 +54,8 @@ impl Command {
             Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
             Self::Soils => soils::execute(),
+            Self::Setup(arguments) => setup::execute(&arguments),
+            Self::Test(arguments) => test::execute(&arguments),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use kapvik_firmware::pipeline::SoilAnswer;
+use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::data::atomic_write::write_atomically;
@@ -72,7 +72,7 @@ fn find(campaign: Campaign, on: Computer) -> Result<Findings, HostError> {
     if !boot.self_test.passed() {
         return Err(HostError::Failed(format!("the flight computer's self-test failed: {:?}", boot.self_test)));
     }
-    let mut answers: Vec<SoilAnswer> = Vec::new();
+    let mut answers: Vec<QueryAnswer> = Vec::new();
     let identification = identify(&campaign, &mut |query: &SoilQuery| {
         let answer = computer.query(query)?;
         answers.push(answer.clone());

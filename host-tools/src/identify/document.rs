@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kapvik_firmware::pipeline::SoilAnswer;
-use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
+use kapvik_firmware::soil::{ParameterEstimate, QueryAnswer, SoilEstimate};
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
@@ -128,7 +127,7 @@ fn noise(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> {
 impl RunDocument {
     fn of(run: &IdentifiedRun) -> Self {
         let question = run.question.as_ref();
-        let estimate = |answer: &SoilAnswer| answer.rover.as_ref().map(SoilDocument::of).unwrap_or_default();
+        let estimate = |answer: &QueryAnswer| answer.rover.as_ref().map(SoilDocument::of).unwrap_or_default();
         Self {
             run: run.run.clone(),
             refused: run.refused(),

@@ -11,7 +11,7 @@ mod network;
 mod sensor_noise;
 
 use clap::ValueEnum;
-use kapvik_firmware::pipeline::SoilAnswer;
+use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
@@ -28,4 +28,4 @@ pub enum Method {
 }
 
 /// What answers a query: the flight library in this process, or the flight computer over its link.
-pub type Answer<'a> = dyn FnMut(&SoilQuery) -> Result<SoilAnswer, HostError> + 'a;
+pub type Answer<'a> = dyn FnMut(&SoilQuery) -> Result<QueryAnswer, HostError> + 'a;

@@ -1,7 +1,6 @@
 //! Identification by the networks that fly.
 
-use kapvik_firmware::pipeline::SoilAnswer;
-use kapvik_firmware::soil::{Refusal, SoilEstimate};
+use kapvik_firmware::soil::{QueryAnswer, Refusal, SoilEstimate};
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
@@ -48,9 +47,9 @@ pub struct Question {
     /// What was sent: with sinkage where every wheel has one.
     pub query: SoilQuery,
     /// What came back.
-    pub answer: SoilAnswer,
+    pub answer: QueryAnswer,
     /// What came back when the same was sent without sinkage; none where there was no sinkage to leave out.
-    pub answer_without_sinkage: Option<SoilAnswer>,
+    pub answer_without_sinkage: Option<QueryAnswer>,
     /// See [`condition_number`]; at the estimate of the rover network.
     pub condition_number: Option<f64>,
 }

@@ -1,7 +1,6 @@
 //! What a run found.
 
-use kapvik_firmware::pipeline::SoilAnswer;
-use kapvik_firmware::soil::{Refusal, SoilEstimate};
+use kapvik_firmware::soil::{QueryAnswer, Refusal, SoilEstimate};
 
 use crate::data::campaign::Campaign;
 use crate::identify::{Identification, IdentifiedRun, Question, refusal_in_words};
@@ -65,7 +64,7 @@ impl Findings {
 fn rover_rows(question: &Question) -> Vec<EstimateRow> {
     let wheels = question.states.len();
     let together = if wheels == 1 { "1 wheel".to_owned() } else { format!("{wheels} together") };
-    let row = |label: String, kind, answer: &SoilAnswer| EstimateRow { label, kind, estimate: worded(&answer.rover) };
+    let row = |label: String, kind, answer: &QueryAnswer| EstimateRow { label, kind, estimate: worded(&answer.rover) };
     match &question.answer_without_sinkage {
         Some(blind) => vec![
             row(together.clone(), RowKind::RoverWithoutSinkage, blind),
@@ -83,7 +82,7 @@ fn worded(answer: &Result<SoilEstimate, Refusal>) -> Result<SoilEstimate, &'stat
 ///
 /// # Errors
 /// Never in practice: an answer always fits its message.
-pub fn fingerprint(answers: &[SoilAnswer]) -> Result<String, postcard::Error> {
+pub fn fingerprint(answers: &[QueryAnswer]) -> Result<String, postcard::Error> {
     let bytes = postcard::to_stdvec(answers)?;
     Ok(format!("{:08x}", kapvik_firmware::link::CHECKSUM.checksum(&bytes)))
 }

@@ -93,7 +93,7 @@ fn residuals(model: &ModelCheck) -> Table {
 
 fn plain_table() -> Table {
     let mut table = Table::new();
-    table.load_preset(NOTHING);
+    table.load_style(NOTHING);
     table
 }
 

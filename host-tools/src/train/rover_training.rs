@@ -83,7 +83,7 @@ fn table(
         pair.count = input.wheels.len().min(ROVER_WHEELS) as f32;
         pair.context = input.context;
         pair.wheels.iter_mut().zip(&input.wheels).for_each(|(place, features)| *place = *features);
-        pair.output = table.outputs(&input.context, &input.wheels);
+        pair.output = table.outputs(&input.context, input.wheels.iter().copied());
         pair
     });
     let pairs: Vec<RoverGolden> = pairs.collect();

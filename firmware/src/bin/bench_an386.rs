@@ -1,0 +1,30 @@
+//! What flight functions cost on the target, and the fingerprints of their results: run under `-icount shift=0`.
+#![no_std]
+#![no_main]
+
+use kapvik_board_an386::{bench::Bench, entry, exit};
+use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
+use kapvik_firmware::math;
+use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
+
+const WHEEL: Wheel<f32> = Wheel { radius_m: 0.075, width_m: 0.07 };
+
+#[entry]
+fn main() -> ! {
+    let bench = Bench::start();
+    let [firm, ..] = SOILS;
+    // A line each: name, the range of the input, the function.
+    bench.kernel("sin_cos", -3.1, 3.1, math::sin_cos);
+    bench.kernel("acos", -1.0, 1.0, math::acos);
+    bench.kernel("exp", -20.0, 5.0, math::exp);
+    bench.kernel("ln", 1e-3, 1e3, math::ln);
+    bench.kernel("powf", 0.0, 1.0, |x| math::powf(x, 1.1));
+    bench.kernel("sqrt", 0.0, 1e3, math::sqrt);
+    bench.kernel("tanh", -4.0, 4.0, math::tanh);
+    bench.kernel("wheel_forces", 0.0, 0.9, |slip| wheel_forces(&WHEEL, &firm, slip, 0.015));
+    bench.kernel("sinkage_for_load", 10.0, 90.0, |load_n| sinkage_for_load(&WHEEL, &firm, 0.2, load_n));
+    for print in &FINGERPRINTS {
+        bench.fingerprint(print.name, (print.compute)());
+    }
+    exit(0)
+}

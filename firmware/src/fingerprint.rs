@@ -1,0 +1,119 @@
+//! Fingerprints of the arithmetic: a checksum over the output bits of a fixed sweep. Two machines that give the same
+//! fingerprints compute the same bits.
+//!
+//! A result that is not a number counts as one and the same, because the hardware chooses sign and payload of a NaN.
+
+use crate::link::CHECKSUM;
+use crate::math;
+use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+
+/// A function's name and the fingerprint of its outputs.
+pub struct Fingerprint {
+    /// What is fingerprinted.
+    pub name: &'static str,
+    /// Runs the sweep.
+    pub compute: fn() -> u32,
+}
+
+/// Everything that flight computes with, from the elementary functions up.
+pub const FINGERPRINTS: [Fingerprint; 9] = [
+    Fingerprint {
+        name: "sin_cos",
+        compute: || sweep(|x, digest| digest.add_all([math::sin_cos(x).0, math::sin_cos(x).1])),
+    },
+    Fingerprint { name: "acos", compute: || sweep(|x, digest| digest.add(math::acos(x))) },
+    Fingerprint { name: "exp", compute: || sweep(|x, digest| digest.add(math::exp(x))) },
+    Fingerprint { name: "ln", compute: || sweep(|x, digest| digest.add(math::ln(x))) },
+    Fingerprint { name: "powf", compute: || sweep(powers) },
+    Fingerprint { name: "sqrt", compute: || sweep(|x, digest| digest.add(math::sqrt(x))) },
+    Fingerprint { name: "tanh", compute: || sweep(|x, digest| digest.add(math::tanh(x))) },
+    Fingerprint { name: "wheel_forces", compute: || grid(forces) },
+    Fingerprint { name: "sinkage_for_load", compute: || grid(sinkage) },
+];
+
+/// The checksum of a row of numbers.
+struct Digest(crc::Digest<'static, u32>);
+
+impl Digest {
+    fn add(&mut self, value: f32) {
+        let value = if value.is_nan() { f32::NAN } else { value };
+        self.0.update(&value.to_bits().to_le_bytes());
+    }
+
+    fn add_all<const N: usize>(&mut self, values: [f32; N]) {
+        values.into_iter().for_each(|value| self.add(value));
+    }
+}
+
+/// The distance between the bit patterns that a sweep tries. Odd, so that the low bits vary as well.
+const STRIDE: usize = 65_537;
+
+/// Calls `function` with bit patterns spread over all of `f32`, both signs, infinities and NaNs included.
+fn sweep(function: fn(f32, &mut Digest)) -> u32 {
+    static START: crc::Crc<u32> = CHECKSUM;
+    let mut digest = Digest(START.digest());
+    for bits in (0..=u32::MAX).step_by(STRIDE) {
+        function(f32::from_bits(bits), &mut digest);
+    }
+    digest.0.finalize()
+}
+
+/// The exponents that the equations raise to.
+fn powers(base: f32, digest: &mut Digest) {
+    digest.add_all([0.2, 0.5, 1.0, 1.1, 1.7].map(|exponent| math::powf(base, exponent)));
+}
+
+/// A wheel on three soils, braking to spinning, barely sunk to deep.
+fn grid(function: fn(&Wheel<f32>, &Soil<f32>, f32, f32, &mut Digest)) -> u32 {
+    static START: crc::Crc<u32> = CHECKSUM;
+    let mut digest = Digest(START.digest());
+    let wheel = Wheel { radius_m: 0.075, width_m: 0.07 };
+    for soil in &SOILS {
+        for slip in [-0.6, -0.2, 0.0, 0.05, 0.2, 0.4, 0.7, 0.95] {
+            for depth in [0.01, 0.05, 0.15, 0.3, 0.6] {
+                function(&wheel, soil, slip, depth, &mut digest);
+            }
+        }
+    }
+    digest.0.finalize()
+}
+
+fn forces(wheel: &Wheel<f32>, soil: &Soil<f32>, slip: f32, depth: f32, digest: &mut Digest) {
+    match wheel_forces(wheel, soil, slip, depth * wheel.radius_m) {
+        Ok(forces) => digest.add_all([forces.drawbar_pull_n, forces.load_n, forces.torque_nm]),
+        Err(_) => digest.add(f32::NAN),
+    }
+}
+
+/// Loads from 2 N to 120 N for the depths of the grid.
+fn sinkage(wheel: &Wheel<f32>, soil: &Soil<f32>, slip: f32, depth: f32, digest: &mut Digest) {
+    digest.add(sinkage_for_load(wheel, soil, slip, 200.0 * depth).unwrap_or(f32::NAN));
+}
+
+/// Firm, loose and cohesive: they differ in exponent, in every modulus and in whether the soil rises behind the wheel.
+pub const SOILS: [Soil<f32>; 3] = [
+    soil(1.1, 15_600.0, 2_407_400.0, 250.0, 0.557, 0.0),
+    soil(0.7, 9_900.0, 152_000.0, 100.0, 0.48, 0.2),
+    soil(0.5, 13_190.0, 692_150.0, 4_140.0, 0.23, 0.5),
+];
+
+const fn soil(
+    n: f32,
+    k_c: f32,
+    k_phi: f32,
+    cohesion_pa: f32,
+    friction_angle_rad: f32,
+    rebound_ratio: f32,
+) -> Soil<f32> {
+    Soil {
+        sinkage_exponent: n,
+        cohesive_modulus: k_c,
+        frictional_modulus: k_phi,
+        cohesion_pa,
+        friction_angle_rad,
+        shear_modulus_m: 0.0114,
+        peak_stress_c1: 0.18,
+        peak_stress_c2: 0.32,
+        rebound_ratio,
+    }
+}

@@ -1,0 +1,240 @@
+//! The link, from bytes to messages and back.
+
+use std::collections::VecDeque;
+use std::convert::Infallible;
+
+use embedded_io::{ErrorType, Read, ReadReady, Write};
+use kapvik_firmware::link::{
+    CHECKSUM, FrameBuffer, FrameReceiver, Header, Incoming, Link, LinkError, LinkHealth, NO_SEQUENCE, PAYLOAD_CAPACITY,
+    Reply, Request, next_sequence,
+};
+use kapvik_firmware::soil::{ParameterEstimate, QueryAnswer, Refusal, SoilEstimate};
+use kapvik_firmware::terramechanics::Wheel;
+use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
+use proptest::prelude::*;
+
+/// `Hello` with number 1: version 1, number 1, variant 0; their CRC-32 by zlib, 0xe7988264; byte stuffing by hand.
+const HELLO: [u8; 9] = [0x03, 0x01, 0x01, 0x05, 0x64, 0x82, 0x98, 0xe7, 0x00];
+
+/// A serial port made of memory.
+#[derive(Default)]
+struct Port {
+    input: VecDeque<u8>,
+    output: Vec<u8>,
+}
+
+impl ErrorType for Port {
+    type Error = Infallible;
+}
+impl ReadReady for Port {
+    fn read_ready(&mut self) -> Result<bool, Infallible> {
+        Ok(!self.input.is_empty())
+    }
+}
+impl Read for Port {
+    fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Infallible> {
+        Ok(buffer.iter_mut().map_while(|slot| self.input.pop_front().map(|byte| *slot = byte)).count())
+    }
+}
+impl Write for Port {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Infallible> {
+        self.output.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+    fn flush(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+/// What a link makes of these bytes: each frame that arrived, and the counters.
+fn receive(bytes: &[u8]) -> (Vec<Incoming>, LinkHealth) {
+    let mut link = Link::new(Port::default());
+    link.port().input.extend(bytes);
+    let mut frames = Vec::new();
+    while !link.port().input.is_empty() {
+        frames.extend(link.receive());
+    }
+    (frames, link.health())
+}
+
+fn reasons(bytes: &[u8]) -> Vec<Option<LinkError>> {
+    receive(bytes).0.into_iter().map(|incoming| incoming.request.err()).collect()
+}
+
+fn encode(sequence: u16, request: &Request) -> Vec<u8> {
+    FrameBuffer::new().encode(Header::new(sequence), request).expect("a request fits").to_vec()
+}
+
+/// A frame with a right checksum around any content.
+fn frame_around(content: &[u8]) -> Vec<u8> {
+    let mut payload = content.to_vec();
+    payload.extend(CHECKSUM.checksum(content).to_le_bytes());
+    let mut wire = vec![0; payload.len() + payload.len() / 254 + 1];
+    let length = cobs::encode(&payload, &mut wire);
+    wire.truncate(length);
+    wire.push(0);
+    wire
+}
+
+#[test]
+fn checksum_is_the_published_one() {
+    // The check value that catalogues of CRCs give for CRC-32/ISO-HDLC.
+    assert_eq!(CHECKSUM.checksum(b"123456789"), 0xcbf4_3926);
+}
+
+#[test]
+fn the_wire_format_is_as_documented() {
+    assert_eq!(encode(1, &Request::Hello), HELLO);
+    assert_eq!(receive(&HELLO).0, [Incoming { sequence: 1, request: Ok(Request::Hello) }]);
+}
+
+#[test]
+fn each_damage_has_its_reason() {
+    let whole = encode(7, &Request::Health);
+    let mut wrong_checksum = whole.clone();
+    wrong_checksum[5] ^= 0x40;
+    let cut: Vec<u8> = whole[..whole.len() - 3].iter().copied().chain([0]).collect();
+    let oversized: Vec<u8> = std::iter::repeat_n(0x55, PAYLOAD_CAPACITY * 3).chain([0]).collect();
+    for (bytes, reason) in [
+        (wrong_checksum, LinkError::Checksum),
+        (cut, LinkError::Cut),
+        (oversized, LinkError::Oversized),
+        (vec![3, 1, 1, 0], LinkError::Short),
+        (vec![1, 0], LinkError::Short),
+        (frame_around(&[2, 1, 0]), LinkError::Version),
+        (frame_around(&[1, 1, 200]), LinkError::Undecodable),
+        // One byte too many after a whole message.
+        (frame_around(&[1, 1, 0, 9]), LinkError::Undecodable),
+    ] {
+        let followed: Vec<u8> = bytes.iter().chain(&HELLO).copied().collect();
+        assert_eq!(reasons(&followed), [Some(reason), None]);
+        assert_eq!(receive(&followed).1.refused(), 1);
+    }
+}
+
+#[test]
+fn a_number_that_could_be_read_is_repeated() {
+    let (frames, _) = receive(&frame_around(&[1, 9, 200]));
+    assert_eq!(frames, [Incoming { sequence: 9, request: Err(LinkError::Undecodable) }]);
+    let (frames, _) = receive(&[3, 1, 1, 0]);
+    assert_eq!(frames, [Incoming { sequence: NO_SEQUENCE, request: Err(LinkError::Short) }]);
+}
+
+#[test]
+fn gaps_and_duplicates_are_counted() {
+    let bytes: Vec<u8> = [1, 2, 2, 3, 7, 8].iter().flat_map(|number| encode(*number, &Request::Health)).collect();
+    let health = receive(&bytes).1;
+    assert_eq!((health.frames_ok, health.duplicates, health.sequence_gaps), (6, 1, 1));
+    let bytes: Vec<u8> = [(5, Request::Health), (1, Request::Hello), (2, Request::Health)]
+        .iter()
+        .flat_map(|(number, request)| encode(*number, request))
+        .collect();
+    assert_eq!(receive(&bytes).1.sequence_gaps, 0, "Hello starts the numbers anew");
+}
+
+#[test]
+fn numbers_wrap_around_without_the_reserved_one() {
+    assert_eq!(next_sequence(NO_SEQUENCE), 1);
+    assert_eq!(next_sequence(u16::MAX), 1);
+}
+
+#[test]
+fn empty_frames_mean_nothing() {
+    let bytes: Vec<u8> = [0, 0, 0].iter().chain(&HELLO).chain(&[0, 0]).copied().collect();
+    assert_eq!(reasons(&bytes), [None]);
+}
+
+#[test]
+fn the_longest_message_fits() {
+    let parameter = ParameterEstimate {
+        value: f32::MAX,
+        std: f32::MAX,
+        interval_68: [f32::MAX; 2],
+        interval_95: [f32::MAX; 2],
+        identifiable: true,
+    };
+    let soil = SoilEstimate {
+        cohesion_pa: parameter,
+        friction_angle_rad: parameter,
+        shear_modulus_m: parameter,
+        outside_training_range: true,
+    };
+    let reply = Reply::Estimate(QueryAnswer { wheels: [Ok(soil); 6].into_iter().collect(), rover: Ok(soil) });
+    assert!(FrameBuffer::new().encode(Header::new(u16::MAX), &reply).is_ok());
+}
+
+fn any_state() -> impl Strategy<Value = WheelState> {
+    let number = || any::<f32>().prop_filter("NaN is unequal to itself", |x| !x.is_nan());
+    (number(), number(), number(), number(), proptest::option::of(number())).prop_map(
+        |(drawbar_pull_n, load_n, torque_nm, slip, sinkage_m)| WheelState {
+            drawbar_pull_n,
+            load_n,
+            torque_nm,
+            slip,
+            sinkage_m,
+        },
+    )
+}
+
+fn any_request() -> impl Strategy<Value = Request> {
+    let query = (proptest::collection::vec(any_state(), 0..=6), 0.0_f32..1.0, 0.0_f32..10.0).prop_map(
+        |(states, size, sigma)| {
+            Request::Estimate(SoilQuery {
+                wheel: Wheel { radius_m: size, width_m: size },
+                noise: WheelNoise {
+                    drawbar_pull_n: sigma,
+                    load_n: sigma,
+                    torque_nm: sigma,
+                    slip: sigma,
+                    sinkage_m: sigma,
+                },
+                wheels: states.into_iter().collect(),
+            })
+        },
+    );
+    prop_oneof![query, Just(Request::Hello), Just(Request::Health), Just(Request::SelfTest)]
+}
+
+proptest! {
+    #[test]
+    fn requests_arrive_as_sent(requests in proptest::collection::vec((any::<u16>(), any_request()), 1..8)) {
+        let bytes: Vec<u8> = requests.iter().flat_map(|(number, request)| encode(*number, request)).collect();
+        let expected: Vec<_> = requests.into_iter().map(|(sequence, request)| Incoming { sequence, request: Ok(request) }).collect();
+        prop_assert_eq!(receive(&bytes).0, expected);
+    }
+
+    #[test]
+    fn refusals_arrive_as_sent(number: u16, wheels in 0_usize..=6) {
+        let reply = Reply::Estimate(QueryAnswer::refused(wheels, Refusal::NotFinite));
+        let mut buffer = FrameBuffer::new();
+        let bytes = buffer.encode(Header::new(number), &reply).expect("a refusal fits").to_vec();
+        let mut receiver = FrameReceiver::new();
+        let (last, rest) = bytes.split_last().expect("a frame has a delimiter");
+        for byte in rest {
+            prop_assert!(receiver.push(*byte).is_none());
+        }
+        let frame = receiver.push(*last).expect("the delimiter ends the frame").expect("the frame is whole");
+        prop_assert_eq!(frame.header, Header::new(number));
+        prop_assert_eq!(frame.decode::<Reply>(), Ok(reply));
+    }
+
+    #[test]
+    fn a_good_frame_is_understood_after_any_garbage(garbage in proptest::collection::vec(any::<u8>(), 0..3000)) {
+        let bytes: Vec<u8> = garbage.iter().copied().chain([0]).chain(HELLO).collect();
+        let (frames, health) = receive(&bytes);
+        prop_assert_eq!(frames.last(), Some(&Incoming { sequence: 1, request: Ok(Request::Hello) }));
+        prop_assert_eq!(frames.len() as u32, health.frames_ok + health.refused());
+    }
+
+    #[test]
+    fn a_damaged_frame_is_never_taken_for_a_good_one(request in any_request(), place: prop::sample::Index, flip in 1_u8..) {
+        let good = encode(1, &request);
+        let mut bad = good.clone();
+        let place = place.index(good.len());
+        bad[place] ^= flip;
+        bad.push(0);
+        for received in receive(&bad).0 {
+            prop_assert!(received.request.is_err(), "byte {} of {:?} damaged, taken as {:?}", place, request, received);
+        }
+    }
+}

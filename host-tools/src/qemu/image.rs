@@ -1,0 +1,76 @@
+//! The images that run on the board.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::error::HostError;
+use crate::process::run_with_spinner;
+use crate::setup::Toolchain;
+
+/// A program for the board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Binary {
+    /// The flight image.
+    Flight,
+    /// Counts instructions and stack, and fingerprints the numerics.
+    Bench,
+    /// Panics on purpose.
+    Fault,
+}
+
+impl Binary {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Flight => "kapvik_an386",
+            Self::Bench => "bench_an386",
+            Self::Fault => "fault_an386",
+        }
+    }
+}
+
+/// A program for the board, compiled and linked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    elf: PathBuf,
+}
+
+/// What cargo says of a file that it has made.
+#[derive(Deserialize)]
+struct Artifact {
+    reason: String,
+    executable: Option<PathBuf>,
+}
+
+impl Image {
+    /// Compiles and links an image.
+    ///
+    /// # Errors
+    /// Where that fails; the text ends with what the compiler said.
+    pub fn build(toolchain: &Toolchain, binary: Binary) -> Result<Self, HostError> {
+        let mut cargo = toolchain.target.cargo_build();
+        cargo.args(["--profile", "flight", "--package", "kapvik-firmware", "--features", "board-an386"]);
+        cargo.args(["--bin", binary.name(), "--message-format", "json-render-diagnostics"]);
+        let messages = run_with_spinner(&mut cargo, &format!("build {}", binary.name()))?;
+        let elf = messages
+            .lines()
+            .filter_map(|line| serde_json::from_str::<Artifact>(line).ok())
+            .filter(|artifact| artifact.reason == "compiler-artifact")
+            .find_map(|artifact| artifact.executable)
+            .ok_or_else(|| HostError::Failed(format!("build {}: cargo named no executable", binary.name())))?;
+        Ok(Self { elf })
+    }
+
+    /// The image's ELF file.
+    pub fn path(&self) -> &Path {
+        &self.elf
+    }
+
+    /// The bytes of the ELF file.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn read(&self) -> Result<Vec<u8>, HostError> {
+        std::fs::read(&self.elf).map_err(HostError::file(&self.elf))
+    }
+}
