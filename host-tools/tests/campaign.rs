@@ -133,7 +133,11 @@ fn mistakes_in_the_description_are_told_by_line_and_column() {
         ("drawbar_pull_n = 0.5", "drawbar = 0.5", "test.toml:18:1: no channel `drawbar`"),
         ("camera_c = 0.1", "camera_c = -0.1", "test.toml:19:12: camera_c = -0.1: expected a standard deviation"),
         ("\"rear-contact\"", "\"rear\"", "test.toml:21:28: no effect `rear`: expected one of slip-sinkage"),
-        ("effects = [\"slip-sinkage\", \"rear-contact\"]", "effects = []", "test.toml:22:11: parameters of slip-sinkage"),
+        (
+            "effects = [\"slip-sinkage\", \"rear-contact\"]",
+            "effects = []",
+            "test.toml:22:11: parameters of slip-sinkage",
+        ),
         ("n1 = 0.3", "n1 = \"x\"", "test.toml:23:6: invalid type: string"),
         ("kind =", "kind", "test.toml:2:"),
     ];

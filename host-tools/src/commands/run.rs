@@ -3,18 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use kapvik_firmware::soil::QueryAnswer;
-use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::data::atomic_write::write_atomically;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
-use crate::flight_computer::{Computer, FlightComputer};
-use crate::identify::identify;
+use crate::flight_computer::Computer;
 use crate::process::workspace;
-use crate::qemu::{Binary, Image, LogView, MemoryUse};
-use crate::report::{self, Findings, FlightFacts, ModelCheck};
-use crate::setup;
+use crate::report::{self, Findings};
 
 /// Options of `kapvik run`.
 #[derive(Args)]
@@ -46,7 +41,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         Some(path) => Campaign::read(path)?,
         None => Campaign::parse(Path::new(CARRIED.0), CARRIED.1, CARRIED.2)?,
     };
-    let findings = find(campaign, arguments.on)?;
+    let findings = Findings::gather(campaign, arguments.on)?;
     println!("{}", report::terminal(&findings));
     for line in report::flight_lines(&findings) {
         println!("{line}");
@@ -64,37 +59,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         println!("picture: {}", path.display());
     }
     Ok(())
-}
-
-fn find(campaign: Campaign, on: Computer) -> Result<Findings, HostError> {
-    let (mut computer, memory) = start(on)?;
-    let boot = computer.boot_report()?;
-    if !boot.self_test.passed() {
-        return Err(HostError::Failed(format!("the flight computer's self-test failed: {:?}", boot.self_test)));
-    }
-    let mut answers: Vec<QueryAnswer> = Vec::new();
-    let identification = identify(&campaign, &mut |query: &SoilQuery| {
-        let answer = computer.query(query)?;
-        answers.push(answer.clone());
-        Ok(answer)
-    })?;
-    let health = computer.health()?;
-    let fingerprint = report::fingerprint(&answers)
-        .map_err(|error| HostError::Failed(format!("the answers have no fingerprint: {error}")))?;
-    let flight = FlightFacts { computer: on, boot, health, memory, log: computer.log(), fingerprint };
-    Ok(Findings { model: ModelCheck::of(&campaign), campaign, identification, flight })
-}
-
-fn start(on: Computer) -> Result<(FlightComputer, Option<MemoryUse>), HostError> {
-    match on {
-        Computer::Host => Ok((FlightComputer::in_process()?, None)),
-        Computer::Qemu => {
-            let toolchain = setup::prepare(None)?;
-            let image = Image::build(&toolchain, Binary::Flight)?;
-            let memory = MemoryUse::of(&image)?;
-            Ok((FlightComputer::in_qemu(&toolchain, &image, LogView::Information)?, Some(memory)))
-        }
-    }
 }
 
 /// In the build folder, so that nothing appears where a person keeps files.

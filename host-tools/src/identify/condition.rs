@@ -13,12 +13,7 @@ const STEP: f64 = 1e-3;
 /// deviation, with respect to ln c, φ and ln K. Each wheel is held at the sinkage at which `soil` carries its load.
 ///
 /// None where `soil` does not carry a wheel, or three parameters cannot be told at all.
-pub fn condition_number(
-    wheel: &Wheel<f64>,
-    soil: &Soil<f64>,
-    states: &[MeanState],
-    noise: &WheelNoise,
-) -> Option<f64> {
+pub fn condition_number(wheel: &Wheel<f64>, soil: &Soil<f64>, states: &[MeanState], noise: &WheelNoise) -> Option<f64> {
     let mut jacobian = DMatrix::zeros(3 * states.len(), 3);
     for (place, state) in states.iter().enumerate() {
         let (slip, load_n) = (state.mean.slip, state.mean.load_n);

@@ -60,7 +60,8 @@ impl SensorNoise {
         let scale = Scale::new(mean_load(campaign), campaign.wheel.radius_m);
         let channel = |channel, flight_sensors| {
             let stated = campaign.noise.of(channel).map(|std| ChannelStd { std, source: NoiseSource::Campaign });
-            let repeats = || Some(ChannelStd { std: from_pairs(campaign, &pairs, channel)?, source: NoiseSource::Repeats });
+            let repeats =
+                || Some(ChannelStd { std: from_pairs(campaign, &pairs, channel)?, source: NoiseSource::Repeats });
             let fallback = ChannelStd { std: flight_sensors, source: NoiseSource::FlightSensors };
             stated.or_else(|| if channel == Channel::Slip { None } else { repeats() }).unwrap_or(fallback)
         };
@@ -148,9 +149,8 @@ fn like_pairs(campaign: &Campaign) -> Vec<(usize, usize)> {
 
 /// Half the mean square of the differences is the variance.
 fn from_pairs(campaign: &Campaign, pairs: &[(usize, usize)], channel: Channel) -> Option<f64> {
-    let difference = |&(one, other): &(usize, usize)| {
-        Some(campaign.value(one, channel)? - campaign.value(other, channel)?)
-    };
+    let difference =
+        |&(one, other): &(usize, usize)| Some(campaign.value(one, channel)? - campaign.value(other, channel)?);
     let squares: Vec<f64> = pairs.iter().filter_map(difference).map(|difference| difference * difference).collect();
     let count = squares.len();
     (count >= LEAST_PAIRS).then(|| (0.5 * squares.iter().sum::<f64>() / count as f64).sqrt())

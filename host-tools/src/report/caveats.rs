@@ -1,6 +1,6 @@
 //! What a reader must know before believing a number.
 
-use std::collections::BTreeSet;
+use kapvik_firmware::soil::SoilEstimate;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::identify::NoiseSource;
@@ -31,9 +31,11 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
 fn provenance(campaign: &Campaign) -> String {
     match campaign.provenance {
         Provenance::Measured => "The wheel states were measured by instruments.".to_owned(),
-        Provenance::Digitised => "The wheel states were measured, but are read off published curves: they are means, to \
+        Provenance::Digitised => {
+            "The wheel states were measured, but are read off published curves: they are means, to \
             about two digits, and how each repeat scattered is lost."
-            .to_owned(),
+                .to_owned()
+        }
         Provenance::Simulated => "The wheel states are simulated, not measured.".to_owned(),
     }
 }
@@ -59,7 +61,8 @@ fn noise(findings: &Findings) -> Option<String> {
 
 fn one_load(findings: &Findings) -> Option<String> {
     let loads = findings.campaign.column(Channel::Load.name())?.iter().flatten();
-    let (low, high) = loads.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), load| (low.min(*load), high.max(*load)));
+    let (low, high) =
+        loads.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), load| (low.min(*load), high.max(*load)));
     (high <= (1.0 + ONE_LOAD) * low).then(|| {
         "Every state has one load. Cohesion and friction can then stand in for each other: the same forces come from more \
          of one and less of the other. No method can tell cohesion from such data, and the report says so instead of \
@@ -69,17 +72,11 @@ fn one_load(findings: &Findings) -> Option<String> {
 }
 
 fn cannot_be_told(findings: &Findings) -> Option<String> {
-    let untold: BTreeSet<&str> = findings
-        .identification
-        .runs
-        .iter()
-        .filter_map(Findings::best)
-        .filter_map(|row| row.estimate.ok())
-        .flat_map(|soil| Parameter::ALL.into_iter().filter(move |parameter| !parameter.of(&soil).identifiable))
-        .map(Parameter::symbol)
-        .collect();
-    (!untold.is_empty()).then(|| {
-        let symbols: Vec<&str> = untold.into_iter().collect();
+    let best = findings.identification.runs.iter().filter_map(Findings::best).filter_map(|row| row.estimate.ok());
+    let soils: Vec<SoilEstimate> = best.collect();
+    let untold = |parameter: &Parameter| soils.iter().any(|soil| !parameter.of(soil).identifiable);
+    let symbols: Vec<&str> = Parameter::ALL.into_iter().filter(untold).map(Parameter::symbol).collect();
+    (!symbols.is_empty()).then(|| {
         format!(
             "\u{201c}Cannot be told\u{201d} ({} here, all states together) means that the data removed less than half of \
              the variance that there was before them. The hollow mark is then mostly the middle of what the training \
@@ -128,6 +125,6 @@ pub fn kind_in_words(kind: RowKind) -> &'static str {
     match kind {
         RowKind::Wheel => "one wheel by itself: per-wheel network, no sinkage",
         RowKind::RoverWithoutSinkage => "all states as the wheels of one instant: rover network, no sinkage",
-        RowKind::RoverWithSinkage => "the same with sinkage z",
+        RowKind::RoverWithSinkage => "all states as the wheels of one instant: rover network, with sinkage z",
     }
 }

@@ -16,7 +16,7 @@ pub fn chain(findings: &Findings) -> Markup {
     let used: usize = findings.identification.runs.iter().map(|run| run.rows_used).sum();
     html! {
         ol class="chain" {
-            (link("Wheel states", &format!("{used} {}", findings.campaign.provenance), "DP, W, T, slip, sinkage"))
+            (link("Wheel states", &format!("{used} rows, {}", findings.campaign.provenance), "DP, W, T, slip, sinkage"))
             (link("Serial link", &count(queries, "query", "queries"), "postcard, COBS, CRC-32"))
             (link(place, line, "frozen networks, 32-bit floats"))
             (link("Soil", "c, φ, K", "each with its interval"))

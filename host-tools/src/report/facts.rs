@@ -114,6 +114,12 @@ fn kib(bytes: u32) -> String {
     format!("{:.1} KiB", f64::from(bytes) / 1024.0)
 }
 
+/// A number rounded to two significant digits.
+fn two_digits(value: f64) -> String {
+    let text: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    text.to_string()
+}
+
 fn wheel(findings: &Findings) -> String {
     let (wheel, grousers) = (&findings.campaign.wheel, &findings.campaign.grousers);
     let rim = match grousers.count {
@@ -138,7 +144,7 @@ fn noise(findings: &Findings) -> String {
             NoiseSource::Repeats => "from repeats",
             NoiseSource::FlightSensors => "assumed, as the flight sensors",
         };
-        format!("{:.2} {what} ({source})", factor * std.std)
+        format!("{} {what} ({source})", two_digits(factor * std.std))
     });
     words.join(", ")
 }

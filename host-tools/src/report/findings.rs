@@ -5,6 +5,7 @@ use kapvik_firmware::soil::{QueryAnswer, Refusal, SoilEstimate};
 use crate::data::campaign::Campaign;
 use crate::identify::{Identification, IdentifiedRun, Question, refusal_in_words};
 
+use super::draw::number;
 use super::facts::FlightFacts;
 use super::residual::ModelCheck;
 
@@ -48,7 +49,7 @@ impl Findings {
     pub fn rows(run: &IdentifiedRun) -> Vec<EstimateRow> {
         let Some(question) = &run.question else { return Vec::new() };
         let wheels = question.states.iter().zip(&question.answer.wheels).map(|(state, answer)| EstimateRow {
-            label: format!("slip {:.2}", state.mean.slip).replace('-', "−"),
+            label: format!("slip {}", number(state.mean.slip, 2, false)),
             kind: RowKind::Wheel,
             estimate: worded(answer),
         });
@@ -63,12 +64,12 @@ impl Findings {
 
 fn rover_rows(question: &Question) -> Vec<EstimateRow> {
     let wheels = question.states.len();
-    let together = if wheels == 1 { "1 wheel".to_owned() } else { format!("{wheels} together") };
+    let together = if wheels == 1 { "the one".to_owned() } else { format!("all {wheels}") };
     let row = |label: String, kind, answer: &QueryAnswer| EstimateRow { label, kind, estimate: worded(&answer.rover) };
     match &question.answer_without_sinkage {
         Some(blind) => vec![
             row(together.clone(), RowKind::RoverWithoutSinkage, blind),
-            row(format!("{together}, z"), RowKind::RoverWithSinkage, &question.answer),
+            row(format!("{together}, with z"), RowKind::RoverWithSinkage, &question.answer),
         ],
         None => vec![row(together, RowKind::RoverWithoutSinkage, &question.answer)],
     }

@@ -32,8 +32,8 @@ pub fn estimates(rows: &[EstimateRow]) -> Markup {
         p class="note" {
             @for (label, kind) in [
                 ("Slip …", RowKind::Wheel),
-                ("… together", RowKind::RoverWithoutSinkage),
-                ("… together, z", RowKind::RoverWithSinkage),
+                ("All", RowKind::RoverWithoutSinkage),
+                ("All, with z", RowKind::RoverWithSinkage),
             ] {
                 @if has(kind) { strong { (label) } ": " (kind_in_words(kind)) ". " }
             }

@@ -6,6 +6,7 @@ mod draw;
 mod estimates;
 mod facts;
 mod findings;
+mod gather;
 mod legend;
 mod page;
 mod parameter;

@@ -7,6 +7,7 @@ use crate::identify::{IdentifiedRun, assumed_soil};
 
 use super::caveats::{caveats, kind_in_words};
 use super::chain::chain;
+use super::draw;
 use super::estimates::Panel;
 use super::facts;
 use super::findings::{EstimateRow, Findings};
@@ -98,7 +99,7 @@ fn answers(campaign: &Campaign, rows: &[EstimateRow]) -> Markup {
                     p class="verdict" {
                         @if estimate.identifiable { "determined by these data" } @else { "cannot be told from these data" }
                     }
-                    p { "95 % interval " (parameter.interval(estimate.interval_95)) " " (parameter.unit()) }
+                    p { "95 % interval " (parameter.interval(estimate.interval_95)) (parameter.spaced_unit()) }
                     @if let Some(known) = parameter.known(&campaign.ground) {
                         p class="direct-tests" { "direct tests " (parameter.knowledge(known)) }
                     }
@@ -146,7 +147,7 @@ fn residual_table(check: &ModelCheck) -> Markup {
     html! {
         div class="scroll" {
             table class="numbers" {
-                caption class="note" { "Measured − computed, with the directly measured soil" }
+                caption { "Measured − computed, with the directly measured soil" }
                 thead { tr { th { "Slip" } th { "Drawbar pull, N" } th { "Torque, N·m" } th { "Sinkage, mm" } } }
                 tbody {
                     @for row in check.rows.iter().take(40) { (residual_row(row)) }
@@ -178,8 +179,7 @@ fn residual_row(row: &ModelRow) -> Markup {
 
 fn number(value: Option<f64>, digits: usize, signed: bool) -> String {
     match value {
-        Some(value) if signed => format!("{value:+.digits$}").replace('-', "−"),
-        Some(value) => format!("{value:.digits$}").replace('-', "−"),
+        Some(value) => draw::number(value, digits, signed),
         None => "–".to_owned(),
     }
 }

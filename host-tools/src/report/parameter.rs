@@ -110,22 +110,24 @@ impl Parameter {
 
     /// A number in SI units as text with its unit.
     pub fn quantity(self, si: f64) -> String {
-        match self {
-            Self::FrictionAngle => format!("{}°", self.number(si)),
-            Self::Cohesion | Self::ShearModulus => format!("{} {}", self.number(si), self.unit()),
-        }
+        format!("{}{}", self.number(si), self.spaced_unit())
+    }
+
+    /// The unit as it stands behind a number.
+    pub fn spaced_unit(self) -> String {
+        if self == Self::FrictionAngle { self.unit().to_owned() } else { format!("\u{a0}{}", self.unit()) }
     }
 
     /// What is known by other means, as text with its unit.
     pub fn knowledge(self, known: Knowledge) -> String {
-        let space = if self == Self::FrictionAngle { "" } else { "\u{a0}" };
+        let unit = self.spaced_unit();
         match known {
             Knowledge::Value { value, std } if std > 0.0 => {
-                format!("{} ± {}{space}{}", self.number(value), self.number(std), self.unit())
+                format!("{} ± {}{unit}", self.number(value), self.number(std))
             }
             Knowledge::Value { value, .. } => self.quantity(value),
             Knowledge::Between { min, max } => {
-                format!("{} to {}{space}{}", self.number(min), self.number(max), self.unit())
+                format!("{} to {}{unit}", self.number(min), self.number(max))
             }
         }
     }

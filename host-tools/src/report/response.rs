@@ -104,7 +104,9 @@ impl Response<'_> {
         let load_n = rows.iter().map(|row| row.load_n).sum::<f64>() / rows.len() as f64;
         let (low, high) = self.slips();
         let slips = (0..=POINTS).map(|point| low + (high - low) * point as f64 / POINTS as f64);
-        let value = |slip| Some((slip, quantity.factor * (quantity.computed)(&ModelState::at(self.wheel, soil, slip, load_n)?)));
+        let value = |slip| {
+            Some((slip, quantity.factor * (quantity.computed)(&ModelState::at(self.wheel, soil, slip, load_n)?)))
+        };
         slips.filter(|slip| slip.abs() <= 1.0).filter_map(value).collect()
     }
 }

@@ -5,6 +5,7 @@ use comfy_table::{CellAlignment, Table};
 use kapvik_firmware::soil::SoilEstimate;
 
 use super::caveats::caveats;
+use super::draw::number;
 use super::findings::{EstimateRow, Findings};
 use super::parameter::Parameter;
 use super::residual::ModelCheck;
@@ -25,9 +26,10 @@ pub fn terminal(findings: &Findings) -> String {
             text += &format!("  left out: {}\n", run.reasons_in_words());
         }
     }
-    text += "  value (68 % interval); ? = cannot be told from these data; z = with sinkage\n";
+    text += "  value (68 % interval); ? = cannot be told from these data\n";
     if let Some(model) = &findings.model {
-        text += &format!("\nequations 1–11 with the directly measured soil: measured − computed\n{}\n", residuals(model));
+        text +=
+            &format!("\nequations 1–11 with the directly measured soil: measured − computed\n{}\n", residuals(model));
     }
     text += "\n";
     for caveat in caveats(findings) {
@@ -66,21 +68,20 @@ fn residuals(model: &ModelCheck) -> Table {
     let mut table = plain_table();
     table.set_header(["", "DP, N", "T, N·m", "z, mm"]);
     let shown = |value: Option<f64>, factor: f64, digits: usize| {
-        value.map_or_else(|| "–".to_owned(), |value| format!("{:+.digits$}", factor * value).replace('-', "−"))
+        value.map_or_else(|| "–".to_owned(), |value| number(factor * value, digits, true))
     };
     for row in &model.rows {
         let difference = |measured: Option<f64>, computed: Option<f64>| Some(measured? - computed?);
         table.add_row([
-            format!("slip {:.2}", row.slip).replace('-', "−"),
+            format!("slip {}", number(row.slip, 2, false)),
             shown(difference(row.drawbar_pull_n, row.model.map(|model| model.drawbar_pull_n)), 1.0, 1),
             shown(difference(row.torque_nm, row.model.map(|model| model.torque_nm)), 1.0, 2),
             shown(difference(row.sinkage_m, row.model.map(|model| model.sinkage_m)), 1e3, 1),
         ]);
     }
     let rms = model.rms();
-    let plain = |value: Option<f64>, digits: usize| {
-        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
-    };
+    let plain =
+        |value: Option<f64>, digits: usize| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"));
     table.add_row([
         "root mean square".to_owned(),
         plain(rms.drawbar_pull_n, 1),

@@ -211,6 +211,7 @@ fn numeric_columns(table: &Table) -> Result<Vec<Measured>, HostError> {
 
 /// Whether no field of the column is a number and at least one is not empty.
 fn is_text(table: &Table, column: Column) -> bool {
-    let mut fields = (0..table.len()).map(|row| table.text(row, column).trim()).filter(|text| !text.is_empty()).peekable();
+    let mut fields =
+        (0..table.len()).map(|row| table.text(row, column).trim()).filter(|text| !text.is_empty()).peekable();
     fields.peek().is_some() && fields.all(|text| text.parse::<f64>().is_err())
 }

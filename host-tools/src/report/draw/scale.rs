@@ -25,9 +25,9 @@ impl Scale {
 
     /// A linear scale that holds all `values` and zero, with some room.
     pub fn around(values: impl Iterator<Item = f64>, pixels: Pixels) -> Self {
-        let (low, high) = values.filter(|value| value.is_finite()).fold((0.0, 0.0), |(low, high): (f64, f64), value| {
-            (low.min(value), high.max(value))
-        });
+        let (low, high) = values
+            .filter(|value| value.is_finite())
+            .fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
         let span = if high > low { high - low } else { 1.0 };
         let room = 0.06 * span;
         Self::linear(if low < 0.0 { low - room } else { 0.0 }, high + room, pixels)
@@ -56,10 +56,10 @@ impl Scale {
     }
 
     fn linear_ticks(&self) -> Vec<f64> {
-        const WANTED: f64 = 4.0;
-        let raw = (self.high - self.low) / WANTED;
-        let decade = 10_f64.powf(raw.log10().floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade).into_iter().find(|step| *step >= raw).unwrap_or(raw);
+        const WANTED: f64 = 3.2;
+        let most = (self.high - self.low) / WANTED;
+        let decade = 10_f64.powf(most.log10().floor());
+        let step = decade * [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= most).unwrap_or(1.0);
         let first = (self.low / step).ceil() as i64;
         let last = (self.high / step).floor() as i64;
         (first..=last).map(|count| count as f64 * step).collect()
@@ -87,8 +87,8 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        assert_eq!(Scale::linear(21.0, 43.0, (0.0, 1.0)).ticks(), [30.0, 40.0]);
-        assert_eq!(Scale::linear(-7.0, 16.0, (0.0, 1.0)).ticks(), [0.0, 10.0]);
+        assert_eq!(Scale::linear(21.0, 43.0, (0.0, 1.0)).ticks(), [25.0, 30.0, 35.0, 40.0]);
+        assert_eq!(Scale::linear(-7.0, 16.0, (0.0, 1.0)).ticks(), [-5.0, 0.0, 5.0, 10.0, 15.0]);
         assert_eq!(Scale::logarithmic(50.0, 3000.0, (0.0, 1.0)).ticks(), [100.0, 300.0, 1000.0, 3000.0]);
         assert_eq!(Scale::logarithmic(5.0, 35.0, (0.0, 1.0)).ticks(), [5.0, 10.0, 20.0]);
     }
