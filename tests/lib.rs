@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use kapvik_firmware::link::{FrameBuffer, Header, Reply};
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::terramechanics::Wheel;
-use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::{Slope, SoilQuery, WheelNoise, WheelState};
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_host::qemu::{Binary, Image, LogView};
 use kapvik_host::setup::{self, Toolchain};
@@ -63,7 +63,8 @@ fn query(random: &mut ChaCha8Rng) -> SoilQuery {
     };
     let count = random.random_range(1..=6);
     let wheels = (0..count).map(|_| state(&wheel, random)).collect();
-    SoilQuery { wheel, noise, wheels }
+    let slope = random.random_bool(0.5).then(|| Slope { angle_rad: random.random_range(-0.3..0.3), std_rad: 0.0175 });
+    SoilQuery { wheel, noise, slope, wheels }
 }
 
 fn state(wheel: &Wheel<f32>, random: &mut ChaCha8Rng) -> WheelState {

@@ -38,6 +38,15 @@ pub struct WheelNoise {
     pub sinkage_m: f32,
 }
 
+/// The slope that the rover drives on at steady speed: on plane ground the contact angle of all its wheels.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Slope {
+    /// Against the horizontal, rad, positive uphill.
+    pub angle_rad: f32,
+    /// One standard deviation, rad.
+    pub std_rad: f32,
+}
+
 /// Wheels of one size on one soil at one instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SoilQuery {
@@ -45,6 +54,8 @@ pub struct SoilQuery {
     pub wheel: Wheel<f32>,
     /// How noisy the states are: of one instant, or of a mean of many.
     pub noise: WheelNoise,
+    /// The slope under a rover that drives on all its wheels; none for a wheel in a rig.
+    pub slope: Option<Slope>,
     /// One to six wheels.
     pub wheels: Vec<WheelState, WHEELS>,
 }

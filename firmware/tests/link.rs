@@ -10,7 +10,7 @@ use kapvik_firmware::link::{
 };
 use kapvik_firmware::soil::{ParameterEstimate, QueryAnswer, Refusal, SoilEstimate};
 use kapvik_firmware::terramechanics::Wheel;
-use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::{Slope, SoilQuery, WheelNoise, WheelState};
 use proptest::prelude::*;
 
 /// `Hello` with number 1: version 1, number 1, variant 0; their CRC-32 by zlib, 0xe7988264; byte stuffing by hand.
@@ -188,6 +188,7 @@ fn any_request() -> impl Strategy<Value = Request> {
                     slip: sigma,
                     sinkage_m: sigma,
                 },
+                slope: (size > 0.5).then_some(Slope { angle_rad: sigma, std_rad: size }),
                 wheels: states.into_iter().collect(),
             })
         },

@@ -4,10 +4,12 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use tempfile::TempDir;
 
 const WHEEL: &str = "radius_m = 0.075\nwidth_m = 0.070\n";
-const SOIL: &str = "n = 1.1\nk_c = 15600.0\nk_phi = 2407400.0\nc = 250.0\nphi = 0.5567600311922353\nK = 0.0114\nc1 = 0.18\nc2 = 0.32\n";
+const SOIL: &str = "n = 1.1\nk_c = 15600.0\nk_phi = 2407400.0\nc = 250.0\nphi = 0.5567600313861911\nK = 0.0114\nc1 = 0.18\nc2 = 0.32\n";
 
 /// A folder with the files of one run.
 struct Run {
@@ -154,7 +156,7 @@ fn tables_that_are_wrong_are_refused_by_line_and_column() {
         (b"slip,load_n,slip\n0.2,65,0.3\n", "in.csv:1:3: a second column is named `slip`"),
         (b"slip,,load_n\n0.2,65,0.3\n", "in.csv:1:2: this column has no name"),
         (b"slip,load_n\n0.2,65\n,65\n", "in.csv:3:1: slip: empty"),
-        (b"slip,load_n\n0.2,\n", "in.csv:2:6: sinkage_m: empty"),
+        (b"slip,load_n\n0.2,\n", "in.csv:2:2: load_n: empty"),
         (b"x,slip,load_n\n1,fast,65\n", "in.csv:2:2: slip: `fast`"),
         (b"slip,load_n\n0.2,1e999\n", "in.csv:2:2: load_n: `1e999`"),
         (b"slip,load_n\n0.2,nan\n", "in.csv:2:2: load_n: `nan`"),
@@ -169,16 +171,10 @@ fn tables_that_are_wrong_are_refused_by_line_and_column() {
         (b"slip,load_n\r\n0.2,65\r\n\r\n0.2,65,1\r\n", "in.csv:4:3: 3 fields in this row"),
         (b"slip,load_n\n0.2\n", "in.csv:2:2: 1 fields in this row"),
         (b"slip,load_n\n0.2,6\xff5\n", "in.csv:2:6: this byte is not UTF-8"),
-        (b"slip,load_n\n0.2,\"65\n", "in.csv:2:2: load_n: `65"),
+        (b"slip,load_n\n0.2,\"65\n", "in.csv:2:5: a quote is not closed"),
     ];
     for (rows, expected) in cases {
-        let run = Run::new(WHEEL, SOIL, rows);
-        if rows.ends_with(b"\"65\n") {
-            // A quote that is never closed ends with the file; what it holds is a number all the same.
-            assert!(run.run(&[]).status.success());
-            continue;
-        }
-        let said = run.refusal();
+        let said = Run::new(WHEEL, SOIL, rows).refusal();
         assert!(said.starts_with(&format!("kapvik: {expected}")), "{said}");
     }
 }
@@ -203,7 +199,7 @@ fn descriptions_that_are_wrong_are_refused_by_line_and_column() {
         (SOIL.replace("k_phi = 2407400.0\n", ""), "s.toml:1:1: k_phi is missing"),
         (SOIL.replace("c1 = 0.18\n", ""), "s.toml:1:1: c1 is missing"),
         (SOIL.replace("K = 0.0114\n", ""), "s.toml:1:1: K is missing"),
-        (SOIL.replace("phi = 0.5567600311922353", "phi = 31.9"), "s.toml:5:7: phi = 31.9: expected an angle in rad"),
+        (SOIL.replace("phi = 0.5567600313861911", "phi = 31.9"), "s.toml:5:7: phi = 31.9: expected an angle in rad"),
         (SOIL.replace("n = 1.1", "n = { min = 1.0, max = 1.2 }"), "s.toml:1:5: n = 1 … 1.2: expected one value"),
         (SOIL.replace("n = 1.1", "n = nan"), "s.toml:1:5: n = NaN: expected a finite number"),
         (SOIL.replace("n = 1.1", "n = { value = 1.1, sdt = 1 }"), "s.toml:1:5: expected a number"),
@@ -215,5 +211,33 @@ fn descriptions_that_are_wrong_are_refused_by_line_and_column() {
     for (soil, expected) in soils {
         let said = Run::new(WHEEL, &soil, "slip,load_n\n").refusal();
         assert!(said.starts_with(&format!("kapvik: {expected}")), "{soil}\n{said}");
+    }
+}
+
+/// Files with bytes struck out, doubled and changed at random end in a table or in a refusal, never in a panic.
+#[test]
+fn damaged_files_never_panic() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut damaged = |text: &str| {
+        let mut bytes = text.as_bytes().to_vec();
+        for _ in 0..random.random_range(1..4) {
+            let place = random.random_range(0..bytes.len());
+            match random.random_range(0..3) {
+                0 => drop(bytes.remove(place)),
+                1 => bytes.insert(place, bytes[place]),
+                _ => bytes[place] = random.random(),
+            }
+        }
+        bytes
+    };
+    let rows = "run,slip,load_n,sinkage_m\n\"a, b\",0.2,65.4,\nc,-0.3,,0.018\n";
+    for _ in 0..100 {
+        let (wheel, soil, rows) = (damaged(WHEEL), damaged(SOIL), damaged(rows));
+        for run in [Run::new(&wheel, SOIL, rows.as_slice()), Run::new(WHEEL, &soil, "slip,load_n\n0.2,65.4\n")] {
+            let output = run.run(&[]);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(matches!(output.status.code(), Some(0 | 1)) && said.lines().count() <= 1, "{said}");
+            assert_eq!(output.status.success(), run.path("out.csv").exists(), "{said}");
+        }
     }
 }

@@ -1,35 +1,58 @@
 //! The networks' inputs: dimensionless groups, so that one table serves wheels of many sizes and loads.
 
 use crate::math;
-use crate::network::{CONTEXT_FEATURES, WHEEL_FEATURES};
+use crate::network::{CONTEXT_FEATURES, WHEEL_FEATURES, WHEEL_INPUTS};
 use crate::terramechanics::Wheel;
-use crate::wheel_state::{SoilQuery, WheelNoise, WheelState};
+use crate::wheel_state::{Slope, SoilQuery, WheelNoise, WheelState};
 
-/// Inputs of one wheel: DP/W, T/(rW), slip, z/r (0 where nobody measures it) and ln(W/(rb) / 10 kPa).
+/// Inputs of one wheel: DP/W, T/(rW), slip, the fifth input and ln(W/(rb) / 10 kPa).
 pub type WheelFeatures = [f32; WHEEL_FEATURES];
 
 /// Inputs that the wheels share: ln(r / 0.1 m), ln(b/r), and the logarithms of the standard deviations of DP/W̄, W/W̄,
-/// T/(rW̄), slip and z/r, W̄ being the mean load. A sinkage that nobody measures is one with a deviation of r.
+/// T/(rW̄), slip and the fifth input, W̄ being the mean load.
 pub type ContextFeatures = [f32; CONTEXT_FEATURES];
 
-/// The inputs of one wheel; `sinkage` tells whether to use its sinkage.
-pub fn wheel_features(wheel: &Wheel<f32>, state: &WheelState, sinkage: bool) -> WheelFeatures {
+/// The input that a network may do without.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FifthInput {
+    /// Its value.
+    pub value: f32,
+    /// One standard deviation.
+    pub std: f32,
+}
+
+impl FifthInput {
+    /// Not measured: so uncertain that its value is of no account.
+    pub const UNKNOWN: Self = Self { value: 0.0, std: 1.0 };
+
+    /// The fifth input of the per-wheel network: the slope under the rover, which tells the mean pull of all its wheels.
+    pub fn slope(slope: Option<Slope>) -> Self {
+        slope.map_or(Self::UNKNOWN, |slope| Self { value: slope.angle_rad, std: slope.std_rad })
+    }
+
+    /// The fifth input of the rover network: sinkage over radius.
+    pub fn sinkage(wheel: &Wheel<f32>, state: &WheelState, noise: &WheelNoise) -> Self {
+        let r = wheel.radius_m;
+        state.sinkage_m.map_or(Self::UNKNOWN, |sinkage| Self { value: sinkage / r, std: noise.sinkage_m / r })
+    }
+}
+
+/// The inputs of one wheel.
+fn wheel_features(wheel: &Wheel<f32>, state: &WheelState, fifth: FifthInput) -> WheelFeatures {
     let load = state.load_n;
     let r = wheel.radius_m;
-    let depth = if sinkage { state.sinkage_m.unwrap_or(0.0) / r } else { 0.0 };
     [
         state.drawbar_pull_n / load,
         state.torque_nm / (r * load),
         state.slip,
-        depth,
+        fifth.value,
         math::ln(load / (r * wheel.width_m * 1.0e4)),
     ]
 }
 
 /// The inputs that the wheels share.
-pub fn context_features(wheel: &Wheel<f32>, noise: &WheelNoise, mean_load_n: f32, sinkage: bool) -> ContextFeatures {
+fn context_features(wheel: &Wheel<f32>, noise: &WheelNoise, mean_load_n: f32, fifth: FifthInput) -> ContextFeatures {
     let r = wheel.radius_m;
-    let sinkage_std = if sinkage { noise.sinkage_m / r } else { 1.0 };
     [
         10.0 * r,
         wheel.width_m / r,
@@ -37,7 +60,7 @@ pub fn context_features(wheel: &Wheel<f32>, noise: &WheelNoise, mean_load_n: f32
         noise.load_n / mean_load_n,
         noise.torque_nm / (r * mean_load_n),
         noise.slip,
-        sinkage_std,
+        fifth.std,
     ]
     .map(math::ln)
 }
@@ -48,8 +71,29 @@ impl SoilQuery {
         self.wheels.iter().map(|state| state.load_n).sum::<f32>() / self.wheels.len() as f32
     }
 
-    /// Whether every wheel has its sinkage measured.
-    pub fn has_sinkage(&self) -> bool {
-        self.wheels.iter().all(|state| state.sinkage_m.is_some())
+    /// The fifth input of a wheel in the rover network: unknown for all where it is not known of all.
+    pub fn sinkage_input(&self, state: &WheelState) -> FifthInput {
+        if self.wheels.iter().all(|state| state.sinkage_m.is_some()) {
+            FifthInput::sinkage(&self.wheel, state, &self.noise)
+        } else {
+            FifthInput::UNKNOWN
+        }
+    }
+
+    /// The rover network's inputs: the shared ones, then those of each wheel.
+    pub fn rover_features(&self) -> (ContextFeatures, impl Iterator<Item = WheelFeatures> + Clone + '_) {
+        let fifth = self.wheels.first().map_or(FifthInput::UNKNOWN, |state| self.sinkage_input(state));
+        let context = context_features(&self.wheel, &self.noise, self.mean_load_n(), fifth);
+        let wheels = self.wheels.iter().map(|state| wheel_features(&self.wheel, state, self.sinkage_input(state)));
+        (context, wheels)
+    }
+
+    /// The per-wheel network's inputs for one wheel.
+    pub fn wheel_inputs(&self, state: &WheelState, fifth: FifthInput) -> [f32; WHEEL_INPUTS] {
+        let own = wheel_features(&self.wheel, state, fifth);
+        let shared = context_features(&self.wheel, &self.noise, state.load_n, fifth);
+        let mut input = [0.0; WHEEL_INPUTS];
+        input.iter_mut().zip(own.iter().chain(&shared)).for_each(|(place, value)| *place = *value);
+        input
     }
 }

@@ -6,4 +6,4 @@ mod features;
 
 pub use answer::QueryAnswer;
 pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};
-pub use features::{ContextFeatures, WheelFeatures, context_features, wheel_features};
+pub use features::{ContextFeatures, FifthInput, WheelFeatures};

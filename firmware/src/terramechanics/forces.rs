@@ -41,10 +41,11 @@ pub enum ForceError {
 /// At a slip of −1 (a locked wheel) shear is fully mobilised, backward, everywhere; so it is, in its own sense, for K = 0.
 ///
 /// Error: below 1e-7 of W (of rW for the torque) in double precision, 2e-4 in single, for slips of ±0.95, sinkages of
-/// 0.01 … 0.6 r and exponents of 0.11 … 1.7, where W is not itself a small difference of larger parts.
+/// 0.01 … 0.6 r and exponents of 0.11 … 1.7. Where W is less than a hundredth of the stresses it is the balance of, the
+/// error is that share of a hundredth of them.
 ///
-/// Cost: one panel of nodes (8 in single precision, 16 in double) while j stays below about ten times K, two for thinner
-/// shear, at most ten when braking; a node takes two sines with cosines, three exponentials and a logarithm.
+/// Cost: one panel of nodes (8 in single precision, 16 in double) while j stays below 8 K (15 K in double precision), two
+/// for thinner shear, at most ten when braking; a node takes two sines with cosines, three exponentials and a logarithm.
 ///
 /// # Errors
 /// Where an input is outside its range, or a force overflows.

@@ -35,7 +35,7 @@ pub fn deepest_sinkage<S: Scalar>(wheel: &Wheel<S>) -> S {
 /// first where cohesion pulls the rim down): the sinkage is then the one on the rising side.
 ///
 /// The load is met to 1e-11 of itself in double precision and 4e-6 in single, or as well as the scalar can.
-/// Cost: about six evaluations of [`wheel_forces`]; at most some two hundred.
+/// Cost: about seven evaluations of [`wheel_forces`]; at most some three hundred, where the load is near the greatest.
 ///
 /// # Errors
 /// Where an input is outside its range, or the soil cannot carry the load.
@@ -49,7 +49,7 @@ pub fn sinkage_for_load<S: Scalar>(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, lo
     solve(bracket, tolerance / load.exponent, |sinkage_m| load.excess(sinkage_m, load_n))
 }
 
-/// The greatest load that a soil carries up to [`deepest_sinkage`], and where. Cost: about fifty evaluations.
+/// The greatest load that a soil carries up to [`deepest_sinkage`], and where. Cost: about eighty evaluations.
 ///
 /// # Errors
 /// Where an input is outside its range.

@@ -8,7 +8,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use kapvik_firmware::terramechanics::{Soil, Wheel, WheelForces, wheel_forces};
+use kapvik_firmware::terramechanics::{Soil, Wheel, WheelForces, sinkage_for_load, wheel_forces};
 
 /// A wheel of Kapvik's assumed size.
 const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
@@ -19,7 +19,7 @@ const SOIL: Soil<f64> = Soil {
     cohesive_modulus: 15_600.0,
     frictional_modulus: 2_407_400.0,
     cohesion_pa: 250.0,
-    friction_angle_rad: 0.556_760_031_192_235_3,
+    friction_angle_rad: 0.556_760_031_386_191_1,
     shear_modulus_m: 0.0114,
     peak_stress_c1: 0.18,
     peak_stress_c2: 0.32,
@@ -28,6 +28,7 @@ const SOIL: Soil<f64> = Soil {
 
 const SLIPS: [f64; 6] = [0.05, 0.10, 0.20, 0.30, 0.40, 0.60];
 const SINKAGE_M: f64 = 0.018;
+const LOAD_N: f64 = 65.4;
 
 /// What the library states: error in parts of W (of rW for the torque).
 const ACCURACY: f64 = 1e-7;
@@ -55,12 +56,12 @@ pub fn print() {
         Measured {
             method: "this library".into(),
             error: greatest_error(&exact, &ours),
-            seconds: seconds_per_evaluation(library),
+            seconds: seconds_per_call(library),
         },
         Measured {
             method: format!("Simpson loop, 2 × {intervals} intervals"),
             error: greatest_error(&exact, &SLIPS.map(|slip| simpson(slip, intervals))),
-            seconds: seconds_per_evaluation(|slip| simpson(slip, intervals)),
+            seconds: seconds_per_call(|slip| simpson(slip, intervals)),
         },
     ];
     let scipy = scipy(&exact);
@@ -80,8 +81,14 @@ pub fn print() {
     if let Some(reason) = note {
         println!("SciPy's quad: left out, {reason}");
     }
+    let solve = seconds_per_call(|slip| sinkage_for_load(&WHEEL, &SOIL, slip, LOAD_N));
     println!(
-        "\nerror: the greatest against the loop with {REFERENCE_INTERVALS} intervals; of W for DP and W, of rW for T"
+        "\nSinkage for a load of {LOAD_N} N: {:.2} µs, the time of {:.1} evaluations",
+        1e6 * solve,
+        solve / fastest
+    );
+    println!(
+        "error: the greatest against the loop with {REFERENCE_INTERVALS} intervals; of W for DP and W, of rW for T"
     );
 }
 
@@ -98,15 +105,16 @@ fn simpson(slip: f64, intervals: u32) -> WheelForces<f64> {
     let exit = -(1.0 - SOIL.rebound_ratio * SINKAGE_M / r).acos();
     let peak = (SOIL.peak_stress_c1 + SOIL.peak_stress_c2 * slip) * entry;
     let k = SOIL.stiffness(WHEEL.width_m) * r.powf(SOIL.sinkage_exponent);
+    let (sin_entry, cos_entry, tan_phi) = (entry.sin(), entry.cos(), SOIL.friction_angle_rad.tan());
     let mut sum = [0.0; 3];
     for (from, to) in [(exit, peak), (peak, entry)] {
         let step = (to - from) / f64::from(intervals);
         for index in 0..=intervals {
             let theta = from + f64::from(index) * step;
             let front = if theta < peak { entry - (theta - exit) / (peak - exit) * (entry - peak) } else { theta };
-            let sigma = k * (front.cos() - entry.cos()).max(0.0).powf(SOIL.sinkage_exponent);
-            let j = r * ((entry - theta) - (1.0 - slip) * (entry.sin() - theta.sin()));
-            let strength = SOIL.cohesion_pa + sigma * SOIL.friction_angle_rad.tan();
+            let sigma = k * (front.cos() - cos_entry).max(0.0).powf(SOIL.sinkage_exponent);
+            let j = r * ((entry - theta) - (1.0 - slip) * (sin_entry - theta.sin()));
+            let strength = SOIL.cohesion_pa + sigma * tan_phi;
             let tau = strength * (1.0 - (-j / SOIL.shear_modulus_m).exp());
             let weight =
                 step / 3.0 * if index == 0 || index == intervals { 1.0 } else { 2.0 + 2.0 * f64::from(index % 2) };
@@ -139,8 +147,8 @@ fn greatest_error(exact: &[WheelForces<f64>], found: &[WheelForces<f64>]) -> f64
     exact.iter().zip(found).map(error).fold(0.0, |greatest, error| if error <= greatest { greatest } else { error })
 }
 
-/// The fastest of several repeats, per evaluation.
-fn seconds_per_evaluation(evaluate: impl Fn(f64) -> WheelForces<f64>) -> f64 {
+/// The fastest of several repeats, per call.
+fn seconds_per_call<T>(evaluate: impl Fn(f64) -> T) -> f64 {
     let share = TIME / REPEATS;
     let repeat = |_| {
         let (start, mut evaluations) = (Instant::now(), 0_u32);

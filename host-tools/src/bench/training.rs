@@ -12,7 +12,7 @@ use crate::error::HostError;
 use crate::train::back_propagation::{Adam, mean_of};
 use crate::train::dataset::{shuffle, wheel_examples, wheel_inputs};
 use crate::train::example::{Example, WheelInput, normalisation};
-use crate::train::fifth_input::FifthInput;
+use crate::train::fifth_input::Candidate;
 use crate::train::loss::mean_square;
 use crate::train::scene::{Design, scenes};
 use crate::train::trainable::initial;
@@ -71,10 +71,10 @@ pub fn print() -> Result<(), HostError> {
 
 fn examples(count: usize, seed: u32) -> Vec<Example<WheelInput>> {
     let scenes = scenes(Design::Training, count, seed);
-    let inputs = wheel_inputs(&scenes, FifthInput::None, u64::from(seed));
+    let inputs = wheel_inputs(&scenes, Candidate::None, u64::from(seed));
     // Both sets on one scale: that of the first draw.
     let reference = crate::train::scene::scenes(Design::Training, 4_000, 1);
-    let normal = normalisation(wheel_inputs(&reference, FifthInput::None, 1).iter());
+    let normal = normalisation(wheel_inputs(&reference, Candidate::None, 1).iter());
     wheel_examples(&scenes, &inputs, &normal)
 }
 

@@ -67,6 +67,8 @@ struct Forward<S> {
 /// The columns that the command reads and writes.
 struct Columns {
     slip: Column,
+    /// The one of `sinkage_m` and `load_n` that the table came with; `sinkage_m` where it came with both.
+    asked: Column,
     drawbar_pull: Column,
     load: Column,
     torque: Column,
@@ -76,12 +78,13 @@ struct Columns {
 impl<S: Scalar> Forward<S> {
     fn complete(&self, table: &mut Table) -> Result<(), HostError> {
         let slip = table.required_column("slip")?;
-        if table.column("sinkage_m").is_none() {
-            table.required_column("load_n")?;
-        }
+        let asked = match table.column("sinkage_m") {
+            Some(sinkage) => sinkage,
+            None => table.required_column("load_n")?,
+        };
         let [drawbar_pull, load, torque, sinkage] =
             ["drawbar_pull_n", "load_n", "torque_nm", "sinkage_m"].map(|name| table.column_or_append(name));
-        let columns = Columns { slip, drawbar_pull, load, torque, sinkage };
+        let columns = Columns { slip, asked, drawbar_pull, load, torque, sinkage };
         (0..table.len()).try_for_each(|row| self.complete_row(table, &columns, row))
     }
 
@@ -95,7 +98,11 @@ impl<S: Scalar> Forward<S> {
             (Some(sinkage), _) => (self.narrow)(sinkage),
             (None, Some(load)) => self.sinkage(table, columns, row, slip, (self.narrow)(load))?,
             (None, None) => {
-                return Err(table.error_at(row, columns.sinkage, "empty, as load_n is: expected one of the two"));
+                return Err(table.error_at(
+                    row,
+                    columns.asked,
+                    "empty: expected either sinkage_m or load_n in each row",
+                ));
             }
         };
         let forces = wheel_forces(&self.wheel, &self.soil, slip, sinkage)
@@ -113,7 +120,7 @@ impl<S: Scalar> Forward<S> {
     fn sinkage(&self, table: &Table, columns: &Columns, row: usize, slip: S, load: S) -> Result<S, HostError> {
         let found = sinkage_for_load(&self.wheel, &self.soil, slip, load);
         found.map_err(|error| match error {
-            SinkageError::Input if !(load > S::zero()) => {
+            SinkageError::Input if load <= S::zero() => {
                 table.error_at(row, columns.load, format!("{}: expected a load above 0 N", written(load)))
             }
             SinkageError::Input => self.force_error(table, columns, row, ForceError::Slip),

@@ -33,8 +33,8 @@ impl Table {
     /// Reads a table. A byte-order mark, either kind of line end and quoted fields are taken as they come.
     ///
     /// # Errors
-    /// Where the file cannot be read or is not UTF-8, has no header, names a column twice, or has a row that is longer or
-    /// shorter than the header.
+    /// Where the file cannot be read or is not UTF-8, leaves a quote open, has no header, names a column twice, or has a
+    /// row that is longer or shorter than the header.
     pub fn read(path: &Path) -> Result<Self, HostError> {
         Self::parse(&TextFile::read(path)?)
     }
@@ -44,11 +44,13 @@ impl Table {
     /// # Errors
     /// As [`Self::read`].
     pub fn parse(file: &TextFile) -> Result<Self, HostError> {
+        check_quotes(file)?;
         let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(file.text().as_bytes());
         let mut table = Self { path: file.path().to_path_buf(), header: Vec::new(), rows: Vec::new() };
         let mut record = StringRecord::new();
+        let mut lines = Lines { text: file.text(), offset: 0, line: 1 };
         while table.read_record(&mut reader, &mut record)? {
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = lines.of_record(&record);
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
             if table.header.is_empty() {
                 table.header = fields;
@@ -200,5 +202,36 @@ impl Table {
             writer.write_record(&row.fields)?;
         }
         Ok(writer.flush()?)
+    }
+}
+
+/// Counts lines up to each record. The reader's own count is one behind where lines end in CR LF, and it counts empty lines to
+/// the record that follows them.
+struct Lines<'a> {
+    text: &'a str,
+    offset: usize,
+    line: u64,
+}
+
+impl Lines<'_> {
+    fn of_record(&mut self, record: &StringRecord) -> u64 {
+        let start = record.position().map_or(0, |position| position.byte() as usize);
+        let rest = self.text.get(start..).unwrap_or("");
+        let start = start + rest.len() - rest.trim_start_matches(['\r', '\n']).len();
+        let passed = self.text.get(self.offset..start).unwrap_or("");
+        self.line += passed.matches('\n').count() as u64;
+        self.offset = start;
+        self.line
+    }
+}
+
+/// Refuses a quote that is never closed: the rest of the file would vanish into one field.
+fn check_quotes(file: &TextFile) -> Result<(), HostError> {
+    match file.text().rfind('"') {
+        Some(last) if file.text().matches('"').count() % 2 == 1 => {
+            Err(file
+                .error_at(last, "a quote is not closed: expected another (a quote within a field is written twice)"))
+        }
+        _ => Ok(()),
     }
 }

@@ -133,7 +133,7 @@ impl RunDocument {
             refused: run.refused(),
             condition_number: question.and_then(|question| question.condition_number),
             soil: question.map(|question| estimate(&question.answer)).unwrap_or_default(),
-            sinkage_used: question.is_some_and(|question| question.query.has_sinkage()),
+            sinkage_used: question.is_some_and(Question::sinkage_used),
             instants: run.instants,
             rows_used: run.rows_used,
             rows_left_out: run

@@ -121,10 +121,11 @@ fn ask(
     let query = SoilQuery {
         wheel: campaign.wheel.map(|length| length as f32),
         noise: noise.of_means(&states, campaign.wheel.radius_m),
+        slope: None,
         wheels: states.iter().map(|state| wheel_state(&state.mean)).collect(),
     };
     let said = answer(&query)?;
-    let answer_without_sinkage = if query.has_sinkage() {
+    let answer_without_sinkage = if has_sinkage(&query) {
         let mut blind = query.clone();
         blind.wheels.iter_mut().for_each(|state| state.sinkage_m = None);
         Some(answer(&blind)?)
@@ -136,6 +137,11 @@ fn ask(
         condition_number(&campaign.wheel, &soil, &states, &query.noise)
     });
     Ok(Question { states, query, answer: said, answer_without_sinkage, condition_number })
+}
+
+/// Whether the rover network uses the sinkage: it does where every wheel has one.
+fn has_sinkage(query: &SoilQuery) -> bool {
+    query.wheels.iter().all(|state| state.sinkage_m.is_some())
 }
 
 fn wheel_state(sample: &Sample) -> WheelState {
@@ -180,6 +186,11 @@ impl Question {
     /// The rover network's estimate, with sinkage where there is one.
     pub fn rover(&self) -> Result<&SoilEstimate, &'static str> {
         self.answer.rover.as_ref().map_err(|refusal| refusal_in_words(*refusal))
+    }
+
+    /// Whether the rover network's estimate used the sinkage.
+    pub fn sinkage_used(&self) -> bool {
+        has_sinkage(&self.query)
     }
 
     /// The noise that the networks were told.

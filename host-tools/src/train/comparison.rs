@@ -10,7 +10,7 @@ use super::curve::Curve;
 use super::dataset::{prior_scale, shuffle, wheel_examples, wheel_inputs};
 use super::example::{Example, WheelInput, normalisation};
 use super::extended_kalman::ExtendedKalman;
-use super::fifth_input::FifthInput;
+use super::fifth_input::Candidate;
 use super::levenberg_marquardt::LevenbergMarquardt;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
@@ -68,7 +68,7 @@ struct Sets {
 }
 
 impl Sets {
-    fn new(plan: &Plan, scenes: &[Scene], held_out: &[Scene], fifth: FifthInput) -> Self {
+    fn new(plan: &Plan, scenes: &[Scene], held_out: &[Scene], fifth: Candidate) -> Self {
         let raw = wheel_inputs(scenes, fifth, plan.stream(Purpose::ComparisonNoise));
         let normal = normalisation(raw.iter());
         let mut training = wheel_examples(scenes, &raw, &normal);
@@ -82,7 +82,7 @@ impl Sets {
 
 /// All trainers with sinkage as the fifth input, as the seed starts.
 pub fn compare_trainers(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: &ProgressBar) -> Vec<Row> {
-    let sets = Sets::new(plan, scenes, held_out, FifthInput::Sinkage);
+    let sets = Sets::new(plan, scenes, held_out, Candidate::Sinkage);
     progress.set_length(Trainer::ALL.len() as u64);
     let rows = Trainer::ALL.into_iter().map(|trainer| {
         progress.set_message(trainer.name());
@@ -95,8 +95,8 @@ pub fn compare_trainers(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progr
 
 /// All fifth inputs by the same trainer.
 pub fn compare_fifth_inputs(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: &ProgressBar) -> Vec<Row> {
-    progress.set_length(FifthInput::ALL.len() as u64);
-    let rows = FifthInput::ALL.into_iter().map(|fifth| {
+    progress.set_length(Candidate::ALL.len() as u64);
+    let rows = Candidate::ALL.into_iter().map(|fifth| {
         progress.set_message(fifth.name());
         let row = run(plan, &Sets::new(plan, scenes, held_out, fifth), Trainer::Adam, fifth.name());
         progress.inc(1);

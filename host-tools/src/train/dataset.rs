@@ -1,13 +1,12 @@
 //! Scenes as the trainers want them: noise drawn, inputs normalised, targets standardised, order shuffled.
 
 use kapvik_firmware::network::{PosteriorScale, TARGETS, WHEEL_INPUTS};
-use kapvik_firmware::soil::{context_features, wheel_features};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::example::{Example, RoverInput, RoverNormalisation, WheelInput, rover_features, targets};
-use super::fifth_input::FifthInput;
+use super::fifth_input::Candidate;
 use super::observe::observe;
 use super::prior::{self, Range};
 use super::scene::Scene;
@@ -53,28 +52,16 @@ pub fn rover_examples(scenes: &[Scene], normal: &RoverNormalisation, seed: u64) 
 }
 
 /// The per-wheel network's inputs, in their own units, for the first wheel of each scene.
-pub fn wheel_inputs(scenes: &[Scene], fifth: FifthInput, seed: u64) -> Vec<WheelInput> {
+pub fn wheel_inputs(scenes: &[Scene], fifth: Candidate, seed: u64) -> Vec<WheelInput> {
     scenes
         .par_iter()
         .enumerate()
         .map(|(index, scene)| {
             let mut random = stream(seed, index);
             let query = observe(scene, &mut random);
-            let state = &query.wheels[0];
-            let sinkage = fifth == FifthInput::Sinkage;
-            let mut own = wheel_features(&query.wheel, state, sinkage);
-            own[3] = fifth.value(scene, &query, 0, &mut random);
-            let shared = context_features(&query.wheel, &query.noise, state.load_n, sinkage);
-            concatenated(&own, &shared)
+            query.wheel_inputs(&query.wheels[0], fifth.observe(scene, &query, 0, &mut random))
         })
         .collect()
-}
-
-/// A wheel's own inputs, then those that the wheels share.
-fn concatenated(own: &[f32], shared: &[f32]) -> WheelInput {
-    let mut input = [0.0; WHEEL_INPUTS];
-    input.iter_mut().zip(own.iter().chain(shared)).for_each(|(place, value)| *place = *value);
-    input
 }
 
 /// Examples of the per-wheel network from its inputs.

@@ -3,7 +3,7 @@
 use kapvik_firmware::network::{Numbers, PartVisitor, RoverTable, WheelTable};
 use kapvik_table_file::{Block, TableFile};
 
-use super::fifth_input::FifthInput;
+use super::fifth_input::Candidate;
 use super::plan::Plan;
 use super::prior::{self, Range};
 
@@ -23,7 +23,7 @@ pub struct Provenance<'a> {
     /// The run that made the table.
     pub plan: &'a Plan,
     /// The per-wheel network's fifth input.
-    pub fifth: FifthInput,
+    pub fifth: Candidate,
     /// Held-out losses of the per-wheel and of the rover network.
     pub losses: [f64; 2],
 }

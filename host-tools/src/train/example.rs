@@ -1,7 +1,7 @@
 //! Examples for the trainers: normalised inputs, standardised targets.
 
 use kapvik_firmware::network::{CONTEXT_FEATURES, Normalisation, ROVER_WHEELS, TARGETS, WHEEL_FEATURES, WHEEL_INPUTS};
-use kapvik_firmware::soil::{ContextFeatures, WheelFeatures, context_features, wheel_features};
+use kapvik_firmware::soil::{ContextFeatures, WheelFeatures};
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use super::scene::Scene;
@@ -35,11 +35,8 @@ pub fn targets(scene: &Scene) -> [f64; TARGETS] {
 
 /// The rover network's inputs for a query, in their own units.
 pub fn rover_features(query: &SoilQuery) -> RoverInput {
-    let sinkage = query.has_sinkage();
-    RoverInput {
-        context: context_features(&query.wheel, &query.noise, query.mean_load_n(), sinkage),
-        wheels: query.wheels.iter().map(|state| wheel_features(&query.wheel, state, sinkage)).collect(),
-    }
+    let (context, wheels) = query.rover_features();
+    RoverInput { context, wheels: wheels.collect() }
 }
 
 /// Normalisation of a set of inputs: mean, standard deviation, and the range that all but one in 5000 lie in, each side

@@ -1,5 +1,6 @@
 //! The fifth input of the per-wheel network: the seed starts with sinkage and looks for one that is easier to measure.
 
+use kapvik_firmware::soil::FifthInput;
 use kapvik_firmware::wheel_state::{SoilQuery, WheelState};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -8,12 +9,12 @@ use super::scene::Scene;
 
 /// A candidate for the fifth input. All but sinkage come from sensors that Kapvik has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FifthInput {
+pub enum Candidate {
     /// No fifth input.
     None,
     /// Sinkage over radius; needs a sensor that Kapvik does not have.
     Sinkage,
-    /// Slope under the wheels, which at steady speed is the arc tangent of the rover's total DP/W; known to 1°.
+    /// Slope under the rover, which at steady speed on plane ground is the arc tangent of its total DP/W; known to 1°.
     ContactAngle,
     /// Rim speed over the mean rim speed of the six wheels, as commanded.
     SpeedRatio,
@@ -22,7 +23,7 @@ pub enum FifthInput {
     BogieSinkage,
 }
 
-impl FifthInput {
+impl Candidate {
     /// All candidates, in the order of the table.
     pub const ALL: [Self; 5] = [Self::Sinkage, Self::None, Self::ContactAngle, Self::SpeedRatio, Self::BogieSinkage];
 
@@ -38,26 +39,23 @@ impl FifthInput {
     }
 
     /// The input for the wheel at `place`, as seen in `query`.
-    pub fn value(self, scene: &Scene, query: &SoilQuery, place: usize, random: &mut ChaCha8Rng) -> f32 {
+    pub fn observe(self, scene: &Scene, query: &SoilQuery, place: usize, random: &mut ChaCha8Rng) -> FifthInput {
         let radius = query.wheel.radius_m;
         let mut normal = || -> f32 { StandardNormal.sample(random) };
+        let exactly = |value: f32| FifthInput { value, std: 1.0 };
         let sinkage = |state: &WheelState| state.sinkage_m.unwrap_or(0.0);
         match self {
-            Self::None => 0.0,
-            Self::Sinkage => sinkage(&query.wheels[place]) / radius,
-            Self::ContactAngle => {
-                let pull: f32 = scene.wheels.iter().map(|state| state.drawbar_pull_n).sum();
-                let load: f32 = scene.wheels.iter().map(|state| state.load_n).sum();
-                libm::atan2f(pull, load) + 1.0_f32.to_radians() * normal()
-            }
+            Self::None => FifthInput::UNKNOWN,
+            Self::Sinkage => FifthInput::sinkage(&query.wheel, &query.wheels[place], &query.noise),
+            Self::ContactAngle => FifthInput::slope(query.slope),
             Self::SpeedRatio => {
                 let rim_speed = |state: &WheelState| 1.0 / (1.0 - state.slip);
                 let mean = scene.wheels.iter().map(rim_speed).sum::<f32>() / scene.wheels.len() as f32;
-                rim_speed(&scene.wheels[place]) / mean
+                exactly(rim_speed(&scene.wheels[place]) / mean)
             }
             Self::BogieSinkage => {
                 let mate = &scene.wheels[(place + 1) % scene.wheels.len()];
-                (sinkage(&scene.wheels[place]) - sinkage(mate) + 0.000_35 * normal()) / radius
+                exactly((sinkage(&scene.wheels[place]) - sinkage(mate) + 0.000_35 * normal()) / radius)
             }
         }
     }

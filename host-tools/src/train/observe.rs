@@ -1,6 +1,6 @@
 //! What the sensors see of a scene.
 
-use kapvik_firmware::wheel_state::{SoilQuery, WheelState};
+use kapvik_firmware::wheel_state::{Slope, SoilQuery, WheelState};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -24,5 +24,6 @@ pub fn observe(scene: &Scene, random: &mut ChaCha8Rng) -> SoilQuery {
             sinkage_m: state.sinkage_m.filter(|_| scene.sinkage_seen).map(|z| blur(z, noise.sinkage_m)),
         })
         .collect();
-    SoilQuery { wheel: scene.wheel.map(|metres| metres as f32), noise, wheels }
+    let slope = scene.slope.map(|slope| Slope { angle_rad: blur(slope.angle_rad, slope.std_rad), ..slope });
+    SoilQuery { wheel: scene.wheel.map(|metres| metres as f32), noise, slope, wheels }
 }

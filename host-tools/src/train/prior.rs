@@ -86,6 +86,11 @@ pub const AVERAGING: Range = Range::logarithmic(0.05, 1.0);
 /// Further factor on the noise of a single channel, for other sensors than Kapvik's.
 pub const OTHER_SENSOR: Range = Range::logarithmic(0.25, 3.0);
 
+/// Standard deviation of the slope under the rover, rad; it does not average away.
+pub const SLOPE_STD_RAD: Range = Range::logarithmic(0.004, 0.05);
+/// The same in the comparison of fifth inputs, rad: 1°.
+pub const COMPARED_SLOPE_STD_RAD: f64 = 0.017_453_292_519_943_295;
+
 /// Standard deviations as the networks see them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeNoise {

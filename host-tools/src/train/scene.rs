@@ -1,7 +1,7 @@
 //! Draws of the prior: a rover's wheels on a soil, as they truly are.
 
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
-use kapvik_firmware::wheel_state::{WHEELS, WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::{Slope, WHEELS, WheelNoise, WheelState};
 use rayon::prelude::*;
 
 use super::prior;
@@ -19,6 +19,19 @@ pub struct Scene {
     pub noise: WheelNoise,
     /// Whether the sinkage is seen.
     pub sinkage_seen: bool,
+    /// The true slope and how well it is known, where it is seen.
+    pub slope: Option<Slope>,
+}
+
+impl Scene {
+    /// Lets the slope be seen. A rover that drives at steady speed on plane ground pulls itself up it, no more and no
+    /// less: its tangent is the total drawbar pull over the total load.
+    pub fn with_slope_seen(mut self, std_rad: f64) -> Self {
+        let pull: f32 = self.wheels.iter().map(|state| state.drawbar_pull_n).sum();
+        let load: f32 = self.wheels.iter().map(|state| state.load_n).sum();
+        self.slope = Some(Slope { angle_rad: libm::atan2f(pull, load), std_rad: std_rad as f32 });
+        self
+    }
 }
 
 /// What a set of scenes is for.
@@ -110,6 +123,7 @@ fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
     let (fewer, count) = (shares.next(), shares.next());
     let count = if fewer < 0.5 { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
     let sinkage_seen = shares.next() < 0.5;
+    let (slope_seen, slope_std) = (shares.next() < 0.7, prior::SLOPE_STD_RAD.at(shares.next()));
     let wheels = (0..count)
         .map(|place| {
             let slip = slips.of(place, count, shares.next());
@@ -117,7 +131,9 @@ fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
             state(&wheel, &soil, slip, load)
         })
         .collect::<Option<_>>()?;
-    Some(Scene { wheel, soil, wheels, noise, sinkage_seen })
+    let scene = Scene { wheel, soil, wheels, noise, sinkage_seen, slope: None };
+    // Only all the wheels of a rover together tell the slope.
+    Some(if slope_seen && count == WHEELS { scene.with_slope_seen(slope_std) } else { scene })
 }
 
 /// How slip differs among the wheels of an instant.
@@ -152,7 +168,7 @@ fn draw_kapvik(shares: &mut Shares, soil: Soil<f64>, instants: u32, sinkage: boo
         })
         .collect::<Option<_>>()?;
     let noise = noise(&wheel, prior::KAPVIK_LOAD_N, [1.0 / libm::sqrt(f64::from(instants)); 5]);
-    Some(Scene { wheel, soil, wheels, noise, sinkage_seen: sinkage })
+    Some(Scene { wheel, soil, wheels, noise, sinkage_seen: sinkage, slope: None })
 }
 
 /// A true wheel state, or none where the wheel would be stuck.

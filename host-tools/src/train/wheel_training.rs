@@ -10,7 +10,7 @@ use super::calibration::calibrate;
 use super::curve::Curve;
 use super::dataset::{prior_scale, shuffle, wheel_examples, wheel_inputs};
 use super::example::normalisation;
-use super::fifth_input::FifthInput;
+use super::fifth_input::Candidate;
 use super::plan::{Plan, Purpose};
 use super::rover_training::pass;
 use super::scene::Scene;
@@ -19,7 +19,7 @@ use super::trainable::{GRADIENT, initial};
 /// Trains the per-wheel network on the first wheel of each scene, watches and calibrates it on `held_out`.
 pub fn train_wheel(
     plan: &Plan,
-    fifth: FifthInput,
+    fifth: Candidate,
     scenes: &[Scene],
     held_out: &[Scene],
     progress: &ProgressBar,
