@@ -28,18 +28,11 @@ pub struct Arguments {
     picture: Option<PathBuf>,
 }
 
-/// What the project carries: figures of a smooth wheel, read off published curves.
-const CARRIED: (&str, &str, &str) = (
-    "ding2011-smooth.csv",
-    include_str!("../../data/ding2011-smooth.csv"),
-    include_str!("../../data/ding2011-smooth.toml"),
-);
-
 /// Streams wheel states to the flight computer, and shows what it makes of them.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let campaign = match &arguments.campaign {
         Some(path) => Campaign::read(path)?,
-        None => Campaign::parse(Path::new(CARRIED.0), CARRIED.1, CARRIED.2)?,
+        None => Campaign::carried()?,
     };
     let findings = Findings::gather(campaign, arguments.on)?;
     println!("{}", report::terminal(&findings));

@@ -160,3 +160,66 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
     sum / f64::from(count)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(slip: f64, load_n: f64, drawbar_pull_n: f64) -> Sample {
+        Sample { slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None }
+    }
+
+    /// Numbers that scatter like a sensor: a fixed sequence of −1, 0 and 1 with mean zero over six.
+    fn scatter(place: usize) -> f64 {
+        [1.0, -1.0, 0.0, -1.0, 1.0, 0.0][place % 6]
+    }
+
+    #[test]
+    fn six_rows_stay_as_they_are() {
+        let samples: Vec<Sample> = (0..6).map(|_| sample(0.2, 65.0, 3.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.len(), 6);
+        assert!(states.iter().all(|state| state.rows == 1));
+    }
+
+    #[test]
+    fn steady_wheels_become_their_means() {
+        let rows = (0..60).flat_map(|instant| (0..6).map(move |wheel| (instant, wheel)));
+        let samples: Vec<Sample> = rows
+            .map(|(instant, wheel)| {
+                sample(0.05 + 0.1 * f64::from(wheel) + 0.01 * scatter(instant), 65.0, f64::from(wheel))
+            })
+            .collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [60; 6]);
+        for (wheel, state) in states.iter().enumerate() {
+            assert!((state.mean.slip - 0.05 - 0.1 * wheel as f64).abs() < 1e-12, "{state:?}");
+            assert!((state.mean.drawbar_pull_n - wheel as f64).abs() < 1e-12, "{state:?}");
+        }
+    }
+
+    #[test]
+    fn a_slip_that_sweeps_becomes_six_states_along_its_way() {
+        let samples: Vec<Sample> = (0..600).map(|row| sample(f64::from(row) / 1000.0, 65.0, 0.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.len(), 6);
+        assert_eq!(states.iter().map(|state| state.rows).sum::<usize>(), 600);
+        assert!(states.iter().all(|state| (75..=150).contains(&state.rows)), "{states:?}");
+    }
+
+    #[test]
+    fn scatter_that_is_noise_is_not_cut() {
+        let samples: Vec<Sample> =
+            (0..120).map(|row| sample(0.3 + 0.01 * scatter(row), 65.0 + scatter(row / 6), 2.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [120]);
+    }
+
+    #[test]
+    fn wheels_that_differ_in_load_alone_are_told_apart() {
+        let samples: Vec<Sample> =
+            (0..100).map(|row| sample(0.3, if row % 2 == 0 { 40.0 } else { 90.0 }, 2.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.iter().map(|state| state.mean.load_n).collect::<Vec<_>>(), [40.0, 90.0]);
+    }
+}

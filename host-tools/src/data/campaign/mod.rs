@@ -88,6 +88,17 @@ impl Campaign {
         Self::assemble(path, &table, &TomlFile::new(TextFile::new(&path.with_extension("toml"), toml)))
     }
 
+    /// The measured figures that the project carries: a smooth wheel at six slips on a soil that direct tests know, read
+    /// off published curves.
+    ///
+    /// # Errors
+    /// Never in practice: the figures are part of this program, and tested.
+    pub fn carried() -> Result<Self, HostError> {
+        const CSV: &str = include_str!("../../../data/ding2011-smooth.csv");
+        const TOML: &str = include_str!("../../../data/ding2011-smooth.toml");
+        Self::parse(Path::new("host-tools/data/ding2011-smooth.csv"), CSV, TOML)
+    }
+
     fn assemble(path: &Path, table: &Table, toml: &TomlFile) -> Result<Self, HostError> {
         let about = about::About::read(toml)?;
         let rows = row_ids(table)?;
