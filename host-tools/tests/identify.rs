@@ -4,6 +4,7 @@ mod support;
 
 use assert_cmd::Command;
 use kapvik_firmware::pipeline;
+use kapvik_firmware::wheel_state::WheelNoise;
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::{Document, identify};
 use proptest::prelude::*;
@@ -54,17 +55,21 @@ fn the_document_has_the_agreed_shape() {
     assert_eq!(runs[1]["wheels"][0]["rows"], 4, "each wheel is the mean over the four instants");
 }
 
+/// The noise that the networks are told of a run of so many instants.
+fn told(instants: usize) -> WheelNoise {
+    let csv = Made { runs: vec![("a", instants)], ..Made::default() }.csv();
+    let campaign = Campaign::parse(Path::new("made.csv"), &csv, TOML).expect("a campaign");
+    let identification = identify(&campaign, &mut |query| Ok(pipeline::answer(query))).expect("identified");
+    *identification.runs[0].question.as_ref().expect("asked").noise()
+}
+
 #[test]
-fn many_instants_narrow_the_interval_of_the_shear_modulus() {
-    let logarithmic_width = |instants: usize| -> f64 {
-        let csv = Made { runs: vec![("a", instants)], ..Made::default() }.csv();
-        let document = document(&csv, TOML).expect("identified");
-        let end = |place: usize| document["runs"][0]["shear_modulus_m"]["interval_68"][place].as_f64();
-        (end(1).expect("high") / end(0).expect("low")).ln()
-    };
-    // Friction trades against cohesion and keeps its width; the shear modulus is what more instants tell.
-    let (one, many) = (logarithmic_width(1), logarithmic_width(100));
-    assert!(many < 0.9 * one, "{many} after a hundred instants, {one} after one");
+fn the_networks_are_told_of_averaging_down_to_the_least_noise_that_they_know() {
+    let (one, hundred, thousand) = (told(1), told(100), told(1000));
+    assert_eq!((one.drawbar_pull_n, one.torque_nm, one.slip), (0.5, 0.05, 0.01));
+    assert!((hundred.drawbar_pull_n - 0.05).abs() < 1e-6 && (hundred.sinkage_m - 0.000_2).abs() < 1e-8);
+    // A thousand instants are told as four hundred: 1/20 of the flight sensors' noise, 0.01 in slip.
+    assert!((thousand.slip - 0.000_5).abs() < 1e-8, "{thousand:?}");
 }
 
 #[test]

@@ -22,6 +22,11 @@ pub enum Command {
     #[command(subcommand)]
     Bench(bench::Subject),
     /// Cohesion, friction angle and shear modulus from a wheel campaign
+    ///
+    /// Rows with the same `run` and `t_s` are the wheels of one instant, and each run is one soil. Up to six rows of a run
+    /// are taken as six wheels; more, of one instant or of many, are averaged in at most six groups of like slip and
+    /// load, and the networks are told of the smaller noise. The noise is that of `[noise]`; without it that of repeats;
+    /// without these that of the flight sensors. OUT.json says which.
     Identify(identify::Arguments),
     /// Train the networks and write the frozen table
     Train(train::Arguments),

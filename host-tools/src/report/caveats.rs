@@ -25,6 +25,7 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
     ]
     .into_iter()
     .flatten()
+    .chain(findings.campaign.notes.iter().cloned())
     .collect()
 }
 

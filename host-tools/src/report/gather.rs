@@ -1,5 +1,7 @@
 //! From a campaign to findings, by way of a flight computer.
 
+use std::time::Duration;
+
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
@@ -7,7 +9,7 @@ use crate::data::campaign::Campaign;
 use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::identify::identify;
-use crate::qemu::{Binary, Image, LogView, MemoryUse};
+use crate::qemu::{Binary, Image, LogLine, LogView, MemoryUse};
 use crate::setup;
 
 use super::facts::FlightFacts;
@@ -34,9 +36,25 @@ impl Findings {
         let health = computer.health()?;
         let fingerprint = fingerprint(&answers)
             .map_err(|error| HostError::Failed(format!("the answers have no fingerprint: {error}")))?;
-        let flight = FlightFacts { computer: on, boot, health, memory, log: computer.log(), fingerprint };
+        let flight = FlightFacts { computer: on, boot, health, memory, log: settled_log(&computer), fingerprint };
         Ok(Self { model: ModelCheck::of(&campaign), campaign, identification, flight })
     }
+}
+
+/// The log, once it has stopped growing: it comes over a line of its own, behind the answers.
+fn settled_log(computer: &FlightComputer) -> Vec<LogLine> {
+    const PAUSE: Duration = Duration::from_millis(60);
+    const PAUSES: u32 = 20;
+    let mut log = computer.log();
+    for _ in 0..PAUSES {
+        std::thread::sleep(PAUSE);
+        let later = computer.log();
+        if later.len() == log.len() {
+            break;
+        }
+        log = later;
+    }
+    log
 }
 
 fn start(on: Computer) -> Result<(FlightComputer, Option<MemoryUse>), HostError> {

@@ -40,6 +40,11 @@ pub fn page(findings: &Findings) -> String {
                     h1 { "Soil from wheels: " (campaign.name) }
                     p { span class="kind" { (campaign.provenance.to_string()) } }
                     p class="source" { (campaign.source) }
+                    p {
+                        "What a rolling wheel feels (load, drawbar pull, torque) and how it moves (slip, sinkage) went to the "
+                        "flight computer, whose networks say what soil it rolls on, how sure they are, and what such data "
+                        "cannot tell."
+                    }
                 }
                 main {
                     @for run in runs.iter().take(RUNS_DRAWN) { (run_section(findings, run, runs.len() > 1)) }
@@ -95,7 +100,7 @@ fn answers(campaign: &Campaign, rows: &[EstimateRow]) -> Markup {
                 @let estimate = parameter.of(soil);
                 div class={ "answer" @if !estimate.identifiable { " untold" } } {
                     h3 { (parameter.name()) " " i { (parameter.symbol()) } }
-                    div class="value" { (parameter.number(estimate.value.into())) small { "\u{a0}" (parameter.unit()) } }
+                    div class="value" { (parameter.number(estimate.value.into())) small { (parameter.spaced_unit()) } }
                     p class="verdict" {
                         @if estimate.identifiable { "determined by these data" } @else { "cannot be told from these data" }
                     }

@@ -43,6 +43,8 @@ pub(super) struct About {
     pub kind: Provenance,
     #[serde(default)]
     pub source: String,
+    #[serde(default)]
+    pub notes: Vec<String>,
     #[serde(default = "standard_gravity")]
     pub gravity_m_s2: Spanned<f64>,
     pub wheel: WheelTable,

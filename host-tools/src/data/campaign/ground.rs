@@ -1,5 +1,7 @@
 //! `[soil]`: what is known of the soil by other means than the wheel.
 
+use std::cmp::Ordering;
+
 use kapvik_firmware::terramechanics::Wheel;
 use toml::Spanned;
 
@@ -148,7 +150,8 @@ fn knowledge(
             (Knowledge::Value { value, std }, value, value)
         }
         Parameter::Free(Bounds { min, max }) => {
-            if !(min < max) {
+            // Also where one of them is not a number.
+            if min.partial_cmp(&max) != Some(Ordering::Less) {
                 return refuse(format!("min = {min}, max = {max}: expected min below max"));
             }
             (Knowledge::Between { min, max }, min, max)

@@ -35,6 +35,8 @@ pub struct Campaign {
     pub provenance: Provenance,
     /// Citation and licence.
     pub source: String,
+    /// What a reader of its results should know, sentence by sentence.
+    pub notes: Vec<String>,
     /// Gravity at the place of the test, m/s².
     pub gravity_m_s2: f64,
     /// The geometry of the wheel.
@@ -114,6 +116,7 @@ impl Campaign {
             name: about.name,
             provenance: about.kind,
             source: about.source,
+            notes: about.notes,
             gravity_m_s2: about.gravity_m_s2.into_inner(),
             rows,
             columns,
@@ -206,11 +209,10 @@ fn numeric_columns(table: &Table) -> Result<Vec<Measured>, HostError> {
         }
         let value = |row| {
             let value = table.number(row, column)?;
-            match (channel, value) {
-                (Some(channel), Some(number)) => channel.check(number).map_err(|expected| {
+            if let (Some(channel), Some(number)) = (channel, value) {
+                channel.check(number).map_err(|expected| {
                     table.error_at(row, column, format!("`{}`: expected {expected}", table.text(row, column).trim()))
-                })?,
-                _ => (),
+                })?;
             }
             Ok(value)
         };
