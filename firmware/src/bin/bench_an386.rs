@@ -4,7 +4,9 @@
 
 use kapvik_board_an386::{bench::Bench, entry, exit};
 use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
+use kapvik_firmware::frozen::{ROVER, WHEEL as WHEEL_TABLE};
 use kapvik_firmware::math;
+use kapvik_firmware::network::RoverGolden;
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
 
 const WHEEL: Wheel<f32> = Wheel { radius_m: 0.075, width_m: 0.07 };
@@ -23,8 +25,24 @@ fn main() -> ! {
     bench.kernel("tanh", -4.0, 4.0, math::tanh);
     bench.kernel("wheel_forces", 0.0, 0.9, |slip| wheel_forces(&WHEEL, &firm, slip, 0.015));
     bench.kernel("sinkage_for_load", 10.0, 90.0, |load_n| sinkage_for_load(&WHEEL, &firm, 0.2, load_n));
+    let [one_wheel, ..] = &WHEEL_TABLE.golden;
+    bench.kernel("wheel_network", 0.02, 0.6, |slip| {
+        let mut input = one_wheel.input;
+        input[2] = slip;
+        WHEEL_TABLE.outputs(&input)
+    });
+    let [first, ..] = &ROVER.golden;
+    let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
+    bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
     for print in &FINGERPRINTS {
         bench.fingerprint(print.name, (print.compute)());
     }
     exit(0)
+}
+
+/// The rover network with one slip changed, so that nothing is computed ahead.
+fn rover_outputs(pair: &RoverGolden, slip: f32) -> [f32; 6] {
+    let mut wheels = pair.wheels;
+    wheels[0][2] = slip;
+    ROVER.outputs(&pair.context, wheels)
 }
