@@ -6,8 +6,9 @@ use kapvik_firmware::soil::{ParameterEstimate, QueryAnswer, SoilEstimate};
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
+use crate::train::prior::{self, Range};
 
-use super::network::{Identification, IdentifiedRun, Question, refusal_in_words};
+use super::network::{Identification, IdentifiedRun, Question, at_edge, refusal_in_words};
 use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
 
 /// A campaign, identified.
@@ -72,6 +73,8 @@ pub struct ParameterDocument {
     value: f32,
     std: f32,
     identifiable: bool,
+    /// At the end of what the networks were trained for, beyond which they cannot go: to be doubted, however narrow.
+    at_edge_of_training: bool,
     interval_68: [f32; 2],
     interval_95: [f32; 2],
 }
@@ -168,20 +171,21 @@ impl WheelDocument {
 impl SoilDocument {
     fn of(estimate: &SoilEstimate) -> Self {
         Self {
-            cohesion_pa: Some(ParameterDocument::of(&estimate.cohesion_pa)),
-            friction_angle_rad: Some(ParameterDocument::of(&estimate.friction_angle_rad)),
-            shear_modulus_m: Some(ParameterDocument::of(&estimate.shear_modulus_m)),
+            cohesion_pa: Some(ParameterDocument::of(&estimate.cohesion_pa, prior::COHESION_PA)),
+            friction_angle_rad: Some(ParameterDocument::of(&estimate.friction_angle_rad, prior::FRICTION_ANGLE_RAD)),
+            shear_modulus_m: Some(ParameterDocument::of(&estimate.shear_modulus_m, prior::SHEAR_MODULUS_M)),
             outside_training_range: Some(estimate.outside_training_range),
         }
     }
 }
 
 impl ParameterDocument {
-    fn of(estimate: &ParameterEstimate) -> Self {
+    fn of(estimate: &ParameterEstimate, trained: Range) -> Self {
         Self {
             value: estimate.value,
             std: estimate.std,
             identifiable: estimate.identifiable,
+            at_edge_of_training: at_edge(trained, estimate.value.into()),
             interval_68: estimate.interval_68,
             interval_95: estimate.interval_95,
         }

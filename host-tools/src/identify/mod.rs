@@ -17,7 +17,7 @@ use kapvik_firmware::wheel_state::SoilQuery;
 use crate::error::HostError;
 
 pub use document::{Document, NoiseDocument, ParameterDocument, RunDocument, SoilDocument, WheelDocument};
-pub use network::{Identification, IdentifiedRun, Question, assumed_soil, identify, refusal_in_words};
+pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify, refusal_in_words};
 pub use sensor_noise::{NoiseSource, SensorNoise};
 
 /// A method of the literature, or ours.

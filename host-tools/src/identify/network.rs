@@ -172,6 +172,11 @@ pub fn assumed_soil(ground: &Ground, campaign: &Campaign, estimate: &SoilEstimat
     }
 }
 
+/// Whether a value lies within 3 % of the end of what the networks were trained for: the best soil may lie beyond it.
+pub fn at_edge(trained: Range, value: f64) -> bool {
+    !(0.03..=0.97).contains(&trained.share(value))
+}
+
 /// A refusal in words.
 pub fn refusal_in_words(refusal: Refusal) -> &'static str {
     match refusal {

@@ -7,6 +7,7 @@ use crate::identify::NoiseSource;
 
 use super::findings::{Findings, RowKind};
 use super::parameter::Parameter;
+use super::verdict::Verdict;
 
 /// Loads closer together than this share are one load.
 const ONE_LOAD: f64 = 0.1;
@@ -20,6 +21,7 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
         noise(findings),
         one_load(findings),
         cannot_be_told(findings),
+        doubtful(findings),
         missing_physics(findings),
         declared(findings),
     ]
@@ -66,8 +68,8 @@ fn one_load(findings: &Findings) -> Option<String> {
         loads.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), load| (low.min(*load), high.max(*load)));
     (high <= (1.0 + ONE_LOAD) * low).then(|| {
         "Every state has one load. Cohesion and friction can then stand in for each other: the same forces come from more \
-         of one and less of the other. No method can tell cohesion from such data, and the report says so instead of \
-         giving a bare number."
+         of one and less of the other. One wheel at one load cannot tell cohesion; where several slips together seem to, \
+         they lean on equations 1–11 being exact."
             .to_owned()
     })
 }
@@ -83,6 +85,25 @@ fn cannot_be_told(findings: &Findings) -> Option<String> {
              the variance that there was before them. The hollow mark is then mostly the middle of what the training \
              allowed.",
             symbols.join(", ")
+        )
+    })
+}
+
+/// Where the networks are sure of what other means deny, or of the end of what they were trained for.
+fn doubtful(findings: &Findings) -> Option<String> {
+    let ground = &findings.campaign.ground;
+    let best = findings.identification.runs.iter().filter_map(Findings::best).filter_map(|row| row.estimate.ok());
+    let soils: Vec<SoilEstimate> = best.collect();
+    let doubted = |parameter: &Parameter| {
+        let verdicts = soils.iter().map(|soil| Verdict::of(*parameter, soil, ground));
+        verdicts.into_iter().any(|verdict| verdict.is_doubtful() && verdict != Verdict::InDoubtfulCompany)
+    };
+    let symbols: Vec<&str> = Parameter::ALL.into_iter().filter(doubted).map(Parameter::symbol).collect();
+    (!symbols.is_empty()).then(|| {
+        format!(
+            "The networks are sure of {} with all states together, and direct tests or the edge of the training speak \
+             against it. Noise does not explain that: the wheel does something that the networks were not trained with.",
+            symbols.join(" and ")
         )
     })
 }

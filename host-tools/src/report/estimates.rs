@@ -1,13 +1,14 @@
 //! The picture of the estimates: one panel for each parameter, one line for each estimate.
 
-use kapvik_firmware::soil::ParameterEstimate;
+use kapvik_firmware::soil::SoilEstimate;
 use maud::{Markup, html};
 
-use crate::data::campaign::Knowledge;
+use crate::data::campaign::Ground;
 
 use super::draw::{Anchor, Scale, bottom_axis, dot, line, px, ring, text, vertical_band};
 use super::findings::{EstimateRow, RowKind};
 use super::parameter::Parameter;
+use super::verdict::Verdict;
 
 /// Height of a line of the panel.
 const LINE: f64 = 24.0;
@@ -28,8 +29,8 @@ pub struct Panel<'a> {
     pub parameter: Parameter,
     /// The lines, from above.
     pub rows: &'a [EstimateRow],
-    /// What is known of it by other means.
-    pub known: Option<Knowledge>,
+    /// What is known of the soil by other means.
+    pub ground: &'a Ground,
     /// Whether the lines carry their labels.
     pub labelled: bool,
 }
@@ -95,7 +96,7 @@ impl Panel<'_> {
 
     /// The value of the direct tests: a line, its spread a band.
     fn direct(&self, scale: &Scale) -> Markup {
-        let Some(known) = self.known else { return html! {} };
+        let Some(known) = self.parameter.known(self.ground) else { return html! {} };
         let at = |si: f64| scale.at(self.parameter.shown(si));
         let (low, high) = known.range();
         let middle = at(known.middle());
@@ -125,7 +126,7 @@ impl Panel<'_> {
                     &row.label))
             }
             @match &row.estimate {
-                Ok(soil) => (self.bars(scale, self.parameter.of(soil), y, together)),
+                Ok(soil) => (self.bars(scale, soil, y, together)),
                 Err(reason) => (text("refused", (self.left() + 6.0, y + 4.0), Anchor::Start, reason)),
             }
         }
@@ -136,9 +137,11 @@ impl Panel<'_> {
     }
 
     /// The 95 % interval thin, the 68 % interval thick, the value a dot: hollow where the data cannot tell it.
-    fn bars(&self, scale: &Scale, estimate: &ParameterEstimate, y: f64, together: bool) -> Markup {
+    fn bars(&self, scale: &Scale, soil: &SoilEstimate, y: f64, together: bool) -> Markup {
+        let estimate = self.parameter.of(soil);
         let at = |si: f32| scale.at(self.parameter.shown(si.into()));
-        let class = if estimate.identifiable { "told" } else { "untold" };
+        let verdict = Verdict::of(self.parameter, soil, self.ground);
+        let class = verdict.class();
         let bar = |thickness: &str, interval: [f32; 2]| {
             line(&format!("{thickness} {class}"), (at(interval[0]), y), (at(interval[1]), y))
         };
@@ -146,31 +149,32 @@ impl Panel<'_> {
         let place = (at(estimate.value), y);
         html! {
             g {
-                title { (self.bar_in_words(estimate)) }
+                title { (self.bar_in_words(soil)) }
                 (bar("thin", estimate.interval_95))
                 (bar("thick", estimate.interval_68))
-                @if estimate.identifiable { (dot(class, place, radius)) } @else { (ring(class, place, radius)) }
+                @if verdict != Verdict::Untold { (dot(class, place, radius)) } @else { (ring(class, place, radius)) }
             }
         }
     }
 
-    fn bar_in_words(&self, estimate: &ParameterEstimate) -> String {
+    fn bar_in_words(&self, soil: &SoilEstimate) -> String {
         let parameter = self.parameter;
+        let estimate = parameter.of(soil);
         format!(
-            "{}; 68 %: {}; 95 %: {}{}",
+            "{}; 68 %: {}; 95 %: {}; {}",
             parameter.quantity(estimate.value.into()),
             parameter.interval(estimate.interval_68),
             parameter.interval(estimate.interval_95),
-            if estimate.identifiable { "" } else { "; cannot be told from these data" }
+            Verdict::of(parameter, soil, self.ground).in_words()
         )
     }
 
     fn in_words(&self) -> String {
         let parameter = self.parameter;
-        let known = self.known.map(|known| format!("Direct tests: {}. ", parameter.knowledge(known)));
+        let known = parameter.known(self.ground).map(|known| format!("Direct tests: {}. ", parameter.knowledge(known)));
         let rows = self.rows.iter().filter_map(|row| {
             let estimate = row.estimate.as_ref().ok()?;
-            Some(format!("{}: {}", row.label, self.bar_in_words(parameter.of(estimate))))
+            Some(format!("{}: {}", row.label, self.bar_in_words(estimate)))
         });
         let rows: Vec<String> = rows.collect();
         format!("{} in {}. {}{}.", parameter.name(), parameter.unit(), known.unwrap_or_default(), rows.join(". "))

@@ -19,10 +19,12 @@ pub fn estimates(rows: &[EstimateRow]) -> Markup {
     let has = |kind: RowKind| rows.iter().any(|row| row.kind == kind);
     html! {
         ul class="legend" {
-            (entry("determined: value, 68 % and 95 % interval",
+            (entry("told by these data: value, 68 % and 95 % interval",
                 &html! { (bar("told")) (dot("told", (20.0, MIDDLE), 4.0)) }))
             (entry("cannot be told from these data",
                 &html! { (bar("untold")) (ring("untold", (20.0, MIDDLE), 4.0)) }))
+            (entry("narrow, but in doubt: excludes the direct tests, lies at the edge of the training, or belongs to such an estimate",
+                &html! { (bar("doubtful")) (dot("doubtful", (20.0, MIDDLE), 4.0)) }))
             (entry("direct tests of the same soil", &html! {
                 (vertical_band("direct-band", (12.0, 28.0), (0.0, 16.0)))
                 (line("direct", (20.0, 0.0), (20.0, 16.0)))

@@ -14,6 +14,7 @@ mod picture;
 mod residual;
 mod response;
 mod terminal;
+mod verdict;
 
 pub use facts::{FlightFacts, lines as flight_lines};
 pub use findings::{EstimateRow, Findings, RowKind, fingerprint};
@@ -22,3 +23,4 @@ pub use parameter::Parameter;
 pub use picture::picture;
 pub use residual::{ModelCheck, ModelRow, ModelState, Rms};
 pub use terminal::terminal;
+pub use verdict::Verdict;

@@ -13,8 +13,9 @@ use super::facts;
 use super::findings::{EstimateRow, Findings};
 use super::legend;
 use super::parameter::Parameter;
-use super::residual::{ModelCheck, ModelRow};
+use super::residual::{ModelCheck, ModelRow, Rms};
 use super::response::{QUANTITIES, Response};
+use super::verdict::Verdict;
 
 const PAGE_CSS: &str = include_str!("page.css");
 const DRAW_CSS: &str = include_str!("draw/draw.css");
@@ -98,12 +99,11 @@ fn answers(campaign: &Campaign, rows: &[EstimateRow]) -> Markup {
         div class="answers" {
             @for parameter in Parameter::ALL {
                 @let estimate = parameter.of(soil);
-                div class={ "answer" @if !estimate.identifiable { " untold" } } {
+                @let verdict = Verdict::of(parameter, soil, &campaign.ground);
+                div class={ "answer " (verdict.class()) } {
                     h3 { (parameter.name()) " " i { (parameter.symbol()) } }
                     div class="value" { (parameter.number(estimate.value.into())) small { (parameter.spaced_unit()) } }
-                    p class="verdict" {
-                        @if estimate.identifiable { "determined by these data" } @else { "cannot be told from these data" }
-                    }
+                    p class="verdict" { (verdict.in_words()) }
                     p { "95 % interval " (parameter.interval(estimate.interval_95)) (parameter.spaced_unit()) }
                     @if let Some(known) = parameter.known(&campaign.ground) {
                         p class="direct-tests" { "direct tests " (parameter.knowledge(known)) }
@@ -119,7 +119,7 @@ fn panels(campaign: &Campaign, rows: &[EstimateRow]) -> Markup {
     html! {
         div class="panels" {
             @for parameter in Parameter::ALL {
-                (Panel { parameter, rows, known: parameter.known(&campaign.ground), labelled: true }.svg())
+                (Panel { parameter, rows, ground: &campaign.ground, labelled: true }.svg())
             }
         }
     }
@@ -142,13 +142,12 @@ fn model_section(findings: &Findings, check: &ModelCheck) -> Markup {
                 @for (quantity, std) in QUANTITIES.iter().zip(deviations) { (response.svg(quantity, std)) }
             }
             (legend::response(estimated.is_some()))
-            (residual_table(check))
+            (residual_table(check, estimated.map(|soil| ModelCheck::with(campaign, soil).rms())))
         }
     }
 }
 
-fn residual_table(check: &ModelCheck) -> Markup {
-    let rms = check.rms();
+fn residual_table(check: &ModelCheck, estimated: Option<Rms>) -> Markup {
     html! {
         div class="scroll" {
             table class="numbers" {
@@ -156,14 +155,21 @@ fn residual_table(check: &ModelCheck) -> Markup {
                 thead { tr { th { "Slip" } th { "Drawbar pull, N" } th { "Torque, N·m" } th { "Sinkage, mm" } } }
                 tbody {
                     @for row in check.rows.iter().take(40) { (residual_row(row)) }
-                    tr class="sum" {
-                        td { "Root mean square" }
-                        td { (number(rms.drawbar_pull_n, 1, false)) }
-                        td { (number(rms.torque_nm, 2, false)) }
-                        td { (number(rms.sinkage_m.map(|z| 1e3 * z), 1, false)) }
-                    }
+                    (rms_row("Root mean square", check.rms()))
+                    @if let Some(rms) = estimated { (rms_row("… with c, φ and K of the networks", rms)) }
                 }
             }
+        }
+    }
+}
+
+fn rms_row(what: &str, rms: Rms) -> Markup {
+    html! {
+        tr class="sum" {
+            td { (what) }
+            td { (number(rms.drawbar_pull_n, 1, false)) }
+            td { (number(rms.torque_nm, 2, false)) }
+            td { (number(rms.sinkage_m.map(|z| 1e3 * z), 1, false)) }
         }
     }
 }

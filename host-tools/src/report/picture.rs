@@ -21,7 +21,7 @@ pub fn picture(findings: &Findings) -> Option<String> {
         .map(|(place, parameter)| Panel {
             parameter,
             rows: &rows,
-            known: parameter.known(&findings.campaign.ground),
+            ground: &findings.campaign.ground,
             labelled: place == 0,
         })
         .collect();

@@ -8,7 +8,7 @@ use crate::train::prior;
 /// The equations beside the measurements.
 #[derive(Debug, Clone)]
 pub struct ModelCheck {
-    /// The soil that other means have measured.
+    /// The soil of the equations.
     pub soil: Soil<f64>,
     /// Every row that has slip and load.
     pub rows: Vec<ModelRow>,
@@ -56,7 +56,11 @@ pub struct Rms {
 impl ModelCheck {
     /// None where the campaign does not know enough of the soil by other means.
     pub fn of(campaign: &Campaign) -> Option<Self> {
-        let soil = known_soil(campaign)?;
+        Some(Self::with(campaign, known_soil(campaign)?))
+    }
+
+    /// With any soil.
+    pub fn with(campaign: &Campaign, soil: Soil<f64>) -> Self {
         let row = |row| {
             let value = |channel| campaign.value(row, channel);
             let (slip, load_n) = (value(Channel::Slip)?, value(Channel::Load)?);
@@ -69,7 +73,7 @@ impl ModelCheck {
                 model: ModelState::at(&campaign.wheel, &soil, slip, load_n),
             })
         };
-        Some(Self { soil, rows: (0..campaign.rows().len()).filter_map(row).collect() })
+        Self { soil, rows: (0..campaign.rows().len()).filter_map(row).collect() }
     }
 
     /// Over all rows.

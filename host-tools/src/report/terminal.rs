@@ -9,6 +9,7 @@ use super::draw::number;
 use super::findings::{EstimateRow, Findings};
 use super::parameter::Parameter;
 use super::residual::ModelCheck;
+use super::verdict::Verdict;
 
 /// A table of the estimates beside the direct tests, a table of what the equations leave, and the caveats.
 pub fn terminal(findings: &Findings) -> String {
@@ -26,7 +27,7 @@ pub fn terminal(findings: &Findings) -> String {
             text += &format!("  left out: {}\n", run.reasons_in_words());
         }
     }
-    text += "  value (68 % interval); ? = cannot be told from these data\n";
+    text += "  value (68 % interval); ? = cannot be told from these data; ! = narrow, but to be doubted\n";
     if let Some(model) = &findings.model {
         text +=
             &format!("\nequations 1–11 with the directly measured soil: measured − computed\n{}\n", residuals(model));
@@ -44,7 +45,7 @@ fn estimates(findings: &Findings, rows: &[EstimateRow]) -> Table {
     table.set_header(std::iter::once(String::new()).chain(units));
     for row in rows {
         let cells = Parameter::ALL.map(|parameter| match &row.estimate {
-            Ok(soil) => cell(parameter, soil),
+            Ok(soil) => cell(findings, parameter, soil),
             Err(reason) => (*reason).to_owned(),
         });
         table.add_row(std::iter::once(row.label.clone()).chain(cells));
@@ -58,9 +59,9 @@ fn estimates(findings: &Findings, rows: &[EstimateRow]) -> Table {
     table
 }
 
-fn cell(parameter: Parameter, soil: &SoilEstimate) -> String {
+fn cell(findings: &Findings, parameter: Parameter, soil: &SoilEstimate) -> String {
     let estimate = parameter.of(soil);
-    let mark = if estimate.identifiable { ' ' } else { '?' };
+    let mark = Verdict::of(parameter, soil, &findings.campaign.ground).mark();
     format!("{} ({}) {mark}", parameter.number(estimate.value.into()), parameter.interval(estimate.interval_68))
 }
 
