@@ -16,14 +16,14 @@ const NORMAL: f32 = 87.3;
 
 /// e to the power of `x`.
 ///
-/// Defined for every f32. Worst error 0.99 ulp, subnormal results included. From 88.722 84 (ln 2¹²⁸) on the result is +∞, below
+/// Defined for every f32. Worst error 0.99 ulp; of a subnormal result, in the ulp of subnormals. From 88.722 84 (ln 2¹²⁸) on the result is +∞, below
 /// −103.972 08 (ln 2⁻¹⁵⁰) it is 0; ∞ gives ∞ and −∞ gives 0.
 pub fn exp(x: f32) -> f32 {
     // Minus zero is the neutral element of addition (plus zero is not, for it turns −0 to +0): it costs nothing.
     exp_of_sum(x, -0.0)
 }
 
-/// e to the power of `high + low`, where `low` is a correction: |low| ≤ |high|·2⁻²³, or both so small that it is all one.
+/// e to the power of `high + low`, where `low` is what `high` lacks: |low| ≤ |high|·2⁻²³.
 #[inline]
 pub(super) fn exp_of_sum(high: f32, low: f32) -> f32 {
     if magnitude_between(high, SMALL, NORMAL) {

@@ -22,18 +22,14 @@ pub fn tanh(x: f32) -> f32 {
     const N: [f32; 2] = [0.027_050_784, 5.556_190_8e-5];
     const D: [f32; 2] = [0.110_383_18, 0.000_921_583_73];
     if !magnitude_between(x, SMALL, SATURATED) {
-        return tanh_of_extreme(x);
+        // In line, for a call would have every caller's loop save its constants.
+        let one = f32::from_bits(1.0_f32.to_bits() | (x.to_bits() & 0x8000_0000));
+        return if abs(x) >= SATURATED { one } else { x };
     }
     let z = x * x;
     let n = x * ((N[1] * z + N[0]) * z + 1.0);
     let d = (D[1] * z + D[0]) * z + 1.0;
     n * d / (0.25 * (n * n) + d * d)
-}
-
-#[cold]
-#[inline(never)]
-fn tanh_of_extreme(x: f32) -> f32 {
-    if abs(x) >= SATURATED { f32::from_bits(1.0_f32.to_bits() | (x.to_bits() & 0x8000_0000)) } else { x }
 }
 
 /// Bipolar sigmoid 2/(1 + e^(−A x)) − 1 = tanh(A x / 2), with gradient coefficient A (Nicol, Ellery and Cloutis, equation 13).

@@ -1,15 +1,15 @@
 //! The power function.
 
-use super::abs;
 use super::exp::{LN_2_HIGH, LN_2_LOW, exp_of_sum};
 use super::ln::{Scaled, tail};
+use super::magnitude_between;
 use super::rounding::upper_half;
 
 /// `base` to the power of `exponent`, base ≥ 0.
 ///
 /// e^(exponent · ln base) with logarithm and product carried in two floats each, high + low. Defined for every pair;
 /// subnormal bases and results included. Error: at most 1.0 ulp for bases in 0 … 2 and exponents in 0.1 … 2, elsewhere
-/// (1 + |exponent · ln base| / 5) ulp.
+/// (1 + |exponent · ln base| / 3) ulp; measured on 4·10⁷ points spread evenly over each of six regions of the plane.
 ///
 /// 0^y is 0 for y > 0, 1 for y = 0, ∞ for y < 0, and ∞^y the other way round; −0 counts as 0. Overflow gives ∞,
 /// underflow 0. 1^±∞ is 1. A base below zero gives NaN, and so does NaN in either place (C would have NaN⁰ = 1^NaN = 1).
@@ -18,9 +18,9 @@ pub fn powf(base: f32, exponent: f32) -> f32 {
         return power_of_edge(base, exponent);
     };
     let (high, low) = ln_in_two(&scaled);
-    // Most that can go wrong from here on is that the product is too great; e to that power needs no second digit.
+    // Beyond, the result is 0 or ∞ whatever the lower parts are. Infinite and NaN exponents fail this test as well.
     let estimate = exponent * high;
-    if !(abs(estimate) <= 120.0) {
+    if !magnitude_between(estimate, 0.0, 120.0) {
         return power_beyond_range(estimate, exponent);
     }
     let exponent_high = upper_half(exponent);
