@@ -2,6 +2,8 @@
 
 mod bench;
 mod forward;
+mod identify;
+mod run;
 mod setup;
 mod soils;
 mod test;
@@ -14,9 +16,18 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
+    /// Soil from measured wheel states, through the flight image in QEMU, with a report to open in a browser
+    Run(run::Arguments),
     /// Speed and quality, side by side with the alternatives, in one run
     #[command(subcommand)]
     Bench(bench::Subject),
+    /// Cohesion, friction angle and shear modulus from a wheel campaign
+    ///
+    /// Rows with the same `run` and `t_s` are the wheels of one instant, and each run is one soil. Up to six rows of a run
+    /// are taken as six wheels; more, of one instant or of many, are averaged in at most six groups of like slip and
+    /// load, and the networks are told of the smaller noise. The noise is that of `[noise]`; without it that of repeats;
+    /// without these that of the flight sensors. OUT.json says which.
+    Identify(identify::Arguments),
     /// Train the networks and write the frozen table
     Train(train::Arguments),
     /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
@@ -42,6 +53,8 @@ impl Command {
     /// One that a person can act on: it names the file, line and column where there is one.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Run(arguments) => run::execute(&arguments),
+            Self::Identify(arguments) => identify::execute(&arguments),
             Self::Bench(subject) => subject.execute(),
             Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),

@@ -1,6 +1,7 @@
 //! Reading and writing the files that people hand us: problems are told by file, line and column.
 
 pub mod atomic_write;
+pub mod campaign;
 pub mod soil_file;
 pub mod table;
 pub mod text;

@@ -33,13 +33,20 @@ impl Table {
     /// Reads a table. A byte-order mark, either kind of line end and quoted fields are taken as they come.
     ///
     /// # Errors
-    /// Where the file cannot be read or is not UTF-8, leaves a quote open, has no header, names a column twice, or has a row that is longer or
-    /// shorter than the header.
+    /// Where the file cannot be read or is not UTF-8, leaves a quote open, has no header, names a column twice, or has a
+    /// row that is longer or shorter than the header.
     pub fn read(path: &Path) -> Result<Self, HostError> {
-        let file = TextFile::read(path)?;
-        check_quotes(&file)?;
+        Self::parse(&TextFile::read(path)?)
+    }
+
+    /// Reads a table from text.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(file: &TextFile) -> Result<Self, HostError> {
+        check_quotes(file)?;
         let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(file.text().as_bytes());
-        let mut table = Self { path: path.to_path_buf(), header: Vec::new(), rows: Vec::new() };
+        let mut table = Self { path: file.path().to_path_buf(), header: Vec::new(), rows: Vec::new() };
         let mut record = StringRecord::new();
         let mut lines = Lines { text: file.text(), offset: 0, line: 1 };
         while table.read_record(&mut reader, &mut record)? {
@@ -132,6 +139,11 @@ impl Table {
         })
     }
 
+    /// The line of the file that a row stands on, from 1; 1 beyond the table.
+    pub fn line(&self, row: usize) -> u64 {
+        self.rows.get(row).map_or(1, |row| row.line)
+    }
+
     /// A field as it was written; empty beyond the table.
     pub fn text(&self, row: usize, column: Column) -> &str {
         self.rows.get(row).and_then(|row| row.fields.get(column.0)).map_or("", String::as_str)
@@ -161,9 +173,14 @@ impl Table {
 
     /// An error at a field, which its message names by its column.
     pub fn error_at(&self, row: usize, column: Column, message: impl AsRef<str>) -> HostError {
-        let line = self.rows.get(row).map_or(1, |row| row.line);
+        let line = self.line(row);
         let name = self.header.get(column.0).map_or("", String::as_str);
         self.error(line, column.0 as u64 + 1, format!("{name}: {}", message.as_ref()))
+    }
+
+    /// An error about the table as a whole, at its header.
+    pub fn error_in_header(&self, message: impl Into<String>) -> HostError {
+        self.error(1, 1, message)
     }
 
     fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {

@@ -13,6 +13,11 @@ pub struct TextFile {
 }
 
 impl TextFile {
+    /// Text that is already in memory, under the name of a file.
+    pub fn new(path: &Path, text: &str) -> Self {
+        Self { path: path.to_path_buf(), text: text.trim_start_matches('\u{feff}').to_owned() }
+    }
+
     /// Reads a file; a byte-order mark in front is passed over.
     ///
     /// # Errors

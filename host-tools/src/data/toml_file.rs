@@ -16,6 +16,11 @@ pub struct TomlFile {
 }
 
 impl TomlFile {
+    /// A file whose text is already in memory.
+    pub fn new(file: TextFile) -> Self {
+        Self { file }
+    }
+
     /// Reads a file; what it says is looked at by [`Self::section_or_whole`] and the like.
     ///
     /// # Errors

@@ -32,6 +32,15 @@ impl Range {
             self.low + (self.high - self.low) * share
         }
     }
+
+    /// The share 0 … 1 of the range at which a value lies; the inverse of [`Self::at`].
+    pub fn share(&self, value: f64) -> f64 {
+        if self.logarithmic {
+            libm::log(value / self.low) / libm::log(self.high / self.low)
+        } else {
+            (value - self.low) / (self.high - self.low)
+        }
+    }
 }
 
 /// Cohesion c, Pa.

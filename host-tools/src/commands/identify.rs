@@ -1,0 +1,40 @@
+//! `kapvik identify`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::data::atomic_write::write_atomically;
+use crate::data::campaign::Campaign;
+use crate::error::HostError;
+use crate::flight_computer::FlightComputer;
+use crate::identify::{Document, Method, identify};
+
+/// Options of `kapvik identify`.
+#[derive(Args)]
+pub struct Arguments {
+    /// The campaign NAME.csv, with NAME.toml beside it
+    campaign: PathBuf,
+    /// How the soil is identified
+    #[arg(long, value_enum)]
+    method: Method,
+    /// Where the estimates go
+    #[arg(long, value_name = "OUT.json")]
+    json: PathBuf,
+}
+
+/// Identifies the soil of each run.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let campaign = Campaign::read(&arguments.campaign)?;
+    let Method::Network = arguments.method;
+    let mut computer = FlightComputer::in_process()?;
+    let identification = identify(&campaign, &mut |query| computer.query(query))?;
+    write_json(&arguments.json, &Document::of(&campaign, &identification))
+}
+
+fn write_json(path: &Path, document: &Document) -> Result<(), HostError> {
+    write_atomically(path, |out| {
+        let written = serde_json::to_writer_pretty(&mut *out, document).map_err(std::io::Error::from);
+        written.and_then(|()| out.write_all(b"\n")).map_err(HostError::file(path))
+    })
+}

@@ -1,0 +1,166 @@
+//! `[soil]`: what is known of the soil by other means than the wheel.
+
+use std::cmp::Ordering;
+
+use kapvik_firmware::terramechanics::Wheel;
+use toml::Spanned;
+
+use crate::error::HostError;
+
+use super::super::soil_file::{Bounds, Known, Parameter, SoilTable};
+use super::super::toml_file::TomlFile;
+
+/// What is known of one parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Knowledge {
+    /// A value, with one standard deviation (0: held to be exact).
+    Value {
+        /// The value.
+        value: f64,
+        /// One standard deviation.
+        std: f64,
+    },
+    /// Free between two bounds.
+    Between {
+        /// The lower one.
+        min: f64,
+        /// The upper one.
+        max: f64,
+    },
+}
+
+impl Knowledge {
+    /// The value, or the middle between the bounds.
+    pub fn middle(self) -> f64 {
+        match self {
+            Self::Value { value, .. } => value,
+            Self::Between { min, max } => 0.5 * (min + max),
+        }
+    }
+
+    /// From one standard deviation below to one above, or the bounds.
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Self::Value { value, std } => (value - std, value + std),
+            Self::Between { min, max } => (min, max),
+        }
+    }
+
+    /// The value, where there is one.
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::Value { value, .. } => Some(value),
+            Self::Between { .. } => None,
+        }
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Value { value, std } => Self::Value { value: factor * value, std: factor * std },
+            Self::Between { min, max } => Self::Between { min: factor * min, max: factor * max },
+        }
+    }
+}
+
+/// What is known of the soil by other means. SI units; a parameter that the file does not name is none.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Ground {
+    /// Sinkage exponent n.
+    pub sinkage_exponent: Option<Knowledge>,
+    /// Cohesive modulus k_c, Pa/m^(n−1).
+    pub cohesive_modulus: Option<Knowledge>,
+    /// Frictional modulus k_φ, Pa/m^n.
+    pub frictional_modulus: Option<Knowledge>,
+    /// k_c / b + k_φ, Pa/m^n, where it is given in place of the two.
+    pub stiffness: Option<Knowledge>,
+    /// Cohesion c, Pa.
+    pub cohesion_pa: Option<Knowledge>,
+    /// Angle of internal friction φ, rad.
+    pub friction_angle_rad: Option<Knowledge>,
+    /// Shear deformation modulus K, m.
+    pub shear_modulus_m: Option<Knowledge>,
+    /// Position of the peak stress c₁.
+    pub peak_stress_c1: Option<Knowledge>,
+    /// Shift of the peak stress c₂.
+    pub peak_stress_c2: Option<Knowledge>,
+    /// Rebound ratio η; absent means none.
+    pub rebound_ratio: Option<Knowledge>,
+}
+
+impl Ground {
+    /// # Errors
+    /// At the parameter that is outside its range or given twice.
+    pub(super) fn read(table: &SoilTable, file: &TomlFile) -> Result<Self, HostError> {
+        let read = |name, place: &Option<Spanned<Parameter>>, least, greatest| {
+            place.as_ref().map(|parameter| knowledge(file, name, parameter, least, greatest)).transpose()
+        };
+        let any = (f64::NEG_INFINITY, f64::INFINITY);
+        let upright = std::f64::consts::FRAC_PI_2;
+        if let (Some(k_eff), true) = (&table.k_eff, table.k_c.is_some() || table.k_phi.is_some()) {
+            return Err(file.error_at(k_eff, "k_eff beside k_c or k_phi: expected k_eff alone, or k_c and k_phi"));
+        }
+        Ok(Self {
+            sinkage_exponent: read("n", &table.n, 0.0, any.1)?,
+            cohesive_modulus: read("k_c", &table.k_c, any.0, any.1)?,
+            frictional_modulus: read("k_phi", &table.k_phi, any.0, any.1)?,
+            stiffness: read("k_eff", &table.k_eff, 0.0, any.1)?,
+            cohesion_pa: read("c", &table.c, 0.0, any.1)?,
+            friction_angle_rad: read("phi", &table.phi, 0.0, upright)?,
+            shear_modulus_m: read("K", &table.shear_modulus, 0.0, any.1)?,
+            peak_stress_c1: read("c1", &table.c1, any.0, any.1)?,
+            peak_stress_c2: read("c2", &table.c2, any.0, any.1)?,
+            rebound_ratio: read("eta", &table.eta, 0.0, 1.0)?,
+        })
+    }
+
+    /// Stiffness k_c / b + k_φ under a wheel, Pa/m^n, from whichever keys the file has.
+    pub fn stiffness(&self, wheel: &Wheel<f64>) -> Option<Knowledge> {
+        if self.stiffness.is_some() {
+            return self.stiffness;
+        }
+        let cohesive = self.cohesive_modulus.map(|k_c| k_c.scaled(1.0 / wheel.width_m));
+        match (cohesive, self.frictional_modulus?) {
+            (None, k_phi) => Some(k_phi),
+            (Some(Knowledge::Value { value, std }), Knowledge::Value { value: k_phi, std: k_phi_std }) => {
+                Some(Knowledge::Value { value: value + k_phi, std: std.hypot(k_phi_std) })
+            }
+            (Some(k_c), k_phi) => {
+                let ((low, high), (k_phi_low, k_phi_high)) = (k_c.range(), k_phi.range());
+                Some(Knowledge::Between { min: low + k_phi_low, max: high + k_phi_high })
+            }
+        }
+    }
+}
+
+fn knowledge(
+    file: &TomlFile,
+    name: &str,
+    parameter: &Spanned<Parameter>,
+    least: f64,
+    greatest: f64,
+) -> Result<Knowledge, HostError> {
+    let inside = |value: f64| value.is_finite() && (least..=greatest).contains(&value);
+    let refuse = |what: String| Err(file.error_at(parameter, format!("{name}: {what}")));
+    let (known, low, high) = match *parameter.get_ref() {
+        Parameter::Exact(value) => (Knowledge::Value { value, std: 0.0 }, value, value),
+        Parameter::Known(Known { value, std }) => {
+            if !(std >= 0.0 && std.is_finite()) {
+                return refuse(format!("std = {std}: expected a standard deviation of 0 or more"));
+            }
+            (Knowledge::Value { value, std }, value, value)
+        }
+        Parameter::Free(Bounds { min, max }) => {
+            // Also where one of them is not a number.
+            if min.partial_cmp(&max) != Some(Ordering::Less) {
+                return refuse(format!("min = {min}, max = {max}: expected min below max"));
+            }
+            (Knowledge::Between { min, max }, min, max)
+        }
+    };
+    match [low, high].into_iter().find(|&value| !inside(value)) {
+        None => Ok(known),
+        Some(value) if least == f64::NEG_INFINITY => refuse(format!("{value}: expected a finite number")),
+        Some(value) if greatest == f64::INFINITY => refuse(format!("{value}: expected a number of {least} or more")),
+        Some(value) => refuse(format!("{value}: expected a number from {least} to {greatest:.4}")),
+    }
+}

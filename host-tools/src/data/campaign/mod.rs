@@ -1,0 +1,230 @@
+//! Wheel campaigns: `NAME.csv` with one row for a wheel at one time or over one window, `NAME.toml` with what is known
+//! of wheel, soil and sensors.
+
+mod about;
+mod channel;
+mod declared;
+mod ground;
+mod noise;
+
+use std::path::{Path, PathBuf};
+
+use kapvik_firmware::terramechanics::Wheel;
+
+use crate::error::HostError;
+
+use super::table::{Column, Table};
+use super::text::TextFile;
+use super::toml_file::TomlFile;
+use super::wheel_file::Grousers;
+
+pub use about::Provenance;
+pub use channel::Channel;
+pub use declared::{Declared, EFFECT_IDS};
+pub use ground::{Ground, Knowledge};
+pub use noise::ChannelNoise;
+
+/// A campaign: rows of measurements, and what is known about them.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    /// The table of the measurements.
+    pub path: PathBuf,
+    /// Its name in reports.
+    pub name: String,
+    /// Where the numbers come from.
+    pub provenance: Provenance,
+    /// Citation and licence.
+    pub source: String,
+    /// What a reader of its results should know, sentence by sentence.
+    pub notes: Vec<String>,
+    /// Gravity at the place of the test, m/s².
+    pub gravity_m_s2: f64,
+    /// The geometry of the wheel.
+    pub wheel: Wheel<f64>,
+    /// Its grousers, which act only through an effect.
+    pub grousers: Grousers,
+    /// What is known of the soil by other means.
+    pub ground: Ground,
+    /// What is stated about the sensors.
+    pub noise: ChannelNoise,
+    /// The effects that the model is told of.
+    pub declared: Declared,
+    rows: Vec<RowId>,
+    columns: Vec<Measured>,
+}
+
+/// Which wheel state a row is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowId {
+    /// The run: rows of one run are correlated, and lie on one soil.
+    pub run: String,
+    /// Time within the run, s.
+    pub t_s: f64,
+    /// Line of the file, from 1.
+    pub line: u64,
+}
+
+/// One column of numbers.
+#[derive(Debug, Clone)]
+struct Measured {
+    name: String,
+    values: Vec<Option<f64>>,
+}
+
+impl Campaign {
+    /// Reads `NAME.csv` and the `NAME.toml` beside it.
+    ///
+    /// # Errors
+    /// At the file, line and column of the first thing that is not as it should be.
+    pub fn read(path: &Path) -> Result<Self, HostError> {
+        let table = Table::read(path)?;
+        Self::assemble(path, &table, &TomlFile::read(&about_path(path)?)?)
+    }
+
+    /// A campaign from the texts of its two files, under the name `path`.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(path: &Path, csv: &str, toml: &str) -> Result<Self, HostError> {
+        let table = Table::parse(&TextFile::new(path, csv))?;
+        Self::assemble(path, &table, &TomlFile::new(TextFile::new(&path.with_extension("toml"), toml)))
+    }
+
+    /// The measured figures that the project carries: a smooth wheel at six slips on a soil that direct tests know, read
+    /// off published curves.
+    ///
+    /// # Errors
+    /// Never in practice: the figures are part of this program, and tested.
+    pub fn carried() -> Result<Self, HostError> {
+        const CSV: &str = include_str!("../../../data/ding2011-smooth.csv");
+        const TOML: &str = include_str!("../../../data/ding2011-smooth.toml");
+        Self::parse(Path::new("host-tools/data/ding2011-smooth.csv"), CSV, TOML)
+    }
+
+    fn assemble(path: &Path, table: &Table, toml: &TomlFile) -> Result<Self, HostError> {
+        let about = about::About::read(toml)?;
+        let rows = row_ids(table)?;
+        let columns = numeric_columns(table)?;
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        let campaign = Self {
+            path: path.to_path_buf(),
+            wheel: about.wheel.wheel(),
+            grousers: about.wheel.grousers(),
+            ground: Ground::read(&about.soil, toml)?,
+            noise: ChannelNoise::read(&about.noise, toml, &names)?,
+            declared: Declared::read(about.declared, toml)?,
+            name: about.name,
+            provenance: about.kind,
+            source: about.source,
+            notes: about.notes,
+            gravity_m_s2: about.gravity_m_s2.into_inner(),
+            rows,
+            columns,
+        };
+        if campaign.rows.is_empty() {
+            return Err(table.error_in_header("no rows below the header: expected one for each wheel and time"));
+        }
+        Ok(campaign)
+    }
+
+    /// The rows, in the order of the file.
+    pub fn rows(&self) -> &[RowId] {
+        &self.rows
+    }
+
+    /// The runs, in the order in which they first come, each with the places of its rows.
+    pub fn runs(&self) -> Vec<(&str, Vec<usize>)> {
+        let mut runs: Vec<(&str, Vec<usize>)> = Vec::new();
+        let mut places = std::collections::HashMap::new();
+        for (row, id) in self.rows.iter().enumerate() {
+            let place = *places.entry(id.run.as_str()).or_insert_with(|| {
+                runs.push((&id.run, Vec::new()));
+                runs.len() - 1
+            });
+            runs[place].1.push(row);
+        }
+        runs
+    }
+
+    /// The names of the columns of numbers, `t_s` aside.
+    pub fn columns(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|column| column.name.as_str())
+    }
+
+    /// The column of that name, a number or nothing for each row; none where the file has no such column of numbers.
+    pub fn column(&self, name: &str) -> Option<&[Option<f64>]> {
+        self.columns.iter().find(|column| column.name == name).map(|column| column.values.as_slice())
+    }
+
+    /// What a row has in a channel.
+    pub fn value(&self, row: usize, channel: Channel) -> Option<f64> {
+        self.column(channel.name())?.get(row).copied().flatten()
+    }
+
+    /// An error about the table as a whole.
+    pub fn error(&self, message: impl Into<String>) -> HostError {
+        HostError::Input { path: self.path.clone(), line: 1, column: 1, message: message.into() }
+    }
+}
+
+/// `NAME.toml` for `NAME.csv`.
+fn about_path(path: &Path) -> Result<PathBuf, HostError> {
+    let about = path.with_extension("toml");
+    if about == path {
+        return Err(HostError::Failed(format!("{}: expected the table NAME.csv of a campaign", path.display())));
+    }
+    if about.is_file() {
+        return Ok(about);
+    }
+    Err(HostError::Failed(format!(
+        "{}: no such file: expected it beside {}, with the wheel, the soil and the noise of the campaign",
+        about.display(),
+        path.display()
+    )))
+}
+
+fn row_ids(table: &Table) -> Result<Vec<RowId>, HostError> {
+    let (run, t_s) = (table.required_column("run")?, table.required_column(Channel::Time.name())?);
+    let id = |row| {
+        let name = table.text(row, run).trim();
+        if name.is_empty() {
+            return Err(table.error_at(row, run, "nothing here: expected the name of the run"));
+        }
+        let t_s = table.number(row, t_s)?.ok_or_else(|| {
+            table.error_at(row, t_s, "nothing here: expected the time in s, 0 for the mean over a window")
+        })?;
+        Ok(RowId { run: name.to_owned(), t_s, line: table.line(row) })
+    };
+    (0..table.len()).map(id).collect()
+}
+
+/// Every column of numbers. One that the format does not name may also hold text, and is then left out.
+fn numeric_columns(table: &Table) -> Result<Vec<Measured>, HostError> {
+    let mut columns = Vec::new();
+    for name in table.header().iter().filter(|name| !["run", Channel::Time.name()].contains(&name.as_str())) {
+        let column = table.required_column(name)?;
+        let channel = Channel::from_name(name);
+        if channel.is_none() && is_text(table, column) {
+            continue;
+        }
+        let value = |row| {
+            let value = table.number(row, column)?;
+            if let (Some(channel), Some(number)) = (channel, value) {
+                channel.check(number).map_err(|expected| {
+                    table.error_at(row, column, format!("`{}`: expected {expected}", table.text(row, column).trim()))
+                })?;
+            }
+            Ok(value)
+        };
+        let values = (0..table.len()).map(value).collect::<Result<_, HostError>>()?;
+        columns.push(Measured { name: name.clone(), values });
+    }
+    Ok(columns)
+}
+
+/// Whether no field of the column is a number and at least one is not empty.
+fn is_text(table: &Table, column: Column) -> bool {
+    let mut fields =
+        (0..table.len()).map(|row| table.text(row, column).trim()).filter(|text| !text.is_empty()).peekable();
+    fields.peek().is_some() && fields.all(|text| text.parse::<f64>().is_err())
+}

@@ -1,0 +1,225 @@
+//! Many instants of a run to the states of at most six wheels.
+//!
+//! The rule. Up to six rows are taken as they are, each a wheel. More are cut into groups of like slip and load, and each
+//! group's mean is one wheel, its noise the smaller by the root of the number of rows. So six wheels in steady driving
+//! become six means over all instants, and one wheel whose slip changes becomes up to six means along its way.
+//!
+//! The cut. Beginning with one group of all rows, the cut that most reduces the scatter within groups is made, until
+//! there are six or nothing is left to cut. Scatter is measured in the units of [`ALIKE_SLIP`] and [`ALIKE_LOAD`]: as
+//! far apart as two states can be before the curve between them bends noticeably. A group is left whole in a quantity
+//! in which it scatters no more than its noise explains: cutting there would sort the rows by their errors.
+
+use kapvik_firmware::wheel_state::WHEELS;
+
+/// Slips that differ by this belong together as much as loads that differ by [`ALIKE_LOAD`].
+pub const ALIKE_SLIP: f64 = 0.1;
+/// Share of the load; forces grow nearly in proportion to it, so it may differ more than the slip.
+pub const ALIKE_LOAD: f64 = 0.3;
+/// A group scatters more than its noise explains above this ratio of standard deviations. Noise alone exceeds it in one
+/// or two of a thousand groups of seven, and more rarely in greater ones.
+const BEYOND_NOISE: f64 = 1.75;
+
+/// What was measured in one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Slip i.
+    pub slip: f64,
+    /// Load W, N.
+    pub load_n: f64,
+    /// Drawbar pull DP, N.
+    pub drawbar_pull_n: f64,
+    /// Torque T, N·m.
+    pub torque_nm: f64,
+    /// Sinkage z, m.
+    pub sinkage_m: Option<f64>,
+}
+
+/// The mean of a group of samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanState {
+    /// The means; the sinkage over those rows that have one.
+    pub mean: Sample,
+    /// Rows in the mean.
+    pub rows: usize,
+    /// Rows in the mean of the sinkage.
+    pub sinkage_rows: usize,
+}
+
+/// At most six mean states, by slip. `slip_std` and `load_std_n` are the noise of one row.
+pub fn combine(samples: &[Sample], slip_std: f64, load_std_n: f64) -> Vec<MeanState> {
+    let mut states: Vec<MeanState> =
+        groups(samples, slip_std, load_std_n).iter().filter_map(|group| MeanState::of(group)).collect();
+    states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
+    states
+}
+
+/// The groups whose means are the states.
+pub fn groups(samples: &[Sample], slip_std: f64, load_std_n: f64) -> Vec<Vec<Sample>> {
+    if samples.len() <= WHEELS {
+        return samples.iter().map(|sample| vec![*sample]).collect();
+    }
+    let mean_load = mean(samples.iter().map(|sample| sample.load_n));
+    let axes = [
+        Axis { of: |sample| sample.slip, unit: ALIKE_SLIP, noise: slip_std },
+        Axis { of: |sample| sample.load_n, unit: ALIKE_LOAD * mean_load, noise: load_std_n },
+    ];
+    let mut groups = vec![Group::new(samples.to_vec(), &axes)];
+    while groups.len() < WHEELS {
+        let best = groups.iter_mut().filter(|group| group.cut.is_some()).max_by(|a, b| a.gain().total_cmp(&b.gain()));
+        let Some((group, cut)) = best.and_then(|group| group.cut.take().map(|cut| (group, cut))) else { break };
+        let mut low = std::mem::take(&mut group.samples);
+        low.sort_by(|a, b| (cut.axis.of)(a).total_cmp(&(cut.axis.of)(b)));
+        let high = low.split_off(cut.place);
+        *group = Group::new(low, &axes);
+        groups.push(Group::new(high, &axes));
+    }
+    groups.into_iter().map(|group| group.samples).collect()
+}
+
+impl MeanState {
+    fn of(group: &[Sample]) -> Option<Self> {
+        let rows = group.len();
+        let sinkages: Vec<f64> = group.iter().filter_map(|sample| sample.sinkage_m).collect();
+        (rows > 0).then(|| Self {
+            mean: Sample {
+                slip: mean(group.iter().map(|sample| sample.slip)),
+                load_n: mean(group.iter().map(|sample| sample.load_n)),
+                drawbar_pull_n: mean(group.iter().map(|sample| sample.drawbar_pull_n)),
+                torque_nm: mean(group.iter().map(|sample| sample.torque_nm)),
+                sinkage_m: (!sinkages.is_empty()).then(|| mean(sinkages.iter().copied())),
+            },
+            rows,
+            sinkage_rows: sinkages.len(),
+        })
+    }
+}
+
+/// A quantity that a group can be cut along.
+#[derive(Clone, Copy)]
+struct Axis {
+    of: fn(&Sample) -> f64,
+    /// The scale of likeness.
+    unit: f64,
+    /// One standard deviation of one row.
+    noise: f64,
+}
+
+struct Group {
+    samples: Vec<Sample>,
+    /// The best cut, where there is one.
+    cut: Option<Cut>,
+}
+
+#[derive(Clone, Copy)]
+struct Cut {
+    axis: Axis,
+    /// Samples below the cut, once sorted along the axis.
+    place: usize,
+    /// By how much the cut reduces the sum of squares, in units of likeness.
+    gain: f64,
+}
+
+impl Group {
+    fn new(samples: Vec<Sample>, axes: &[Axis; 2]) -> Self {
+        let cuts = axes.iter().filter_map(|axis| best_cut(&samples, axis));
+        let cut = cuts.max_by(|a, b| a.gain.total_cmp(&b.gain));
+        Self { samples, cut }
+    }
+
+    fn gain(&self) -> f64 {
+        self.cut.map_or(0.0, |cut| cut.gain)
+    }
+}
+
+/// The cut along an axis that leaves the least scatter on its two sides.
+fn best_cut(samples: &[Sample], axis: &Axis) -> Option<Cut> {
+    let mut values: Vec<f64> = samples.iter().map(axis.of).collect();
+    values.sort_by(f64::total_cmp);
+    let count = values.len() as f64;
+    // About the mean, so that the sums of squares lose no digits.
+    let centre = mean(values.iter().copied());
+    let square_sum: f64 = values.iter().map(|value| (value - centre).powi(2)).sum();
+    if (square_sum / count).sqrt() <= BEYOND_NOISE * axis.noise {
+        return None;
+    }
+    let mut below = 0.0;
+    let mut best: Option<(usize, f64)> = None;
+    for (place, pair) in values.windows(2).enumerate() {
+        below += pair[0] - centre;
+        let low = (place + 1) as f64;
+        // Between-group sum of squares; the sum above the cut is minus that below.
+        let gain = below * below * (1.0 / low + 1.0 / (count - low));
+        if pair[0] < pair[1] && best.is_none_or(|(_, most)| gain > most) {
+            best = Some((place + 1, gain));
+        }
+    }
+    best.map(|(place, gain)| Cut { axis: *axis, place, gain: gain / (axis.unit * axis.unit) })
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
+    sum / f64::from(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(slip: f64, load_n: f64, drawbar_pull_n: f64) -> Sample {
+        Sample { slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None }
+    }
+
+    /// Numbers that scatter like a sensor: a fixed sequence of −1, 0 and 1 with mean zero over six.
+    fn scatter(place: usize) -> f64 {
+        [1.0, -1.0, 0.0, -1.0, 1.0, 0.0][place % 6]
+    }
+
+    #[test]
+    fn six_rows_stay_as_they_are() {
+        let samples: Vec<Sample> = (0..6).map(|_| sample(0.2, 65.0, 3.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.len(), 6);
+        assert!(states.iter().all(|state| state.rows == 1));
+    }
+
+    #[test]
+    fn steady_wheels_become_their_means() {
+        let rows = (0..60).flat_map(|instant| (0..6).map(move |wheel| (instant, wheel)));
+        let samples: Vec<Sample> = rows
+            .map(|(instant, wheel)| {
+                sample(0.05 + 0.1 * f64::from(wheel) + 0.01 * scatter(instant), 65.0, f64::from(wheel))
+            })
+            .collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [60; 6]);
+        for (wheel, state) in states.iter().enumerate() {
+            assert!((state.mean.slip - 0.05 - 0.1 * wheel as f64).abs() < 1e-12, "{state:?}");
+            assert!((state.mean.drawbar_pull_n - wheel as f64).abs() < 1e-12, "{state:?}");
+        }
+    }
+
+    #[test]
+    fn a_slip_that_sweeps_becomes_six_states_along_its_way() {
+        let samples: Vec<Sample> = (0..600).map(|row| sample(f64::from(row) / 1000.0, 65.0, 0.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.len(), 6);
+        assert_eq!(states.iter().map(|state| state.rows).sum::<usize>(), 600);
+        assert!(states.iter().all(|state| (75..=150).contains(&state.rows)), "{states:?}");
+    }
+
+    #[test]
+    fn scatter_that_is_noise_is_not_cut() {
+        let samples: Vec<Sample> =
+            (0..120).map(|row| sample(0.3 + 0.01 * scatter(row), 65.0 + scatter(row / 6), 2.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [120]);
+    }
+
+    #[test]
+    fn wheels_that_differ_in_load_alone_are_told_apart() {
+        let samples: Vec<Sample> =
+            (0..100).map(|row| sample(0.3, if row % 2 == 0 { 40.0 } else { 90.0 }, 2.0)).collect();
+        let states = combine(&samples, 0.01, 1.0);
+        assert_eq!(states.iter().map(|state| state.mean.load_n).collect::<Vec<_>>(), [40.0, 90.0]);
+    }
+}

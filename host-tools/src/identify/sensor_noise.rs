@@ -1,0 +1,157 @@
+//! How noisy one row is, and how noisy a mean of rows.
+
+use kapvik_firmware::wheel_state::WheelNoise;
+use serde::Serialize;
+
+use crate::data::campaign::{Campaign, Channel};
+use crate::train::prior::{AVERAGING, INSTANT_NOISE};
+
+use super::combine::MeanState;
+
+/// Where a standard deviation comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoiseSource {
+    /// `[noise]` of the campaign states it.
+    Campaign,
+    /// Estimated from the differences between rows of one run alike in slip and load.
+    Repeats,
+    /// Nothing says it: that of the flight sensors at this load and radius.
+    FlightSensors,
+}
+
+/// One standard deviation of one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChannelStd {
+    /// In the channel's unit.
+    pub std: f64,
+    /// Where it comes from.
+    pub source: NoiseSource,
+}
+
+/// How noisy one row is, for each channel of a wheel state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorNoise {
+    /// Of the drawbar pull, N.
+    pub drawbar_pull: ChannelStd,
+    /// Of the load, N.
+    pub load: ChannelStd,
+    /// Of the torque, N·m.
+    pub torque: ChannelStd,
+    /// Of the slip.
+    pub slip: ChannelStd,
+    /// Of the sinkage, m.
+    pub sinkage: ChannelStd,
+}
+
+/// Fewest pairs of like rows that say something: their standard deviation is then known to a fifth of itself.
+const LEAST_PAIRS: usize = 12;
+/// Slips of like rows differ by no more.
+const LIKE_SLIP: f64 = 0.01;
+/// Loads of like rows differ by no more than this share.
+const LIKE_LOAD: f64 = 0.1;
+
+impl SensorNoise {
+    /// The noise of a campaign's rows: stated, else from repeats, else that of the flight sensors.
+    ///
+    /// Slip is never taken from repeats: like rows are found by their slip.
+    pub fn of(campaign: &Campaign) -> Self {
+        let pairs = like_pairs(campaign);
+        let scale = Scale::new(mean_load(campaign), campaign.wheel.radius_m);
+        let channel = |channel, flight_sensors| {
+            let stated = campaign.noise.of(channel).map(|std| ChannelStd { std, source: NoiseSource::Campaign });
+            let repeats =
+                || Some(ChannelStd { std: from_pairs(campaign, &pairs, channel)?, source: NoiseSource::Repeats });
+            let fallback = ChannelStd { std: flight_sensors, source: NoiseSource::FlightSensors };
+            stated.or_else(|| if channel == Channel::Slip { None } else { repeats() }).unwrap_or(fallback)
+        };
+        Self {
+            drawbar_pull: channel(Channel::DrawbarPull, scale.drawbar_pull_n),
+            load: channel(Channel::Load, scale.load_n),
+            torque: channel(Channel::Torque, scale.torque_nm),
+            slip: channel(Channel::Slip, scale.slip),
+            sinkage: channel(Channel::Sinkage, scale.sinkage_m),
+        }
+    }
+
+    /// The noise of mean states, which the networks are told: one number for all wheels, the root mean square over them.
+    ///
+    /// No channel is held to be better than the mean of 400 instants of the flight sensors: the networks have seen little
+    /// that is.
+    pub fn of_means(&self, states: &[MeanState], radius_m: f64) -> WheelNoise {
+        let count = states.len() as f64;
+        let share = |rows: fn(&MeanState) -> usize| {
+            (states.iter().map(|state| 1.0 / rows(state).max(1) as f64).sum::<f64>() / count).sqrt()
+        };
+        let (all, sinkage) = (share(|state| state.rows), share(|state| state.sinkage_rows));
+        let load_n = states.iter().map(|state| state.mean.load_n).sum::<f64>() / count;
+        let least = Scale::new(load_n, radius_m);
+        let told = |std: f64, least: f64| std.max(AVERAGING.low * least) as f32;
+        WheelNoise {
+            drawbar_pull_n: told(self.drawbar_pull.std * all, least.drawbar_pull_n),
+            load_n: told(self.load.std * all, least.load_n),
+            torque_nm: told(self.torque.std * all, least.torque_nm),
+            slip: told(self.slip.std * all, least.slip),
+            sinkage_m: told(self.sinkage.std * sinkage, least.sinkage_m),
+        }
+    }
+}
+
+/// One standard deviation of the flight sensors on a wheel of some size and load.
+struct Scale {
+    drawbar_pull_n: f64,
+    load_n: f64,
+    torque_nm: f64,
+    slip: f64,
+    sinkage_m: f64,
+}
+
+impl Scale {
+    fn new(load_n: f64, radius_m: f64) -> Self {
+        Self {
+            drawbar_pull_n: INSTANT_NOISE.drawbar_pull * load_n,
+            load_n: INSTANT_NOISE.load * load_n,
+            torque_nm: INSTANT_NOISE.torque * load_n * radius_m,
+            slip: INSTANT_NOISE.slip,
+            sinkage_m: INSTANT_NOISE.sinkage * radius_m,
+        }
+    }
+}
+
+fn mean_load(campaign: &Campaign) -> f64 {
+    let loads = campaign.column(Channel::Load.name()).unwrap_or(&[]);
+    let (sum, count) = loads.iter().flatten().fold((0.0, 0.0), |(sum, count), load| (sum + load.abs(), count + 1.0));
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+/// Pairs of rows of one run that are alike in slip and load; no row is in two pairs.
+fn like_pairs(campaign: &Campaign) -> Vec<(usize, usize)> {
+    let state = |row| Some((campaign.value(row, Channel::Slip)?, campaign.value(row, Channel::Load)?));
+    let mut pairs = Vec::new();
+    for (_, rows) in campaign.runs() {
+        let mut states: Vec<_> = rows.into_iter().filter_map(|row| Some((row, state(row)?))).collect();
+        states.sort_by(|(_, a), (_, b)| a.0.total_cmp(&b.0));
+        let mut last: Option<(usize, (f64, f64))> = None;
+        for (row, (slip, load)) in states {
+            last = match last {
+                Some((mate, (its_slip, its_load)))
+                    if slip - its_slip <= LIKE_SLIP && (load - its_load).abs() <= LIKE_LOAD * its_load.abs() =>
+                {
+                    pairs.push((mate, row));
+                    None
+                }
+                _ => Some((row, (slip, load))),
+            };
+        }
+    }
+    pairs
+}
+
+/// Half the mean square of the differences is the variance.
+fn from_pairs(campaign: &Campaign, pairs: &[(usize, usize)], channel: Channel) -> Option<f64> {
+    let difference =
+        |&(one, other): &(usize, usize)| Some(campaign.value(one, channel)? - campaign.value(other, channel)?);
+    let squares: Vec<f64> = pairs.iter().filter_map(difference).map(|difference| difference * difference).collect();
+    let count = squares.len();
+    (count >= LEAST_PAIRS).then(|| (0.5 * squares.iter().sum::<f64>() / count as f64).sqrt())
+}

@@ -1,0 +1,152 @@
+//! What a reader must know before believing a number.
+
+use kapvik_firmware::soil::SoilEstimate;
+
+use crate::data::campaign::{Campaign, Channel, Provenance};
+use crate::identify::NoiseSource;
+
+use super::findings::{Findings, RowKind};
+use super::parameter::Parameter;
+use super::verdict::Verdict;
+
+/// Loads closer together than this share are one load.
+const ONE_LOAD: f64 = 0.1;
+/// A residual greater than so many standard deviations is not noise.
+const BEYOND_NOISE: f64 = 3.0;
+
+/// The caveats that hold for these findings, in plain sentences.
+pub fn caveats(findings: &Findings) -> Vec<String> {
+    [
+        Some(provenance(&findings.campaign)),
+        noise(findings),
+        one_load(findings),
+        cannot_be_told(findings),
+        doubtful(findings),
+        missing_physics(findings),
+        declared(findings),
+    ]
+    .into_iter()
+    .flatten()
+    .chain(findings.campaign.notes.iter().cloned())
+    .collect()
+}
+
+fn provenance(campaign: &Campaign) -> String {
+    match campaign.provenance {
+        Provenance::Measured => "The wheel states were measured by instruments.".to_owned(),
+        Provenance::Digitised => {
+            "The wheel states were measured, but are read off published curves: they are means, to \
+            about two digits, and how each repeat scattered is lost."
+                .to_owned()
+        }
+        Provenance::Simulated => "The wheel states are simulated, not measured.".to_owned(),
+    }
+}
+
+fn noise(findings: &Findings) -> Option<String> {
+    let noise = &findings.identification.noise;
+    let channels = [
+        ("drawbar pull", noise.drawbar_pull),
+        ("load", noise.load),
+        ("torque", noise.torque),
+        ("slip", noise.slip),
+        ("sinkage", noise.sinkage),
+    ];
+    let assumed: Vec<&str> =
+        channels.iter().filter(|(_, std)| std.source == NoiseSource::FlightSensors).map(|(name, _)| *name).collect();
+    (!assumed.is_empty()).then(|| {
+        format!(
+            "The campaign does not say how noisy {} is; the noise of the rover's own sensors is assumed.",
+            assumed.join(", ")
+        )
+    })
+}
+
+fn one_load(findings: &Findings) -> Option<String> {
+    let loads = findings.campaign.column(Channel::Load.name())?.iter().flatten();
+    let (low, high) =
+        loads.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), load| (low.min(*load), high.max(*load)));
+    (high <= (1.0 + ONE_LOAD) * low).then(|| {
+        "Every state has one load. Cohesion and friction can then stand in for each other: the same forces come from more \
+         of one and less of the other. One wheel at one load cannot tell cohesion; where several slips together seem to, \
+         they lean on equations 1–11 being exact."
+            .to_owned()
+    })
+}
+
+fn cannot_be_told(findings: &Findings) -> Option<String> {
+    let best = findings.identification.runs.iter().filter_map(Findings::best).filter_map(|row| row.estimate.ok());
+    let soils: Vec<SoilEstimate> = best.collect();
+    let untold = |parameter: &Parameter| soils.iter().any(|soil| !parameter.of(soil).identifiable);
+    let symbols: Vec<&str> = Parameter::ALL.into_iter().filter(untold).map(Parameter::symbol).collect();
+    (!symbols.is_empty()).then(|| {
+        format!(
+            "\u{201c}Cannot be told\u{201d} ({} here, all states together) means that the data removed less than half of \
+             the variance that there was before them. The hollow mark is then mostly the middle of what the training \
+             allowed.",
+            symbols.join(", ")
+        )
+    })
+}
+
+/// Where the networks are sure of what other means deny, or of the end of what they were trained for.
+fn doubtful(findings: &Findings) -> Option<String> {
+    let ground = &findings.campaign.ground;
+    let best = findings.identification.runs.iter().filter_map(Findings::best).filter_map(|row| row.estimate.ok());
+    let soils: Vec<SoilEstimate> = best.collect();
+    let doubted = |parameter: &Parameter| {
+        let verdicts = soils.iter().map(|soil| Verdict::of(*parameter, soil, ground));
+        verdicts.into_iter().any(|verdict| verdict.is_doubtful() && verdict != Verdict::InDoubtfulCompany)
+    };
+    let symbols: Vec<&str> = Parameter::ALL.into_iter().filter(doubted).map(Parameter::symbol).collect();
+    (!symbols.is_empty()).then(|| {
+        format!(
+            "The networks are sure of {} with all states together, and direct tests or the edge of the training speak \
+             against it. Noise does not explain that: the wheel does something that the networks were not trained with.",
+            symbols.join(" and ")
+        )
+    })
+}
+
+/// Where the equations with the directly measured soil miss the sinkage or the forces by more than noise.
+fn missing_physics(findings: &Findings) -> Option<String> {
+    let rms = findings.model.as_ref()?.rms();
+    let noise = &findings.identification.noise;
+    let channels = [
+        ("drawbar pull", rms.drawbar_pull_n, noise.drawbar_pull.std, 1.0, "N"),
+        ("torque", rms.torque_nm, noise.torque.std, 1.0, "N·m"),
+        ("sinkage", rms.sinkage_m, noise.sinkage.std, 1e3, "mm"),
+    ];
+    let missed: Vec<String> = channels
+        .into_iter()
+        .filter_map(|(name, rms, std, factor, unit)| {
+            let rms = rms?;
+            (rms > BEYOND_NOISE * std).then(|| format!("{name} by {:.1} {unit}", factor * rms))
+        })
+        .collect();
+    (!missed.is_empty()).then(|| {
+        format!(
+            "Equations 1–11 are not the whole truth here: with the soil that direct tests measured they miss {} (root mean \
+             square), more than noise. The networks were trained on these equations alone, so they may put what is missing \
+             into c, φ and K, and an interval may exclude the truth. Curves that pass through the points are no proof that \
+             the parameters behind them are right.",
+            missed.join(", ")
+        )
+    })
+}
+
+fn declared(findings: &Findings) -> Option<String> {
+    let ids = findings.campaign.declared.ids();
+    (!ids.is_empty()).then(|| {
+        format!("The campaign declares effects ({}) that these networks were not trained with.", ids.join(", "))
+    })
+}
+
+/// What the networks make of the sinkage, for the legend of the lines.
+pub fn kind_in_words(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Wheel => "one wheel by itself: per-wheel network, no sinkage",
+        RowKind::RoverWithoutSinkage => "all states as the wheels of one instant: rover network, no sinkage",
+        RowKind::RoverWithSinkage => "all states as the wheels of one instant: rover network, with sinkage z",
+    }
+}

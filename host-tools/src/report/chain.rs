@@ -1,0 +1,34 @@
+//! The way from the measurements to the soil, as a row of boxes.
+
+use maud::{Markup, html};
+
+use crate::flight_computer::Computer;
+
+use super::findings::Findings;
+
+/// The boxes, each with what it did this time.
+pub fn chain(findings: &Findings) -> Markup {
+    let queries = findings.flight.health.queries_answered;
+    let (place, line) = match findings.flight.computer {
+        Computer::Qemu => ("Flight image", "on a Cortex-M4F in QEMU"),
+        Computer::Host => ("Flight library", "in this process"),
+    };
+    let used: usize = findings.identification.runs.iter().map(|run| run.rows_used).sum();
+    html! {
+        ol class="chain" {
+            (link("Wheel states", &format!("{used} rows, {}", findings.campaign.provenance), "DP, W, T, slip, sinkage"))
+            (link("Serial link", &count(queries, "query", "queries"), "postcard, COBS, CRC-32"))
+            (link(place, line, "frozen networks, 32-bit floats"))
+            (link("Soil", "c, φ, K", "each with its interval"))
+        }
+    }
+}
+
+fn link(title: &str, what: &str, how: &str) -> Markup {
+    html! { li { strong { (title) } span { (what) } small { (how) } } }
+}
+
+/// `1 query`, `2 queries`.
+pub fn count(number: u32, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}

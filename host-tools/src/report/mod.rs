@@ -1,0 +1,26 @@
+//! What a run found, as a page to look at, a picture, and a table for the terminal.
+
+mod caveats;
+mod chain;
+mod draw;
+mod estimates;
+mod facts;
+mod findings;
+mod gather;
+mod legend;
+mod page;
+mod parameter;
+mod picture;
+mod residual;
+mod response;
+mod terminal;
+mod verdict;
+
+pub use facts::{FlightFacts, lines as flight_lines};
+pub use findings::{EstimateRow, Findings, RowKind, fingerprint};
+pub use page::page;
+pub use parameter::Parameter;
+pub use picture::picture;
+pub use residual::{ModelCheck, ModelRow, ModelState, Rms};
+pub use terminal::terminal;
+pub use verdict::Verdict;

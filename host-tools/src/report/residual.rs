@@ -1,0 +1,122 @@
+//! What equations 1–11 leave unexplained, with the soil that other means have measured.
+
+use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+
+use crate::data::campaign::{Campaign, Channel, Knowledge};
+use crate::train::prior;
+
+/// The equations beside the measurements.
+#[derive(Debug, Clone)]
+pub struct ModelCheck {
+    /// The soil of the equations.
+    pub soil: Soil<f64>,
+    /// Every row that has slip and load.
+    pub rows: Vec<ModelRow>,
+}
+
+/// What the equations say of one wheel state, at its slip and load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelState {
+    /// Drawbar pull, N.
+    pub drawbar_pull_n: f64,
+    /// Torque, N·m.
+    pub torque_nm: f64,
+    /// Sinkage, m.
+    pub sinkage_m: f64,
+}
+
+/// A row and what the equations say of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelRow {
+    /// Slip.
+    pub slip: f64,
+    /// Load, N.
+    pub load_n: f64,
+    /// Measured drawbar pull, N.
+    pub drawbar_pull_n: Option<f64>,
+    /// Measured torque, N·m.
+    pub torque_nm: Option<f64>,
+    /// Measured sinkage, m.
+    pub sinkage_m: Option<f64>,
+    /// What the equations say; none where the soil does not carry the load.
+    pub model: Option<ModelState>,
+}
+
+/// Root mean square of what is unexplained; none for a channel that was not measured.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Rms {
+    /// Of the drawbar pull, N.
+    pub drawbar_pull_n: Option<f64>,
+    /// Of the torque, N·m.
+    pub torque_nm: Option<f64>,
+    /// Of the sinkage, m.
+    pub sinkage_m: Option<f64>,
+}
+
+impl ModelCheck {
+    /// None where the campaign does not know enough of the soil by other means.
+    pub fn of(campaign: &Campaign) -> Option<Self> {
+        Some(Self::with(campaign, known_soil(campaign)?))
+    }
+
+    /// With any soil.
+    pub fn with(campaign: &Campaign, soil: Soil<f64>) -> Self {
+        let row = |row| {
+            let value = |channel| campaign.value(row, channel);
+            let (slip, load_n) = (value(Channel::Slip)?, value(Channel::Load)?);
+            Some(ModelRow {
+                slip,
+                load_n,
+                drawbar_pull_n: value(Channel::DrawbarPull),
+                torque_nm: value(Channel::Torque),
+                sinkage_m: value(Channel::Sinkage),
+                model: ModelState::at(&campaign.wheel, &soil, slip, load_n),
+            })
+        };
+        Self { soil, rows: (0..campaign.rows().len()).filter_map(row).collect() }
+    }
+
+    /// Over all rows.
+    pub fn rms(&self) -> Rms {
+        let over = |measured: fn(&ModelRow) -> Option<f64>, model: fn(&ModelState) -> f64| {
+            let squares: Vec<f64> = self
+                .rows
+                .iter()
+                .filter_map(|row| Some((measured(row)? - model(row.model.as_ref()?)).powi(2)))
+                .collect();
+            (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+        };
+        Rms {
+            drawbar_pull_n: over(|row| row.drawbar_pull_n, |model| model.drawbar_pull_n),
+            torque_nm: over(|row| row.torque_nm, |model| model.torque_nm),
+            sinkage_m: over(|row| row.sinkage_m, |model| model.sinkage_m),
+        }
+    }
+}
+
+impl ModelState {
+    /// None where the soil does not carry the load.
+    pub fn at(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64) -> Option<Self> {
+        let sinkage_m = sinkage_for_load(wheel, soil, slip, load_n).ok()?;
+        let forces = wheel_forces(wheel, soil, slip, sinkage_m).ok()?;
+        Some(Self { drawbar_pull_n: forces.drawbar_pull_n, torque_nm: forces.torque_nm, sinkage_m })
+    }
+}
+
+/// The soil of the equations from what other means have measured. Where the stress peaks is rarely known: the middle of
+/// what the networks were trained with, then.
+fn known_soil(campaign: &Campaign) -> Option<Soil<f64>> {
+    let ground = &campaign.ground;
+    let middle = |known: Knowledge| known.middle();
+    Some(Soil {
+        sinkage_exponent: ground.sinkage_exponent.map(middle)?,
+        cohesive_modulus: 0.0,
+        frictional_modulus: ground.stiffness(&campaign.wheel).map(middle)?,
+        cohesion_pa: ground.cohesion_pa.map(middle)?,
+        friction_angle_rad: ground.friction_angle_rad.map(middle)?,
+        shear_modulus_m: ground.shear_modulus_m.map(middle)?,
+        peak_stress_c1: ground.peak_stress_c1.map_or_else(|| prior::PEAK_STRESS_C1.at(0.5), middle),
+        peak_stress_c2: ground.peak_stress_c2.map_or_else(|| prior::PEAK_STRESS_C2.at(0.5), middle),
+        rebound_ratio: ground.rebound_ratio.map_or(0.0, middle),
+    })
+}

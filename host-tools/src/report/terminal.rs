@@ -1,0 +1,123 @@
+//! The findings as a table for the terminal.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use kapvik_firmware::soil::SoilEstimate;
+
+use super::caveats::caveats;
+use super::draw::number;
+use super::findings::{EstimateRow, Findings};
+use super::parameter::Parameter;
+use super::residual::ModelCheck;
+use super::verdict::Verdict;
+
+/// A table of the estimates beside the direct tests, a table of what the equations leave, and the caveats.
+pub fn terminal(findings: &Findings) -> String {
+    let campaign = &findings.campaign;
+    let mut text = format!("{} · {}\n", campaign.name, campaign.provenance);
+    for run in &findings.identification.runs {
+        if findings.identification.runs.len() > 1 {
+            text += &format!("\nrun {}\n", run.run);
+        }
+        match run.refused() {
+            Some(reason) => text += &format!("\n  no estimate: {reason}\n"),
+            None => text += &format!("\n{}\n", estimates(findings, &Findings::rows(run))),
+        }
+        if !run.rows_left_out.is_empty() && run.question.is_some() {
+            text += &format!("  left out: {}\n", run.reasons_in_words());
+        }
+    }
+    text += "  value (68 % interval); ? = cannot be told from these data; ! = narrow, but to be doubted\n";
+    if let Some(model) = &findings.model {
+        text +=
+            &format!("\nequations 1–11 with the directly measured soil: measured − computed\n{}\n", residuals(model));
+    }
+    text += "\n";
+    for caveat in caveats(findings) {
+        text += &wrapped(&caveat);
+    }
+    text
+}
+
+fn estimates(findings: &Findings, rows: &[EstimateRow]) -> Table {
+    let mut table = plain_table();
+    let units = Parameter::ALL.map(|parameter| format!("{}, {}", parameter.symbol(), parameter.unit()));
+    table.set_header(std::iter::once(String::new()).chain(units));
+    for row in rows {
+        let cells = Parameter::ALL.map(|parameter| match &row.estimate {
+            Ok(soil) => cell(findings, parameter, soil),
+            Err(reason) => (*reason).to_owned(),
+        });
+        table.add_row(std::iter::once(row.label.clone()).chain(cells));
+    }
+    let known = Parameter::ALL.map(|parameter| {
+        let known = parameter.known(&findings.campaign.ground);
+        known.map_or_else(|| "–".to_owned(), |known| parameter.knowledge(known))
+    });
+    table.add_row(std::iter::once("direct tests".to_owned()).chain(known));
+    align_right(&mut table);
+    table
+}
+
+fn cell(findings: &Findings, parameter: Parameter, soil: &SoilEstimate) -> String {
+    let estimate = parameter.of(soil);
+    let mark = Verdict::of(parameter, soil, &findings.campaign.ground).mark();
+    format!("{} ({}) {mark}", parameter.number(estimate.value.into()), parameter.interval(estimate.interval_68))
+}
+
+fn residuals(model: &ModelCheck) -> Table {
+    let mut table = plain_table();
+    table.set_header(["", "DP, N", "T, N·m", "z, mm"]);
+    let shown = |value: Option<f64>, factor: f64, digits: usize| {
+        value.map_or_else(|| "–".to_owned(), |value| number(factor * value, digits, true))
+    };
+    for row in &model.rows {
+        let difference = |measured: Option<f64>, computed: Option<f64>| Some(measured? - computed?);
+        table.add_row([
+            format!("slip {}", number(row.slip, 2, false)),
+            shown(difference(row.drawbar_pull_n, row.model.map(|model| model.drawbar_pull_n)), 1.0, 1),
+            shown(difference(row.torque_nm, row.model.map(|model| model.torque_nm)), 1.0, 2),
+            shown(difference(row.sinkage_m, row.model.map(|model| model.sinkage_m)), 1e3, 1),
+        ]);
+    }
+    let rms = model.rms();
+    let plain =
+        |value: Option<f64>, digits: usize| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"));
+    table.add_row([
+        "root mean square".to_owned(),
+        plain(rms.drawbar_pull_n, 1),
+        plain(rms.torque_nm, 2),
+        plain(rms.sinkage_m.map(|z| 1e3 * z), 1),
+    ]);
+    align_right(&mut table);
+    table
+}
+
+fn plain_table() -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING);
+    table
+}
+
+fn align_right(table: &mut Table) {
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+}
+
+/// A paragraph with a mark before it, in lines that a terminal can show.
+fn wrapped(paragraph: &str) -> String {
+    const WIDTH: usize = 96;
+    let mut text = String::new();
+    let mut line = String::from("•");
+    for word in paragraph.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            text += &line;
+            text.push('\n');
+            line = " ".to_owned();
+        }
+        line.push(' ');
+        line += word;
+    }
+    text + &line + "\n"
+}

@@ -1,0 +1,158 @@
+//! What a campaign may and may not say: each mistake is told by file, line and column.
+
+use std::path::Path;
+
+use kapvik_host::data::campaign::{Campaign, Channel, Knowledge, Provenance};
+
+const CSV: &str = "\
+run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m,camera_c,note
+a,0,0.1,80.0,11.0,3.0,0.0055,21.5,first
+a,0,0.2,80.0,14.5,4.2,,,second
+b,1.5,-0.3,79.0,,,0.01,22,
+";
+
+const TOML: &str = "\
+name = \"Test\"
+kind = \"digitised\"
+source = \"by hand\"
+gravity_m_s2 = 1.62
+[wheel]
+radius_m = 0.15
+width_m = 0.16
+grouser_height_m = 0.005
+grouser_count = 24
+[soil]
+n = { value = 1.1, std = 0.05 }
+k_c = { value = 16.0e3, std = 3.0e3 }
+k_phi = { value = 2.4e6, std = 0.4e6 }
+c = { min = 0.0, max = 500.0 }
+phi = { value = 0.55, std = 0.03 }
+K = 0.012
+[noise]
+drawbar_pull_n = 0.5
+camera_c = 0.1
+[declared]
+effects = [\"slip-sinkage\", \"rear-contact\"]
+[declared.slip-sinkage]
+n1 = 0.3
+";
+
+fn parse(csv: &str, toml: &str) -> Result<Campaign, String> {
+    Campaign::parse(Path::new("test.csv"), csv, toml).map_err(|error| error.to_string())
+}
+
+#[test]
+fn everything_that_the_format_names_is_read() {
+    let campaign = parse(CSV, TOML).expect("a good campaign");
+    assert_eq!(campaign.name, "Test");
+    assert_eq!(campaign.provenance, Provenance::Digitised);
+    assert_eq!(campaign.gravity_m_s2, 1.62);
+    assert_eq!((campaign.wheel.radius_m, campaign.wheel.width_m), (0.15, 0.16));
+    assert_eq!((campaign.grousers.height_m, campaign.grousers.count), (0.005, 24));
+    assert_eq!(campaign.ground.shear_modulus_m, Some(Knowledge::Value { value: 0.012, std: 0.0 }));
+    assert_eq!(campaign.ground.cohesion_pa, Some(Knowledge::Between { min: 0.0, max: 500.0 }));
+    assert_eq!(campaign.ground.rebound_ratio, None);
+    // 16 kPa/m^0.1 over 0.16 m are 0.1 MPa/m^1.1; the deviations are 18.75 kPa and 400 kPa.
+    let stiffness = campaign.ground.stiffness(&campaign.wheel).expect("k_c and k_phi are there");
+    assert!((stiffness.middle() - 2.5e6).abs() < 1.0, "{stiffness:?}");
+    assert!((stiffness.range().1 - 2.5e6 - 400_439.2).abs() < 1.0, "{stiffness:?}");
+    assert_eq!(campaign.noise.of(Channel::DrawbarPull), Some(0.5));
+    assert_eq!(campaign.noise.of_column("camera_c"), Some(0.1));
+    assert_eq!(campaign.noise.of(Channel::Torque), None);
+    assert_eq!(campaign.declared.ids(), ["slip-sinkage", "rear-contact"]);
+    assert_eq!(campaign.declared.effects[0].1.get("n1"), Some(&0.3));
+}
+
+#[test]
+fn columns_of_numbers_are_kept_and_empty_fields_are_not_measured() {
+    let campaign = parse(CSV, TOML).expect("a good campaign");
+    assert_eq!(campaign.column("camera_c"), Some(&[Some(21.5), None, Some(22.0)][..]));
+    assert_eq!(campaign.column("note"), None, "text is no measurement");
+    assert_eq!(campaign.value(1, Channel::Sinkage), None);
+    assert_eq!(campaign.value(2, Channel::Slip), Some(-0.3));
+    let runs: Vec<_> = campaign.runs();
+    assert_eq!(runs, [("a", vec![0, 1]), ("b", vec![2])]);
+    assert_eq!((campaign.rows()[2].t_s, campaign.rows()[2].line), (1.5, 4));
+}
+
+#[test]
+fn only_name_kind_and_wheel_must_be_said() {
+    let toml = "name = \"x\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.1\nwidth_m = 0.1\n";
+    let campaign = parse(CSV, toml).expect("enough");
+    assert_eq!(campaign.gravity_m_s2, 9.81);
+    assert!(campaign.declared.effects.is_empty() && campaign.ground.stiffness(&campaign.wheel).is_none());
+}
+
+/// Replaces a piece of a good file, and gives the error.
+fn broken(file: &str, good: &str, bad: &str) -> String {
+    let (mut csv, mut toml) = (CSV.to_owned(), TOML.to_owned());
+    let text = if file == "csv" { &mut csv } else { &mut toml };
+    assert!(text.contains(good), "the test must change something");
+    *text = text.replacen(good, bad, 1);
+    parse(&csv, &toml).expect_err("a mistake")
+}
+
+#[test]
+fn mistakes_in_the_table_are_told_by_line_and_column() {
+    let cases = [
+        ("a,0,0.2,80.0", "a,0,1.2,80.0", "test.csv:3:3: slip: `1.2`: expected a slip from −1 to 1"),
+        ("a,0,0.2,80.0", "a,0,x,80.0", "test.csv:3:3: slip: `x`: expected a finite number"),
+        ("80.0,11.0", "inf,11.0", "test.csv:2:4: load_n: `inf`: expected a finite number"),
+        ("a,0,0.2", ",0,0.2", "test.csv:3:1: run: nothing here: expected the name of the run"),
+        ("a,0,0.2", "a,,0.2", "test.csv:3:2: t_s: nothing here: expected the time"),
+        ("22,\n", "cold,\n", "test.csv:4:8: camera_c: `cold`: expected a finite number"),
+        ("22,\n", "22\n", "test.csv:4:9: 8 fields in this row: expected 9"),
+        ("run,", "walk,", "test.csv:1:1: no column `run`"),
+        ("t_s,", "time,", "test.csv:1:1: no column `t_s`"),
+        ("camera_c", "slip", "test.csv:1:8: a second column is named `slip`"),
+    ];
+    for (good, bad, message) in cases {
+        let error = broken("csv", good, bad);
+        assert!(error.starts_with(message), "{error}\n  should begin with\n{message}");
+    }
+    let header = CSV.lines().next().expect("a header");
+    assert!(parse(header, TOML).expect_err("no rows").starts_with("test.csv:1:1: no rows"));
+    assert!(parse("", TOML).expect_err("empty").starts_with("test.csv:1:1: the file is empty"));
+}
+
+#[test]
+fn mistakes_in_the_description_are_told_by_line_and_column() {
+    let cases = [
+        ("\"digitised\"", "\"guessed\"", "test.toml:2:8: unknown variant `guessed`, expected one of `measured`"),
+        ("name = \"Test\"\n", "", "test.toml:1:1: missing field `name`"),
+        ("[wheel]", "[wheels]", "test.toml:5:2: unknown field `wheels`"),
+        ("radius_m = 0.15", "radius_m = -0.15", "test.toml:6:12: radius_m = -0.15: expected a length above 0 m"),
+        ("radius_m = 0.15", "radius_m = \"wide\"", "test.toml:6:12: invalid type: string"),
+        ("gravity_m_s2 = 1.62", "gravity_m_s2 = 0.0", "test.toml:4:16: gravity_m_s2 = 0: expected a number above 0"),
+        ("std = 0.05", "std = -1.0", "test.toml:11:5: n: std = -1: expected a standard deviation of 0 or more"),
+        ("std = 0.05", "sigma = 0.05", "test.toml:11:5: expected a number, { value"),
+        ("max = 500.0", "max = -1.0", "test.toml:14:5: c: min = 0, max = -1: expected min below max"),
+        ("value = 0.55,", "value = 31.9,", "test.toml:15:7: phi: 31.9: expected a number from 0 to 1.5708"),
+        ("K = 0.012", "K = nan", "test.toml:16:5: K: NaN: expected a number of 0 or more"),
+        ("K = 0.012", "k_eff = 2.0e6", "test.toml:16:9: k_eff beside k_c or k_phi"),
+        ("drawbar_pull_n = 0.5", "drawbar = 0.5", "test.toml:18:1: no channel `drawbar`"),
+        ("camera_c = 0.1", "camera_c = -0.1", "test.toml:19:12: camera_c = -0.1: expected a standard deviation"),
+        ("\"rear-contact\"", "\"rear\"", "test.toml:21:28: no effect `rear`: expected one of slip-sinkage"),
+        (
+            "effects = [\"slip-sinkage\", \"rear-contact\"]",
+            "effects = []",
+            "test.toml:22:11: parameters of slip-sinkage",
+        ),
+        ("n1 = 0.3", "n1 = \"x\"", "test.toml:23:6: invalid type: string"),
+        ("kind =", "kind", "test.toml:2:"),
+    ];
+    for (good, bad, message) in cases {
+        let error = broken("toml", good, bad);
+        assert!(error.starts_with(message), "{error}\n  should begin with\n{message}");
+        assert!(!error.contains('\n'), "one line: {error}");
+    }
+}
+
+#[test]
+fn a_campaign_without_its_description_names_the_file_that_is_expected() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("alone.csv");
+    std::fs::write(&path, CSV).expect("written");
+    let error = Campaign::read(&path).expect_err("no description").to_string();
+    assert!(error.contains("alone.toml: no such file"), "{error}");
+}
