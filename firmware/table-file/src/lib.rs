@@ -74,8 +74,10 @@ pub enum TableError {
     },
 }
 
-fn checksum(bytes: &[u8]) -> u32 {
-    crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(bytes)
+/// CRC-32 (ISO-HDLC) of the bytes before the last line.
+pub fn checksum(bytes: &[u8]) -> u32 {
+    static CRC: crc::Crc<u32, crc::Table<16>> = crc::Crc::<u32, crc::Table<16>>::new(&crc::CRC_32_ISO_HDLC);
+    CRC.checksum(bytes)
 }
 
 impl TableFile {

@@ -56,7 +56,14 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("prior k_eff", range(prior::STIFFNESS, "Pa/m^n")),
         ("prior c1", range(prior::PEAK_STRESS_C1, "")),
         ("prior c2", range(prior::PEAK_STRESS_C2, "")),
-        ("wheels", format!("half Kapvik's (assumed), half radius {}", range(prior::RADIUS_M, "m"))),
+        (
+            "wheels",
+            format!(
+                "{:.0} % Kapvik's (assumed), others of radius {}",
+                100.0 * prior::KAPVIK_SHARE,
+                range(prior::RADIUS_M, "m")
+            ),
+        ),
         ("pressures", format!("W/(rb) {}", range(prior::PRESSURE_PA, "Pa"))),
         ("slip", range(prior::SLIP, "")),
         (

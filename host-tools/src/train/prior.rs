@@ -58,6 +58,13 @@ pub const PEAK_STRESS_C1: Range = Range::linear(0.15, 0.50);
 /// Peak-stress shift c₂.
 pub const PEAK_STRESS_C2: Range = Range::linear(0.0, 0.35);
 
+/// Share of scenes with Kapvik's wheel.
+pub const KAPVIK_SHARE: f64 = 0.7;
+/// Share of scenes that surely have all six wheels; the others have one to six.
+pub const WHOLE_ROVER_SHARE: f64 = 0.7;
+/// Share of scenes whose wheels are driven at deliberately different rim speeds.
+pub const SPREAD_SHARE: f64 = 0.7;
+
 /// Kapvik's wheel. Assumed, not published (assumption set K0).
 pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 /// Mean load of Kapvik's wheels in the comparison experiment, N; 40 kg on six wheels.

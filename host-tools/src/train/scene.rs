@@ -37,7 +37,7 @@ impl Scene {
 /// What a set of scenes is for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Design {
-    /// Half Kapvik, half other wheels; one to six wheels, alike or at spread slips; all noise levels.
+    /// Mostly Kapvik, some other wheels; mostly six wheels at spread slips, some fewer or alike; all noise levels.
     Training,
     /// Kapvik, six wheels at slips 0.05–0.60, loads within ±8 % of 65.4 N.
     Kapvik {
@@ -108,7 +108,7 @@ fn draw_soil(shares: &mut Shares) -> Soil<f64> {
 }
 
 fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
-    let kapvik = shares.next() < 0.5;
+    let kapvik = shares.next() < prior::KAPVIK_SHARE;
     let (radius, width, load) = (shares.next(), shares.next(), shares.next());
     let radius_m = prior::RADIUS_M.at(radius);
     let other = Wheel { radius_m, width_m: radius_m * prior::WIDTH_RATIO.at(width) };
@@ -121,7 +121,7 @@ fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
     let slips = Slips::draw(shares);
     let noise = draw_noise(shares, &wheel, load_n);
     let (fewer, count) = (shares.next(), shares.next());
-    let count = if fewer < 0.5 { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
+    let count = if fewer < prior::WHOLE_ROVER_SHARE { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
     let sinkage_seen = shares.next() < 0.5;
     let (slope_seen, slope_std) = (shares.next() < 0.7, prior::SLOPE_STD_RAD.at(shares.next()));
     let wheels = (0..count)
@@ -144,9 +144,9 @@ struct Slips {
 }
 
 impl Slips {
-    /// Half of the scenes have wheels driven at deliberately different rim speeds.
+    /// Most scenes have wheels driven at deliberately different rim speeds.
     fn draw(shares: &mut Shares) -> Self {
-        let (stepped, one, two) = (shares.next() < 0.5, shares.next(), shares.next());
+        let (stepped, one, two) = (shares.next() < prior::SPREAD_SHARE, shares.next(), shares.next());
         let (low, high) =
             if stepped { (prior::SPREAD_SLIP_LOW, prior::SPREAD_SLIP_HIGH) } else { (prior::SLIP, prior::SLIP) };
         Self { ends: (low.at(one), high.at(two)), stepped }

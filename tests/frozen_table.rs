@@ -1,0 +1,133 @@
+//! A frozen table that is not what the trainer wrote is noticed: in the file, in the build, in memory.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Output;
+
+use kapvik_firmware::frozen;
+use kapvik_firmware::network::{Numbers, checksum};
+use kapvik_firmware::self_test;
+use kapvik_host::process::{command, workspace};
+use kapvik_table_file::{TableError, TableFile};
+use rayon::prelude::*;
+
+fn shipped() -> (PathBuf, Vec<u8>) {
+    let path = workspace().join("firmware/weights/kapvik.table");
+    let bytes = fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    (path, bytes)
+}
+
+#[test]
+fn every_flipped_bit_of_the_file_is_noticed() {
+    let (_, bytes) = shipped();
+    assert!(TableFile::parse(&bytes).is_ok());
+    let unseen: Vec<usize> = (0..8 * bytes.len())
+        .into_par_iter()
+        .map_init(
+            || bytes.clone(),
+            |copy, bit| {
+                copy[bit / 8] ^= 1 << (bit % 8);
+                let refused = TableFile::parse(copy).is_err();
+                copy[bit / 8] ^= 1 << (bit % 8);
+                (!refused).then_some(bit)
+            },
+        )
+        .flatten()
+        .collect();
+    println!("{} bits of the file flipped, {} not noticed", 8 * bytes.len(), unseen.len());
+    assert!(unseen.is_empty(), "{unseen:?}");
+}
+
+/// Flips each bit of each number of a table in memory; returns how many were flipped and how many left the checksum as
+/// it was.
+fn flip_all<T: Numbers + Clone + Sync>(table: &T) -> (usize, usize) {
+    let mut count = 0;
+    table.for_each(&mut |_| count += 1);
+    let sound = checksum(table);
+    let flip = |copy: &mut T, bit: usize| {
+        let mut place = 0;
+        copy.for_each_mut(&mut |number| {
+            if place == bit / 32 {
+                *number = f32::from_bits(number.to_bits() ^ (1 << (bit % 32)));
+            }
+            place += 1;
+        });
+    };
+    let unseen = (0..32 * count).into_par_iter().map_init(
+        || table.clone(),
+        |copy, bit| {
+            flip(copy, bit);
+            let same = checksum(copy) == sound;
+            flip(copy, bit);
+            usize::from(same)
+        },
+    );
+    (32 * count, unseen.sum())
+}
+
+#[test]
+fn every_flipped_bit_in_memory_is_noticed() {
+    let (wheel, rover) = (flip_all(&frozen::WHEEL), flip_all(&frozen::ROVER));
+    println!("{} bits in memory flipped, {} not noticed", wheel.0 + rover.0, wheel.1 + rover.1);
+    assert_eq!((wheel.1, rover.1), (0, 0));
+}
+
+#[test]
+fn the_self_test_fails_on_a_flipped_bit_and_passes_without() {
+    assert!(self_test::run().passed());
+    let mut rover = frozen::ROVER.clone();
+    rover.network.output.bias[0] = f32::from_bits(rover.network.output.bias[0].to_bits() ^ 1);
+    let report = self_test::examine(&frozen::WHEEL, &rover);
+    assert!(!report.tables_intact && !report.passed());
+    assert_eq!(report.wheel_pairs, 32);
+    assert!(report.rover_pairs < 32);
+}
+
+/// Builds the library on a table of these bytes.
+fn build_with(name: &str, bytes: &[u8]) -> Output {
+    let folder = workspace().join("target/tables-that-are-refused");
+    fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let table = folder.join(format!("{name}.table"));
+    fs::write(&table, bytes).unwrap_or_else(|error| panic!("{}: {error}", table.display()));
+    let mut build = command("cargo");
+    build.args(["check", "--package", "kapvik-firmware", "--quiet"]).env("CARGO_TARGET_DIR", &folder);
+    build.env("KAPVIK_WEIGHTS", &table).output().unwrap_or_else(|error| panic!("cargo: {error}"))
+}
+
+fn edited(edit: impl FnOnce(&mut TableFile)) -> Vec<u8> {
+    let mut file = TableFile::parse(&shipped().1).unwrap_or_else(|error| panic!("{error}"));
+    edit(&mut file);
+    file.to_text().into_bytes()
+}
+
+/// The first number of a block, as something to spoil.
+fn first_word<'a>(file: &'a mut TableFile, name: &str) -> &'a mut u32 {
+    let block = file.blocks.iter_mut().find(|block| block.name == name);
+    block.and_then(|block| block.words.first_mut()).unwrap_or_else(|| panic!("the table has no {name}"))
+}
+
+#[test]
+fn a_table_that_is_wrong_stops_the_build_and_says_why() {
+    let (_, sound) = shipped();
+    assert!(build_with("sound", &sound).status.success());
+    let mut altered = sound.clone();
+    altered[sound.len() / 2] ^= 1;
+    let version_two = String::from_utf8_lossy(&sound).replace("\nversion 1\n", "\nversion 2\n");
+    let body = &version_two[..version_two.rfind("crc32 ").unwrap_or(0)];
+    let sealed = format!("{body}crc32 {:08x}\n", kapvik_table_file::checksum(body.as_bytes()));
+    assert!(matches!(TableFile::parse(sealed.as_bytes()), Err(TableError::Version { .. })));
+    let cases: [(&str, Vec<u8>, &str); 6] = [
+        ("truncated", sound[..sound.len() - 100].to_vec(), "truncated"),
+        ("altered", altered, "was altered"),
+        ("version", sealed.into_bytes(), "is of version 2, this build reads version 1"),
+        ("shape", edited(|file| file.blocks[2].shape[1] += 1), "block wheel.network of the frozen table has shape"),
+        ("golden", edited(|file| *first_word(file, "rover.network") ^= 1), "golden pairs"),
+        ("not-finite", edited(|file| *first_word(file, "wheel.network") = 0x7fc0_0000), "not finite"),
+    ];
+    for (name, bytes, reason) in cases {
+        let output = build_with(name, &bytes);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success(), "{name}: the build went through");
+        assert!(text.contains(reason), "{name}: expected `{reason}` in\n{text}");
+    }
+}
