@@ -1,6 +1,7 @@
 //! The posterior of a soil: by a second method, and calibrated over cases drawn from its own prior.
 
 use kapvik_firmware::wheel_state::SoilQuery;
+use kapvik_host::limit::calibration::{distance_bound, distance_from_uniform};
 use kapvik_host::limit::case::{KAPVIK_LOADS, cases};
 use kapvik_host::limit::coordinates::{Coordinates, targets_at};
 use kapvik_host::limit::posterior::SoilPosterior;
@@ -64,22 +65,18 @@ fn draws_from_the_prior_find_the_same_posterior() {
 
 #[test]
 fn the_truth_has_a_uniform_rank() {
-    let count = 32;
+    let count = 24;
     let effort = Effort { effective_size: 60.0, split_r_hat: 1.1, ..EFFORT };
     for instants in [1, 100] {
         let design = Design::Kapvik { instants, sinkage: true };
         let cases = cases(design, count, 99, KAPVIK_LOADS, &effort, || ()).unwrap();
-        // Dvoretzky, Kiefer, Wolfowitz: farther from uniform once in ten thousand; 1/60 more for the draws' own scatter.
-        let bound = ((2.0_f64 / 1e-4).ln() / (2.0 * count as f64)).sqrt() + 1.0 / 60.0;
+        // 1/60 more for the scatter of the draws themselves.
+        let bound = distance_bound(count, 1e-4) + 1.0 / 60.0;
         for k in 0..3 {
-            let mut ranks: Vec<f64> = cases.iter().map(|case| case.summary.ranks(&case.truth)[k]).collect();
-            ranks.sort_by(f64::total_cmp);
-            let share = |place: usize| place as f64 / count as f64;
-            let gap = ranks.iter().enumerate().map(|(i, rank)| (rank - share(i)).max(share(i + 1) - rank));
-            let farthest = gap.fold(0.0, f64::max);
-            assert!(farthest < bound, "target {k}: {farthest} from uniform, bound {bound}");
-            // A standardised error has mean square one, with a variance of 2/count where it is normal and 4/5 of a square
-            // less where it is uniform.
+            let distance = distance_from_uniform(cases.iter().map(|case| case.summary.ranks(&case.truth)[k]).collect());
+            assert!(distance < bound, "target {k}: {distance} from uniform, bound {bound}");
+            // A standardised error has mean square one, with a variance of 2/count where it is normal and less where it is
+            // uniform.
             let squares = cases.iter().map(|case| {
                 let target = case.summary.targets[k];
                 ((case.truth[k] - target.mean) / target.std).powi(2)
@@ -88,4 +85,12 @@ fn the_truth_has_a_uniform_rank() {
             assert!((mean - 1.0).abs() < 4.5 * (2.0 / count as f64).sqrt(), "target {k}: mean square error {mean}");
         }
     }
+}
+
+#[test]
+fn ranks_that_crowd_are_told() {
+    assert!((distance_from_uniform(vec![0.125, 0.375, 0.625, 0.875]) - 0.125).abs() < 1e-12);
+    assert!((distance_from_uniform(vec![0.9, 0.5, 0.7, 0.6]) - 0.5).abs() < 1e-12);
+    // Kolmogorov's limiting distribution has its 99 % point at 1.6276/√n.
+    assert!((distance_bound(100, 0.01) / 0.162_76 - 1.0).abs() < 0.001);
 }

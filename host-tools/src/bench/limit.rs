@@ -6,10 +6,11 @@ use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
 use crate::limit::accuracy::{Errors, Measured};
+use crate::limit::calibration::{distance_bound, distance_from_uniform};
 use crate::limit::case::{Case, KAPVIK_LOADS, cases};
 use crate::limit::coordinates::Targets;
 use crate::limit::summary::EFFORT;
-use crate::train::prior::{self, Range};
+use crate::train::dataset::prior_scale;
 use crate::train::scene::Design;
 
 /// An estimator of ln c (c in Pa), φ (rad) and ln K (K in m).
@@ -50,12 +51,11 @@ impl Sinkage {
     }
 }
 
-/// A target as it is printed: name, factor on the number, its range under the prior.
-const TARGETS: [(&str, f64, Range); 3] = [
-    ("ln c", 1.0, prior::COHESION_PA),
-    ("φ, °", 180.0 / std::f64::consts::PI, prior::FRICTION_ANGLE_RAD),
-    ("ln K", 1.0, prior::SHEAR_MODULUS_M),
-];
+/// A target as it is printed: name, factor on the number.
+const TARGETS: [(&str, f64); 3] = [("ln c", 1.0), ("φ, °", 180.0 / std::f64::consts::PI), ("ln K", 1.0)];
+
+/// How often a calibrated posterior is called so.
+const CONFIDENCE: f64 = 0.99;
 
 /// Prints the limit for one and for a mean of 100 instants, and beside it the estimator.
 ///
@@ -87,62 +87,51 @@ fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: Option<&Estima
     let limit = Errors::new(cases.iter().map(|case| (case.summary.means(), case.truth)));
     let other = estimator.map(|estimator| Errors::new(cases.iter().map(|case| (estimator(&case.query), case.truth))));
     println!(
-        "  {:<6}{:>16}{:>14}{:>10}{:>12}{:>8}{:>16}{:>16}",
-        "", "limit RMSE", "posterior std", "R²", "sampling", "SBC", "estimator RMSE", "ratio"
+        "  {:<6}{:>16}{:>14}{:>8}{:>10}{:>8}{:>18}{:>16}",
+        "", "limit RMSE", "posterior std", "R²", "sampling", "rank", "estimator RMSE", "ratio"
     );
-    for (target, (name, factor, range)) in TARGETS.iter().enumerate() {
+    let prior = prior_scale();
+    for (target, (name, factor)) in TARGETS.iter().enumerate() {
         let rmse = limit.rmse(target);
-        let spread = root_mean(cases, |case| case.summary.targets[target].std);
+        let std = root_mean(cases, |case| case.summary.targets[target].std);
         let sampling = root_mean(cases, |case| case.summary.targets[target].standard_error());
-        let explained = 1.0 - (rmse.value / prior_std(range)).powi(2);
-        print!("  {name:<6}{:>16}{:>14.3}{explained:>10.2}", text(rmse, *factor), spread * factor);
-        print!("{:>12.4}{:>8.3}", sampling * factor, farthest_rank(cases, target));
+        let ranks = cases.iter().map(|case| case.summary.ranks(&case.truth)[target]).collect();
+        let explained = 1.0 - (rmse.value / f64::from(prior.std[target])).powi(2);
+        print!("  {name:<6}{:>16}{:>14.3}{explained:>8.2}", text(rmse, *factor), std * factor);
+        print!("{:>10.4}{:>8.3}", sampling * factor, distance_from_uniform(ranks));
         match &other {
             Some(other) => {
-                println!("{:>16}{:>16}", text(other.rmse(target), *factor), text(other.ratio(&limit, target), 1.0));
+                println!("{:>18}{:>16}", text(other.rmse(target), *factor), text(other.ratio(&limit, target), 1.0));
             }
             None => println!(),
         }
     }
-    let against = |errors: &Errors| 100.0 * errors.median_relative(2);
-    print!("  median error of K: {:.1} %", against(&limit));
-    println!("{}", other.map_or(String::new(), |other| format!(", estimator {:.1} %", against(&other))));
-    print_convergence(cases);
+    let of_modulus = |errors: &Errors| 100.0 * errors.median_relative(2);
+    print!("  median error of K: {:.1} %", of_modulus(&limit));
+    println!("{}", other.map_or(String::new(), |other| format!(", estimator {:.1} %", of_modulus(&other))));
+    print_trust(cases);
 }
 
-fn print_convergence(cases: &[Case]) {
+/// What the table can be trusted for.
+fn print_trust(cases: &[Case]) {
     let converged = cases.iter().filter(|case| case.summary.converged).count();
     let worst = cases.iter().map(|case| case.summary.split_r_hat).fold(1.0, f64::max);
     let least = cases.iter().map(|case| case.summary.effective_size).fold(f64::INFINITY, f64::min);
     let evaluations = cases.iter().map(|case| case.summary.evaluations).sum::<usize>() / cases.len();
     println!(
-        "  chains converged in {converged} of {}; split-R̂ ≤ {worst:.3}, effective size ≥ {least:.0}; {evaluations} evaluations each",
+        "  sampling: Monte-Carlo standard error of the posterior mean; {evaluations} evaluations a case, chains converged in \
+         {converged} of {}, split-R̂ ≤ {worst:.3}, effective size ≥ {least:.0}",
         cases.len()
     );
-    // Dvoretzky, Kiefer and Wolfowitz: the bound that a distribution of so many ranks passes in 99 of 100 trials.
-    let bound = libm::sqrt(libm::log(2.0 / 0.01) / (2.0 * cases.len() as f64));
     println!(
-        "  SBC: farthest of the ranks' distribution from the uniform one; calibrated draws stay below {bound:.3}\n"
+        "  rank: distance of the truth's ranks from uniform; below {:.3} in {:.0} of 100 sets of calibrated posteriors\n",
+        distance_bound(cases.len(), 1.0 - CONFIDENCE),
+        100.0 * CONFIDENCE
     );
-}
-
-/// Distance of the ranks' distribution from the uniform one (Kolmogorov's statistic).
-fn farthest_rank(cases: &[Case], target: usize) -> f64 {
-    let mut ranks: Vec<f64> = cases.iter().map(|case| case.summary.ranks(&case.truth)[target]).collect();
-    ranks.sort_by(f64::total_cmp);
-    let count = ranks.len() as f64;
-    let gap = |(place, rank): (usize, &f64)| (rank - place as f64 / count).max((place as f64 + 1.0) / count - rank);
-    ranks.iter().enumerate().map(gap).fold(0.0, f64::max)
 }
 
 fn root_mean(cases: &[Case], value: impl Fn(&Case) -> f64) -> f64 {
     libm::sqrt(cases.iter().map(|case| value(case) * value(case)).sum::<f64>() / cases.len() as f64)
-}
-
-/// Standard deviation of a target under the prior: it is uniform.
-fn prior_std(range: &Range) -> f64 {
-    let width = if range.logarithmic { libm::log(range.high / range.low) } else { range.high - range.low };
-    width / libm::sqrt(12.0)
 }
 
 fn text(measured: Measured, factor: f64) -> String {

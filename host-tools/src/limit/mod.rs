@@ -4,6 +4,7 @@
 //! the least mean square error of all functions of the observation.
 
 pub mod accuracy;
+pub mod calibration;
 pub mod case;
 pub mod coordinates;
 pub mod density;

@@ -21,7 +21,7 @@ pub const EFFORT: Effort = Effort {
     batch_steps: 20,
     effective_size: 200.0,
     split_r_hat: 1.05,
-    batches: 30,
+    batches: 60,
 };
 
 /// The posterior of ln c, φ and ln K.
@@ -75,7 +75,7 @@ impl Summary {
         let axes: [Diagnosis; DIMENSION] = std::array::from_fn(|axis| draws.diagnose(|point| point[axis]));
         Self {
             targets: std::array::from_fn(|k| draws.diagnose(|point| targets_at(point)[k])),
-            draws: draws.iter().map(|point| targets_at(point)).collect(),
+            draws: draws.iter().map(targets_at).collect(),
             split_r_hat: axes.iter().map(|axis| axis.split_r_hat).fold(1.0, f64::max),
             effective_size: axes.iter().map(|axis| axis.effective_size).fold(f64::INFINITY, f64::min),
             converged: draws.converged,
@@ -88,8 +88,7 @@ impl Summary {
         self.targets.map(|target| target.mean)
     }
 
-    /// Share of the posterior below `truth`: uniform between 0 and 1 over cases drawn from the prior
-    /// (S. Talts et al., "Validating Bayesian inference algorithms with simulation-based calibration", 2018).
+    /// Share of the posterior below `truth`.
     pub fn ranks(&self, truth: &Targets) -> Targets {
         let count = self.draws.len() as f64;
         std::array::from_fn(|k| self.draws.iter().filter(|draw| draw[k] < truth[k]).count() as f64 / count)
