@@ -1,10 +1,10 @@
 //! `kapvik run`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::data::atomic_write::write_atomically;
+use crate::data::atomic_write::write_text;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
 use crate::flight_computer::Computer;
@@ -59,8 +59,4 @@ fn default_report() -> Result<PathBuf, HostError> {
     let folder = workspace().join("target/kapvik-run");
     std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
     Ok(folder.join("report.html"))
-}
-
-fn write_text(path: &Path, text: &str) -> Result<(), HostError> {
-    write_atomically(path, |out| out.write_all(text.as_bytes()).map_err(HostError::file(path)))
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::data::atomic_write::write_text;
 use crate::error::HostError;
 use crate::train::comparison::{Row, compare_fifth_inputs, compare_trainers};
 use crate::train::curve::draw;
@@ -61,7 +62,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
     let losses = [wheel_curve.last(), rover_curve.last()];
     let file = table_file(wheel, rover, &Provenance { plan: &plan, fifth: SHIPPED, losses });
-    std::fs::write(&arguments.output, file.to_text()).map_err(HostError::file(&arguments.output))?;
+    write_text(&arguments.output, &file.to_text())?;
     if let Some(picture) = &arguments.picture {
         let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
         let panels = [
@@ -69,7 +70,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
             ("Per-wheel network", std::slice::from_ref(&wheel_curve)),
             ("Rover network", std::slice::from_ref(&rover_curve)),
         ];
-        std::fs::write(picture, draw(&panels)?).map_err(HostError::file(picture))?;
+        write_text(picture, &draw(&panels)?)?;
     }
     Ok(())
 }

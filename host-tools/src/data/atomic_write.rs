@@ -43,6 +43,14 @@ pub fn write_atomically(
     Ok(())
 }
 
+/// Writes a text the same way.
+///
+/// # Errors
+/// Where the file system refuses.
+pub fn write_text(path: &Path, text: &str) -> Result<(), HostError> {
+    write_atomically(path, |out| out.write_all(text.as_bytes()).map_err(HostError::file(path)))
+}
+
 /// What any program gives a new file; the system takes away what the user's mask says.
 #[cfg(unix)]
 fn of_a_new_file() -> Option<Permissions> {
