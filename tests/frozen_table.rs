@@ -76,7 +76,7 @@ fn every_flipped_bit_in_memory_is_noticed() {
 fn the_self_test_fails_on_a_flipped_bit_and_passes_without() {
     assert!(self_test::run().passed());
     let mut rover = frozen::ROVER.clone();
-    rover.network.output.bias[0] = f32::from_bits(rover.network.output.bias[0].to_bits() ^ 1);
+    rover.network.output.bias[0] = f32::from_bits(rover.network.output.bias[0].to_bits() ^ (1 << 12));
     let report = self_test::examine(&frozen::WHEEL, &rover);
     assert!(!report.tables_intact && !report.passed());
     assert_eq!(report.wheel_pairs, 32);
@@ -106,6 +106,8 @@ fn first_word<'a>(file: &'a mut TableFile, name: &str) -> &'a mut u32 {
     block.and_then(|block| block.words.first_mut()).unwrap_or_else(|| panic!("the table has no {name}"))
 }
 
+/// The golden pairs see a change of a weight in its fourth digit; one in its last digit may round away in all of them,
+/// and is left to the checksum.
 #[test]
 fn a_table_that_is_wrong_stops_the_build_and_says_why() {
     let (_, sound) = shipped();
@@ -121,7 +123,7 @@ fn a_table_that_is_wrong_stops_the_build_and_says_why() {
         ("altered", altered, "was altered"),
         ("version", sealed.into_bytes(), "is of version 2, this build reads version 1"),
         ("shape", edited(|file| file.blocks[2].shape[1] += 1), "block wheel.network of the frozen table has shape"),
-        ("golden", edited(|file| *first_word(file, "rover.network") ^= 1), "golden pairs"),
+        ("golden", edited(|file| *first_word(file, "rover.network") ^= 1 << 20), "golden pairs"),
         ("not-finite", edited(|file| *first_word(file, "wheel.network") = 0x7fc0_0000), "not finite"),
     ];
     for (name, bytes, reason) in cases {

@@ -64,7 +64,7 @@ try:
             return torch.nn.functional.mse_loss(net(tvx), tvy)
 
     run("PyTorch", epoch, loss)
-except ImportError:
+except (ImportError, ValueError):  # the latter where it wants libraries of a GPU that are not there
     pass
 
 print(json.dumps(runs))

@@ -81,6 +81,24 @@ impl Adam {
     }
 }
 
+impl Adam {
+    /// Examples in a mini-batch of [`Self::pass`].
+    const BATCH: usize = 512;
+    /// Greatest step size of [`Self::pass`].
+    const RATE: f32 = 4e-3;
+
+    /// One of `epochs` passes over the examples in mini-batches; the step size falls along a cosine from the first to the
+    /// last.
+    pub fn pass<N: Trainable>(&mut self, network: &mut N, examples: &[Example<N::Input>], epoch: usize, epochs: usize) {
+        let batches = examples.len().div_ceil(Self::BATCH) as f32;
+        for (index, batch) in examples.chunks(Self::BATCH).enumerate() {
+            let share = (epoch as f32 + index as f32 / batches) / epochs as f32;
+            let rate = Self::RATE * 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share)) + 1e-5;
+            self.step(network, batch, rate);
+        }
+    }
+}
+
 /// Mean loss and mean gradient over a batch.
 pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>], loss: Loss) -> (f32, N) {
     let size = batch.len().div_ceil(PARTS).max(1);

@@ -67,6 +67,8 @@ fn draw_panel(
         .configure_mesh()
         .light_line_style(TRANSPARENT)
         .bold_line_style(RGBColor(225, 225, 225))
+        .x_labels(5)
+        .x_label_formatter(&|seconds| format!("{seconds}"))
         .x_desc("seconds")
         .y_desc("held-out loss (nats)")
         .label_style(("sans-serif", 12))
@@ -86,6 +88,15 @@ fn draw_panel(
             .label(curve.name.clone())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
     }
+    if curves.len() < 2 {
+        return Ok(());
+    }
     let style = ("sans-serif", 12);
-    chart.configure_series_labels().background_style(WHITE.mix(0.85)).label_font(style).draw().map_err(failed)
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE.mix(0.85))
+        .label_font(style)
+        .draw()
+        .map_err(failed)
 }

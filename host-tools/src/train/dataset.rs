@@ -1,6 +1,6 @@
 //! Scenes as the trainers want them: noise drawn, inputs normalised, targets standardised, order shuffled.
 
-use kapvik_firmware::network::{PosteriorScale, TARGETS, WHEEL_INPUTS};
+use kapvik_firmware::network::{Normalisation, PosteriorScale, TARGETS, WHEEL_INPUTS};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -10,7 +10,6 @@ use super::fifth_input::Candidate;
 use super::observe::observe;
 use super::prior::{self, Range};
 use super::scene::Scene;
-use kapvik_firmware::network::Normalisation;
 
 /// A stream of random numbers for one purpose (`seed`) and one scene (`index`).
 pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {

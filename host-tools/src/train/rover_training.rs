@@ -9,21 +9,11 @@ use super::back_propagation::{Adam, mean_loss};
 use super::calibration::calibrate;
 use super::curve::Curve;
 use super::dataset::{prior_scale, rover_examples, shuffle, stream};
-use super::example::{Example, RoverInput, RoverNormalisation, rover_features};
+use super::example::{RoverInput, RoverNormalisation, rover_features};
 use super::observe::observe;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
 use super::trainable::{GRADIENT, initial};
-
-/// Examples in a mini-batch.
-pub const BATCH: usize = 512;
-/// Greatest step size.
-const RATE: f32 = 4e-3;
-
-/// The step size at a share 0 … 1 of the training: falls along a cosine.
-pub fn rate_at(share: f32) -> f32 {
-    RATE * 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share)) + 1e-5
-}
 
 /// Trains the rover network on `scenes`, watches and calibrates it on `held_out`.
 pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: &ProgressBar) -> (RoverTable, Curve) {
@@ -38,7 +28,7 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
     for epoch in 0..plan.rover_epochs {
         let mut examples = rover_examples(scenes, &normal, plan.stream(Purpose::TrainingNoise) + epoch as u64);
         shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
-        pass(&mut adam, &mut network, &examples, epoch, plan.rover_epochs);
+        adam.pass(&mut network, &examples, epoch, plan.rover_epochs);
         curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, &watched)));
         progress.set_message(format!("held-out loss {:.4}", curve.last()));
         progress.inc(1);
@@ -46,21 +36,6 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
     let mut posterior = prior_scale();
     calibrate(&network, &watched, &mut posterior);
     (table(network, normal, posterior, &raw), curve)
-}
-
-/// One pass over the examples in mini-batches.
-pub fn pass<N: super::trainable::Trainable>(
-    adam: &mut Adam,
-    network: &mut N,
-    examples: &[Example<N::Input>],
-    epoch: usize,
-    epochs: usize,
-) {
-    let batches = examples.len().div_ceil(BATCH) as f32;
-    for (index, batch) in examples.chunks(BATCH).enumerate() {
-        let share = (epoch as f32 + index as f32 / batches) / epochs as f32;
-        adam.step(network, batch, rate_at(share));
-    }
 }
 
 fn raw_inputs(scenes: &[Scene], plan: &Plan) -> Vec<RoverInput> {

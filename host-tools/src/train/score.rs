@@ -1,6 +1,6 @@
 //! How good a network is on cases that it has not seen.
 
-use kapvik_firmware::network::{OUTPUTS, Posterior, PosteriorScale, TARGETS};
+use kapvik_firmware::network::{Marginal, OUTPUTS, Posterior, PosteriorScale, TARGETS};
 use rayon::prelude::*;
 
 use super::example::Example;
@@ -31,7 +31,7 @@ pub fn score(posteriors: &[Posterior], truths: &[[f64; TARGETS]]) -> Score {
     std::array::from_fn(|k| {
         let pairs = || posteriors.iter().zip(truths).map(|(posterior, truth)| (posterior[k], truth[k]));
         let count = posteriors.len() as f64;
-        let share = |hit: &dyn Fn(f64, &kapvik_firmware::network::Marginal) -> bool| {
+        let share = |hit: &dyn Fn(f64, &Marginal) -> bool| {
             pairs().filter(|(marginal, truth)| hit(*truth, marginal)).count() as f64 / count
         };
         let errors: Vec<f64> = pairs().map(|(marginal, truth)| f64::from(marginal.mean) - truth).collect();
@@ -41,7 +41,7 @@ pub fn score(posteriors: &[Posterior], truths: &[[f64; TARGETS]]) -> Score {
         let mut ratios: Vec<f64> = errors.iter().map(|&e| (libm::exp(e) - 1.0).abs()).collect();
         ratios.sort_by(f64::total_cmp);
         let inside = |truth: f64, [low, high]: [f32; 2]| f64::from(low) <= truth && truth <= f64::from(high);
-        let within = |truth: f64, m: &kapvik_firmware::network::Marginal, deviations: f64| {
+        let within = |truth: f64, m: &Marginal, deviations: f64| {
             (truth - f64::from(m.mean)).abs() <= deviations * f64::from(m.std)
         };
         TargetScore {

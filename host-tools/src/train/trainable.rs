@@ -61,18 +61,12 @@ fn through_activation<const N: usize>(mut slope: [f32; N], output: &[f32; N]) ->
     slope
 }
 
-fn through_weights<const I: usize, const O: usize>(
-    weights: &Weights<I, O>,
-    input: &[f32; I],
-    slope: &[f32; O],
-    gradient: &mut Weights<I, O>,
-) {
+fn through_weights<const I: usize, const O: usize>(input: &[f32; I], slope: &[f32; O], gradient: &mut Weights<I, O>) {
     for (x, row) in input.iter().zip(&mut gradient.0) {
         for (g, s) in row.iter_mut().zip(slope) {
             *g += x * s;
         }
     }
-    debug_assert_eq!(weights.0.len(), input.len());
 }
 
 fn input_slope<const I: usize, const O: usize>(weights: &Weights<I, O>, slope: &[f32; O]) -> [f32; I] {
@@ -96,7 +90,7 @@ fn through_layer<const I: usize, const O: usize>(
     slope: &[f32; O],
     gradient: &mut Layer<I, O>,
 ) -> [f32; I] {
-    through_weights(&layer.weights, input, slope, &mut gradient.weights);
+    through_weights(input, slope, &mut gradient.weights);
     gradient.bias.iter_mut().zip(slope).for_each(|(g, s)| *g += s);
     input_slope(&layer.weights, slope)
 }
@@ -173,7 +167,7 @@ impl Trainable for RoverNetwork {
             let slope = through_activation(slope, embedded);
             let slope = through_layer(&self.embedding, hidden, &slope, &mut gradient.embedding);
             let slope = through_activation(slope, hidden);
-            through_weights(&self.wheel, features, &slope, &mut gradient.wheel);
+            through_weights(features, &slope, &mut gradient.wheel);
             through_layer(&self.context, &input.context, &slope, &mut gradient.context);
         }
     }

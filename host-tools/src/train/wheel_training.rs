@@ -12,7 +12,6 @@ use super::dataset::{prior_scale, shuffle, wheel_examples, wheel_inputs};
 use super::example::normalisation;
 use super::fifth_input::Candidate;
 use super::plan::{Plan, Purpose};
-use super::rover_training::pass;
 use super::scene::Scene;
 use super::trainable::{GRADIENT, initial};
 
@@ -36,7 +35,7 @@ pub fn train_wheel(
         let inputs = wheel_inputs(scenes, fifth, plan.stream(Purpose::TrainingNoise) + epoch as u64);
         let mut examples = wheel_examples(scenes, &inputs, &normal);
         shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
-        pass(&mut adam, &mut network, &examples, epoch, plan.wheel_epochs);
+        adam.pass(&mut network, &examples, epoch, plan.wheel_epochs);
         curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, &watched)));
         progress.set_message(format!("held-out loss {:.4}", curve.last()));
         progress.inc(1);
