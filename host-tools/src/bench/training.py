@@ -32,7 +32,7 @@ def run(name, epoch, loss):
 try:
     from sklearn.neural_network import MLPRegressor
 
-    model = MLPRegressor((hidden, hidden), activation="tanh", alpha=0.0, batch_size=batch, learning_rate_init=rate, random_state=1)
+    model = MLPRegressor(hidden_layer_sizes=(hidden, hidden), activation="tanh", alpha=0.0, batch_size=batch, learning_rate_init=rate, random_state=1)
     run("scikit-learn", lambda: model.partial_fit(x, y), lambda: np.mean((model.predict(vx) - vy) ** 2))
 except ImportError:
     pass
