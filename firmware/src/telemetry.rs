@@ -107,6 +107,7 @@ const FIRMWARE_VERSION: [u8; 3] = [
     version_part(env!("CARGO_PKG_VERSION_PATCH")),
 ];
 
+/// Only for constants: the panic is the compiler's, and stops the build.
 const fn version_part(text: &str) -> u8 {
     match u8::from_str_radix(text, 10) {
         Ok(number) => number,

@@ -6,15 +6,15 @@ use kapvik_firmware::wheel_state::SoilQuery;
 use rayon::prelude::*;
 
 use crate::train::dataset::stream;
-use crate::train::example::{rover_features, targets};
+use crate::train::example::targets;
 use crate::train::observe::observe;
 use crate::train::scene::{Design, scenes};
-use crate::train::score::{Score, score};
+use crate::train::score::{Score, TargetScore, score};
 
 /// The posterior of ln c, φ, ln K that the frozen rover network gives for a query.
 pub fn rover_posterior(query: &SoilQuery) -> Posterior {
-    let features = rover_features(query);
-    frozen::ROVER.posterior.read(&frozen::ROVER.outputs(&features.context, features.wheels.iter().copied()))
+    let (context, wheels) = query.rover_features();
+    frozen::ROVER.posterior.read(&frozen::ROVER.outputs(&context, wheels))
 }
 
 /// The mean of [`rover_posterior`].
@@ -55,7 +55,7 @@ pub fn print(cases: usize, seed: u32) {
     for (name, design) in DESIGNS {
         let scores = score_rover(design, cases, seed);
         let [c, phi, k] = &scores;
-        let covered = |pick: fn(&crate::train::score::TargetScore) -> f64| {
+        let covered = |pick: fn(&TargetScore) -> f64| {
             scores.iter().map(|target| format!("{:5.1}", 100.0 * pick(target))).collect::<Vec<_>>().join(" ")
         };
         println!(

@@ -46,7 +46,7 @@ struct Problem<'a> {
 /// # Errors
 /// Where Python is there but the script fails.
 pub fn print() -> Result<(), HostError> {
-    let (training, held_out) = (examples(16_000, 1), examples(6_000, 2));
+    let [training, held_out] = examples(16_000, 6_000);
     let mut runs = vec![ours(&training, &held_out)];
     match others(&training, &held_out)? {
         Some(others) => runs.extend(others),
@@ -69,13 +69,15 @@ pub fn print() -> Result<(), HostError> {
     Ok(())
 }
 
-fn examples(count: usize, seed: u32) -> Vec<Example<WheelInput>> {
-    let scenes = scenes(Design::Training, count, seed);
-    let inputs = wheel_inputs(&scenes, Candidate::None, u64::from(seed));
-    // Both sets on one scale: that of the first draw.
-    let reference = crate::train::scene::scenes(Design::Training, 4_000, 1);
-    let normal = normalisation(wheel_inputs(&reference, Candidate::None, 1).iter());
-    wheel_examples(&scenes, &inputs, &normal)
+/// Examples to learn from and to watch, both on the scale of the first.
+fn examples(training: usize, held_out: usize) -> [Vec<Example<WheelInput>>; 2] {
+    let sets = [(training, 1), (held_out, 2)].map(|(count, seed)| {
+        let scenes = scenes(Design::Training, count, seed);
+        let inputs = wheel_inputs(&scenes, Candidate::None, u64::from(seed));
+        (scenes, inputs)
+    });
+    let normal = normalisation(sets[0].1.iter());
+    sets.map(|(scenes, inputs)| wheel_examples(&scenes, &inputs, &normal))
 }
 
 fn ours(training: &[Example<WheelInput>], held_out: &[Example<WheelInput>]) -> Run {

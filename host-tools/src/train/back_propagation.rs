@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::example::Example;
 use super::loss::{Loss, gaussian};
-use super::trainable::{Trainable, flatten, parameter_count};
+use super::trainable::{Trainable, change_each, flatten, parameter_count};
 
 /// Parts of a mini-batch that are summed by themselves, so that the result does not depend on the number of cores.
 const PARTS: usize = 8;
@@ -30,12 +30,9 @@ impl Momentum {
         let slopes = flatten(&gradient);
         let length = slopes.iter().map(|g| g * g).sum::<f32>().sqrt();
         let cut = (Self::LONGEST / length).min(1.0);
-        let mut place = slopes.iter().zip(&mut self.velocity);
-        network.for_each_mut(&mut |weight| {
-            if let Some((g, v)) = place.next() {
-                *v = Self::DECAY * *v - rate * cut * g;
-                *weight += *v;
-            }
+        change_each(network, slopes.iter().zip(&mut self.velocity), |weight, (g, v)| {
+            *v = Self::DECAY * *v - rate * cut * g;
+            *weight += *v;
         });
         loss
     }
@@ -69,13 +66,10 @@ impl Adam {
         let bias_1 = 1.0 - decay_1.powi(self.step);
         let bias_2 = 1.0 - decay_2.powi(self.step);
         let slopes = flatten(&gradient);
-        let mut place = slopes.iter().zip(&mut self.first).zip(&mut self.second);
-        network.for_each_mut(&mut |weight| {
-            if let Some(((g, m), v)) = place.next() {
-                *m = decay_1 * *m + (1.0 - decay_1) * g;
-                *v = decay_2 * *v + (1.0 - decay_2) * g * g;
-                *weight -= rate * (*m / bias_1) / ((*v / bias_2).sqrt() + 1e-8);
-            }
+        change_each(network, slopes.iter().zip(&mut self.first).zip(&mut self.second), |weight, ((g, m), v)| {
+            *m = decay_1 * *m + (1.0 - decay_1) * g;
+            *v = decay_2 * *v + (1.0 - decay_2) * g * g;
+            *weight -= rate * (*m / bias_1) / ((*v / bias_2).sqrt() + 1e-8);
         });
         loss
     }
@@ -120,9 +114,7 @@ pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>], los
     let mut sum = N::zero();
     let mut mean = 0.0;
     for (part_loss, part) in &parts {
-        let slopes = flatten(part);
-        let mut next = slopes.iter();
-        sum.for_each_mut(&mut |g| *g += share * next.next().copied().unwrap_or(0.0));
+        change_each(&mut sum, flatten(part), |total, g| *total += share * g);
         mean += share * part_loss;
     }
     (mean, sum)

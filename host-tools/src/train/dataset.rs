@@ -37,17 +37,19 @@ fn standardised(scene: &Scene, scale: &PosteriorScale) -> [f32; TARGETS] {
     std::array::from_fn(|k| (truth[k] as f32 - scale.mean[k]) / scale.std[k])
 }
 
-/// One noisy observation of each scene for the rover network.
-pub fn rover_examples(scenes: &[Scene], normal: &RoverNormalisation, seed: u64) -> Vec<Example<RoverInput>> {
-    let scale = prior_scale();
-    scenes
-        .par_iter()
-        .enumerate()
-        .map(|(index, scene)| Example {
-            input: normal.apply(&rover_features(&observe(scene, &mut stream(seed, index)))),
-            target: standardised(scene, &scale),
-        })
-        .collect()
+/// The rover network's inputs, in their own units, for one noisy observation of each scene.
+pub fn rover_inputs(scenes: &[Scene], seed: u64) -> Vec<RoverInput> {
+    let seen = scenes.par_iter().enumerate();
+    seen.map(|(index, scene)| rover_features(&observe(scene, &mut stream(seed, index)))).collect()
+}
+
+/// Examples of the rover network from its inputs.
+pub fn rover_examples(
+    scenes: &[Scene],
+    inputs: &[RoverInput],
+    normal: &RoverNormalisation,
+) -> Vec<Example<RoverInput>> {
+    examples(scenes, inputs, |input| normal.apply(input))
 }
 
 /// The per-wheel network's inputs, in their own units, for the first wheel of each scene.
@@ -69,9 +71,13 @@ pub fn wheel_examples(
     inputs: &[WheelInput],
     normal: &Normalisation<WHEEL_INPUTS>,
 ) -> Vec<Example<WheelInput>> {
+    examples(scenes, inputs, |input| normal.apply(input))
+}
+
+fn examples<I: Sync + Send>(scenes: &[Scene], inputs: &[I], normalised: impl Fn(&I) -> I + Sync) -> Vec<Example<I>> {
     let scale = prior_scale();
-    let pairs = scenes.iter().zip(inputs);
-    pairs.map(|(scene, input)| Example { input: normal.apply(input), target: standardised(scene, &scale) }).collect()
+    let pairs = scenes.par_iter().zip(inputs);
+    pairs.map(|(scene, input)| Example { input: normalised(input), target: standardised(scene, &scale) }).collect()
 }
 
 /// Shuffles (Fisher–Yates).

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::example::Example;
 use super::loss::{fisher, gaussian};
-use super::trainable::{Trainable, flatten, output_jacobian, parameter_count};
+use super::trainable::{Trainable, change_each, output_jacobian, parameter_count};
 
 /// The filter: covariance of the weights and its growth from example to example.
 pub struct ExtendedKalman {
@@ -50,12 +50,6 @@ impl ExtendedKalman {
             factor.l().solve_lower_triangular(&gain_base.transpose()).unwrap_or_else(|| DMatrix::zeros(OUTPUTS, count));
         self.covariance.gemm_tr(-1.0, &whitened, &whitened, 1.0);
         (0..count).for_each(|k| self.covariance[(k, k)] += self.process_noise);
-        let old = flatten(network);
-        let mut next = old.iter().zip(change.iter());
-        network.for_each_mut(&mut |weight| {
-            if let Some((&w, &c)) = next.next() {
-                *weight = (f64::from(w) + c) as f32;
-            }
-        });
+        change_each(network, &change, |weight, c| *weight = (f64::from(*weight) + c) as f32);
     }
 }

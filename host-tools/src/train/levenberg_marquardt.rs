@@ -9,7 +9,7 @@ use super::back_propagation::mean_loss;
 use super::example::Example;
 use super::loss::{fisher, gaussian};
 use super::rank_update::RankUpdate;
-use super::trainable::{Trainable, flatten, output_jacobian, parameter_count};
+use super::trainable::{Trainable, change_each, flatten, output_jacobian, parameter_count};
 
 /// Parts of the set that are summed by themselves, so that the result does not depend on the number of cores.
 const PARTS: usize = 8;
@@ -42,9 +42,8 @@ impl LevenbergMarquardt {
             (0..weights.len()).for_each(|k| damped[(k, k)] += self.decay + self.damping);
             if let Some(factor) = damped.cholesky() {
                 let candidate = &weights - factor.solve(&slope);
-                let mut next = candidate.iter();
                 let mut trial = network.clone();
-                trial.for_each_mut(&mut |weight| *weight = next.next().map_or(0.0, |&w| w as f32));
+                change_each(&mut trial, &candidate, |weight, &new| *weight = new as f32);
                 if mean_loss(&trial, set) + penalty(&candidate) < before {
                     *network = trial;
                     self.damping = (self.damping * 0.1).max(1e-9);

@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod curve;
 pub mod dataset;
 pub mod emit;
+pub mod epochs;
 pub mod example;
 pub mod extended_kalman;
 pub mod fifth_input;

@@ -1,47 +1,29 @@
 //! Training of the rover network.
 
-use std::time::Instant;
-
 use indicatif::ProgressBar;
 use kapvik_firmware::network::{GOLDEN_PAIRS, PosteriorScale, ROVER_WHEELS, RoverGolden, RoverNetwork, RoverTable};
 
-use super::back_propagation::{Adam, mean_loss};
 use super::calibration::calibrate;
 use super::curve::Curve;
-use super::dataset::{prior_scale, rover_examples, shuffle, stream};
-use super::example::{RoverInput, RoverNormalisation, rover_features};
-use super::observe::observe;
+use super::dataset::{prior_scale, rover_examples, rover_inputs};
+use super::epochs::train_by_epochs;
+use super::example::{RoverInput, RoverNormalisation};
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
-use super::trainable::{GRADIENT, initial};
+use super::trainable::GRADIENT;
 
 /// Trains the rover network on `scenes`, watches and calibrates it on `held_out`.
 pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: &ProgressBar) -> (RoverTable, Curve) {
-    let raw = raw_inputs(held_out, plan);
+    let raw = rover_inputs(held_out, plan.stream(Purpose::HeldOutNoise));
     let normal = RoverNormalisation::new(&raw);
-    let watched = rover_examples(held_out, &normal, plan.stream(Purpose::HeldOutNoise));
-    let mut network: RoverNetwork = initial(plan.stream(Purpose::Weights));
-    let mut curve = Curve::new("rover network");
-    let begin = Instant::now();
-    let mut adam = Adam::new(&network);
-    progress.set_length(plan.rover_epochs as u64);
-    for epoch in 0..plan.rover_epochs {
-        let mut examples = rover_examples(scenes, &normal, plan.stream(Purpose::TrainingNoise) + epoch as u64);
-        shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
-        adam.pass(&mut network, &examples, epoch, plan.rover_epochs);
-        curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, &watched)));
-        progress.set_message(format!("held-out loss {:.4}", curve.last()));
-        progress.inc(1);
-    }
+    let watched = rover_examples(held_out, &raw, &normal);
+    let curve = Curve::new("rover network");
+    let (network, curve) = train_by_epochs(plan, plan.rover_epochs, &watched, curve, progress, |seed| {
+        rover_examples(scenes, &rover_inputs(scenes, seed), &normal)
+    });
     let mut posterior = prior_scale();
     calibrate(&network, &watched, &mut posterior);
     (table(network, normal, posterior, &raw), curve)
-}
-
-fn raw_inputs(scenes: &[Scene], plan: &Plan) -> Vec<RoverInput> {
-    let seed = plan.stream(Purpose::HeldOutNoise);
-    let seen = scenes.iter().enumerate().map(|(index, scene)| observe(scene, &mut stream(seed, index)));
-    seen.map(|query| rover_features(&query)).collect()
 }
 
 fn table(

@@ -53,6 +53,20 @@ pub fn flatten<N: Numbers>(network: &N) -> Vec<f32> {
     flat
 }
 
+/// Calls `change` with each number of a network and the value that belongs to it, in order.
+pub fn change_each<N: Numbers, V>(
+    network: &mut N,
+    values: impl IntoIterator<Item = V>,
+    mut change: impl FnMut(&mut f32, V),
+) {
+    let mut values = values.into_iter();
+    network.for_each_mut(&mut |number| {
+        if let Some(value) = values.next() {
+            change(number, value);
+        }
+    });
+}
+
 /// The slope before the activation, from the slope behind it.
 fn through_activation<const N: usize>(mut slope: [f32; N], output: &[f32; N]) -> [f32; N] {
     for (s, y) in slope.iter_mut().zip(output) {

@@ -1,19 +1,17 @@
 //! Training of the per-wheel network.
 
-use std::time::Instant;
-
 use indicatif::ProgressBar;
-use kapvik_firmware::network::{GOLDEN_PAIRS, WheelGolden, WheelNetwork, WheelTable};
+use kapvik_firmware::network::{GOLDEN_PAIRS, WheelGolden, WheelTable};
 
-use super::back_propagation::{Adam, mean_loss};
 use super::calibration::calibrate;
 use super::curve::Curve;
-use super::dataset::{prior_scale, shuffle, wheel_examples, wheel_inputs};
+use super::dataset::{prior_scale, wheel_examples, wheel_inputs};
+use super::epochs::train_by_epochs;
 use super::example::normalisation;
 use super::fifth_input::Candidate;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
-use super::trainable::{GRADIENT, initial};
+use super::trainable::GRADIENT;
 
 /// Trains the per-wheel network on the first wheel of each scene, watches and calibrates it on `held_out`.
 pub fn train_wheel(
@@ -26,20 +24,10 @@ pub fn train_wheel(
     let raw = wheel_inputs(held_out, fifth, plan.stream(Purpose::HeldOutNoise));
     let normal = normalisation(raw.iter());
     let watched = wheel_examples(held_out, &raw, &normal);
-    let mut network: WheelNetwork = initial(plan.stream(Purpose::Weights));
-    let mut curve = Curve::new("per-wheel network");
-    let begin = Instant::now();
-    let mut adam = Adam::new(&network);
-    progress.set_length(plan.wheel_epochs as u64);
-    for epoch in 0..plan.wheel_epochs {
-        let inputs = wheel_inputs(scenes, fifth, plan.stream(Purpose::TrainingNoise) + epoch as u64);
-        let mut examples = wheel_examples(scenes, &inputs, &normal);
-        shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
-        adam.pass(&mut network, &examples, epoch, plan.wheel_epochs);
-        curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, &watched)));
-        progress.set_message(format!("held-out loss {:.4}", curve.last()));
-        progress.inc(1);
-    }
+    let curve = Curve::new("per-wheel network");
+    let (network, curve) = train_by_epochs(plan, plan.wheel_epochs, &watched, curve, progress, |seed| {
+        wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
+    });
     let mut posterior = prior_scale();
     calibrate(&network, &watched, &mut posterior);
     let golden = [const { WheelGolden::ZERO }; GOLDEN_PAIRS];

@@ -1,0 +1,37 @@
+//! The passes over the scenes by which both shipped networks are trained.
+
+use std::time::Instant;
+
+use indicatif::ProgressBar;
+
+use super::back_propagation::{Adam, mean_loss};
+use super::curve::Curve;
+use super::dataset::shuffle;
+use super::example::Example;
+use super::plan::{Plan, Purpose};
+use super::trainable::{Trainable, initial};
+
+/// A new network after `epochs` passes, each over what `observe` sees with that pass's seed of noise, and its loss on
+/// `watched` after each.
+pub fn train_by_epochs<N: Trainable>(
+    plan: &Plan,
+    epochs: usize,
+    watched: &[Example<N::Input>],
+    mut curve: Curve,
+    progress: &ProgressBar,
+    observe: impl Fn(u64) -> Vec<Example<N::Input>>,
+) -> (N, Curve) {
+    let mut network: N = initial(plan.stream(Purpose::Weights));
+    let begin = Instant::now();
+    let mut adam = Adam::new(&network);
+    progress.set_length(epochs as u64);
+    for epoch in 0..epochs {
+        let mut examples = observe(plan.stream(Purpose::TrainingNoise) + epoch as u64);
+        shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
+        adam.pass(&mut network, &examples, epoch, epochs);
+        curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, watched)));
+        progress.set_message(format!("held-out loss {:.4}", curve.last()));
+        progress.inc(1);
+    }
+    (network, curve)
+}
