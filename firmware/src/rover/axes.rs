@@ -1,0 +1,33 @@
+//! Three components along the axes of the body.
+
+use serde::{Deserialize, Serialize};
+
+/// One value along each axis of the body: x forward, y left, z up.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Axes<T> {
+    /// Forward.
+    pub x: T,
+    /// Left.
+    pub y: T,
+    /// Up.
+    pub z: T,
+}
+
+impl<T> Axes<T> {
+    /// Each value converted.
+    pub fn map<U>(self, mut convert: impl FnMut(T) -> U) -> Axes<U> {
+        Axes { x: convert(self.x), y: convert(self.y), z: convert(self.z) }
+    }
+
+    /// The values in the order x, y, z.
+    pub fn as_array(&self) -> [&T; 3] {
+        [&self.x, &self.y, &self.z]
+    }
+}
+
+impl<T> Axes<Option<T>> {
+    /// All three values, if there are.
+    pub fn all(self) -> Option<Axes<T>> {
+        Some(Axes { x: self.x?, y: self.y?, z: self.z? })
+    }
+}
