@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// One value along each axis of the body: x forward, y left, z up.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Axes<T> {
     /// Forward.
     pub x: T,
@@ -17,6 +17,11 @@ impl<T> Axes<T> {
     /// Each value converted.
     pub fn map<U>(self, mut convert: impl FnMut(T) -> U) -> Axes<U> {
         Axes { x: convert(self.x), y: convert(self.y), z: convert(self.z) }
+    }
+
+    /// References to the values.
+    pub fn as_ref(&self) -> Axes<&T> {
+        Axes { x: &self.x, y: &self.y, z: &self.z }
     }
 
     /// The values in the order x, y, z.

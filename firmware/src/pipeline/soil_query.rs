@@ -1,4 +1,4 @@
-//! Wheel states in, soil out: the one function that a board calls.
+//! Wheel states in, soil out.
 
 use heapless::Vec;
 

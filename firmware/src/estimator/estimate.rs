@@ -1,0 +1,50 @@
+//! What is published of a wheel at each frame.
+
+use serde::{Deserialize, Serialize};
+
+/// A quantity and how far it may be off.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Its value.
+    pub value: f32,
+    /// One standard deviation.
+    pub std: f32,
+}
+
+/// What a wheel does, which decides what can be known of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum WheelActivity {
+    /// Neither its rim nor its hub moves: slip is undefined, and what is known of the contact stays as it was.
+    #[default]
+    Standing,
+    /// It turns, or is dragged while it turns slower than it travels.
+    Rolling,
+    /// It is dragged and does not turn: its slip is −1.
+    Blocked,
+    /// It bears no load that its cell can tell from none: slip and torque are the wheel's, but not the soil's.
+    Lifted,
+}
+
+/// Forces and motion of one wheel.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct WheelEstimate {
+    /// What the wheel does.
+    pub activity: WheelActivity,
+    /// Slip i, −1 … 1; none where neither rim nor hub moves.
+    pub slip: Option<Estimate>,
+    /// Resistive torque T, N·m.
+    pub resistive_torque_nm: Estimate,
+    /// Contact angle: the terrain's slope under the hub, rad against the horizontal, positive uphill.
+    pub contact_angle_rad: Estimate,
+    /// Normal load W, N.
+    pub normal_load_n: Estimate,
+    /// Drawbar pull DP, N. That of a bogie's two wheels is split by their torques; the errors of the split are equal and
+    /// opposite, see `split_std_n`.
+    pub drawbar_pull_n: Estimate,
+    /// The part of the drawbar pull's standard deviation that is the split's: shared with the other wheel of the bogie
+    /// with the opposite sign; 0 for a front wheel, N.
+    pub split_std_n: f32,
+    /// Drawbar pull by the seed's rule, the bogie's sum shared in proportion to load, N; a front wheel's own.
+    pub drawbar_pull_by_load_n: f32,
+}
