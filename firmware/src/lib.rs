@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), no_std)]
 
 pub mod estimator;
+pub mod filter;
 pub mod fingerprint;
 pub mod frozen;
 pub mod link;

@@ -1,0 +1,91 @@
+//! What is known of a state: mean and covariance.
+
+use crate::scalar::Scalar;
+
+/// A normal distribution of `N` numbers.
+///
+/// The covariance is held as a root: P = S Sᵀ with S lower triangular. Every accessor computes from S, so no variance is negative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gaussian<T, const N: usize> {
+    pub(super) mean: [T; N],
+    /// The columns of S; column `i` is zero above its entry `i`.
+    pub(super) root: [[T; N]; N],
+}
+
+/// A number that no distribution can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InvalidNumber {
+    /// A mean is not finite.
+    Mean,
+    /// A standard deviation is negative or not finite.
+    StandardDeviation,
+}
+
+impl<T: Scalar, const N: usize> Gaussian<T, N> {
+    /// Independent numbers with these means and standard deviations, each in the unit of its own number.
+    ///
+    /// # Errors
+    /// Where a mean is not finite, or a standard deviation negative or not finite.
+    pub fn independent(mean: [T; N], std: [T; N]) -> Result<Self, InvalidNumber> {
+        if !mean.iter().all(|value| value.is_finite()) {
+            return Err(InvalidNumber::Mean);
+        }
+        if !std.iter().all(|value| value.is_finite() && *value >= T::zero()) {
+            return Err(InvalidNumber::StandardDeviation);
+        }
+        Ok(Self { mean, root: diagonal(&std) })
+    }
+
+    /// The mean.
+    pub fn mean(&self) -> &[T; N] {
+        &self.mean
+    }
+
+    /// The variance of each number.
+    pub fn variances(&self) -> [T; N] {
+        let mut variances = [T::zero(); N];
+        for column in &self.root {
+            variances.iter_mut().zip(column).for_each(|(variance, entry)| *variance += *entry * *entry);
+        }
+        variances
+    }
+
+    /// The standard deviation of each number.
+    pub fn stds(&self) -> [T; N] {
+        self.variances().map(T::sqrt)
+    }
+
+    /// The covariance of two numbers, by their indices; `None` where there is no such number.
+    pub fn covariance(&self, one: usize, other: usize) -> Option<T> {
+        self.root.iter().try_fold(T::zero(), |sum, column| Some(sum + *column.get(one)? * *column.get(other)?))
+    }
+
+    /// Mean and variance of a weighted sum of the numbers, Σ wᵢ xᵢ.
+    pub fn weighted_sum(&self, weights: &[T; N]) -> (T, T) {
+        let sum = |values: &[T; N]| dot(weights, values);
+        let variance = self.root.iter().map(sum).fold(T::zero(), |total, entry| total + entry * entry);
+        (sum(&self.mean), variance)
+    }
+
+    /// Whether every number in it is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        self.mean.iter().chain(self.root.as_flattened()).all(|value| value.is_finite())
+    }
+}
+
+/// Σ aᵢ bᵢ, in the order of the indices.
+#[inline]
+pub(super) fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::zero(), |sum, (a, b)| sum + *a * *b)
+}
+
+/// The matrix with these entries on its diagonal.
+pub(super) fn diagonal<T: Scalar, const N: usize>(entries: &[T; N]) -> [[T; N]; N] {
+    let mut matrix = [[T::zero(); N]; N];
+    for (index, (column, entry)) in matrix.iter_mut().zip(entries).enumerate() {
+        if let Some(place) = column.get_mut(index) {
+            *place = *entry;
+        }
+    }
+    matrix
+}

@@ -1,0 +1,85 @@
+//! What measurements told, and what became of them.
+
+use crate::scalar::Scalar;
+
+/// Which measurements are too far from what was expected to be believed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Gate<T> {
+    /// Rejects a measurement whose squared innovation is more than so many of its variances. The innovation of a good
+    /// measurement, squared and so divided, is distributed as χ² with one degree of freedom.
+    Above(T),
+    /// Rejects nothing.
+    Open,
+}
+
+impl<T: Scalar> Gate<T> {
+    /// Rejects beyond 10.8 variances: one good measurement in a thousand.
+    pub fn one_in_a_thousand() -> Self {
+        Self::Above(T::constant(10.8))
+    }
+
+    /// Whether it lets an innovation of so many variances pass.
+    pub(super) fn admits(&self, squared_over_variance: T) -> bool {
+        match self {
+            Self::Above(threshold) => squared_over_variance <= *threshold,
+            Self::Open => true,
+        }
+    }
+}
+
+/// What became of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fate {
+    /// It is in the estimate.
+    Used,
+    /// There was none.
+    Missing,
+    /// The gate rejected it.
+    Rejected,
+    /// It was not finite, or what the model expected was not, or its noise was not a finite number above zero.
+    NotFinite,
+}
+
+/// One measurement against what was expected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual<T> {
+    /// What became of the measurement.
+    pub fate: Fate,
+    /// Measured less expected, in the measurement's unit; zero where missing or not finite.
+    pub innovation: T,
+    /// Standard deviation of that before the update, in the measurement's unit; zero where not finite.
+    pub std: T,
+}
+
+impl<T: Scalar> Residual<T> {
+    /// The innovation in its standard deviations, where there is one.
+    pub fn normalised(&self) -> Option<T> {
+        matches!(self.fate, Fate::Used | Fate::Rejected).then(|| self.innovation / self.std)
+    }
+}
+
+/// How fusing the measurements went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fusion {
+    /// The measurements that are [`Fate::Used`] are in the estimate.
+    Done,
+    /// No measurement could be used: the estimate stayed as it was.
+    NothingToFuse,
+    /// A factorisation failed: the mean stayed, the root fell back to its stated diagonal, no measurement is in the estimate.
+    Reset,
+}
+
+/// What `M` measurements told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[must_use]
+pub struct Innovation<T, const M: usize> {
+    /// How fusing them went.
+    pub fusion: Fusion,
+    /// Each measurement against what was expected.
+    pub residuals: [Residual<T>; M],
+    /// The squared innovation of all used measurements jointly, νᵀ S⁻¹ ν: distributed as χ² with as many degrees of freedom as
+    /// measurements were used. Zero where none was.
+    pub normalised_square: T,
+    /// How many measurements were used.
+    pub degrees_of_freedom: usize,
+}

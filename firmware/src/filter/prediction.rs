@@ -1,0 +1,100 @@
+//! The estimate a step later.
+
+use crate::scalar::Scalar;
+
+use super::reflection::{Reflection, triangularise};
+use super::transform::Transformed;
+use super::{Gaussian, InvalidNumber, SigmaPointFilter};
+
+/// How a prediction went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[must_use]
+pub enum Prediction {
+    /// The estimate is that of a step later.
+    Done,
+    /// The model's output was not finite at some sigma point: the mean stayed, the noise was added.
+    ModelNotFinite,
+    /// A factorisation failed: the mean stayed, the root fell back to its stated diagonal.
+    Reset,
+}
+
+impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
+    /// Carries the estimate through a process model, and adds independent noise with these standard deviations per step.
+    ///
+    /// Cost: 2 N + 1 evaluations of the model, and about 2 N³ multiplications with addition.
+    pub fn predict(&mut self, model: impl Fn(&[T; N]) -> [T; N], noise_std: &[T; N]) -> Prediction {
+        let mut transformed = Transformed::new(&self.estimate, &self.factors, &model);
+        let outputs = transformed.mean.iter().chain(transformed.deviations.as_flattened().as_flattened());
+        if !outputs.into_iter().all(|value| value.is_finite()) {
+            return match self.random_walk(noise_std) {
+                Prediction::Done => Prediction::ModelNotFinite,
+                other => other,
+            };
+        }
+        let root = triangularise(noise_std, &mut transformed.deviations, &mut []).root;
+        self.finish(Gaussian { mean: transformed.mean, root })
+    }
+
+    /// The prediction of states that only drift: adds independent noise with these standard deviations per step.
+    ///
+    /// Cost: no evaluation of a model, and about N³ multiplications with addition.
+    pub fn random_walk(&mut self, noise_std: &[T; N]) -> Prediction {
+        let mut columns = [[[T::zero(); N]; 1]; N];
+        for (index, column) in self.estimate.root.iter().enumerate() {
+            for ([place], entry) in columns.iter_mut().zip(column) {
+                if let Some(place) = place.get_mut(index) {
+                    *place = *entry;
+                }
+            }
+        }
+        let root = triangularise(noise_std, &mut columns, &mut []).root;
+        self.finish(Gaussian { mean: self.estimate.mean, root })
+    }
+
+    /// Adds noise that several states share: its covariance is G Gᵀ, with G given by its columns.
+    ///
+    /// Cost: about K N² multiplications with addition.
+    pub fn add_correlated_noise<const K: usize>(&mut self, noise_columns: &[[T; N]; K]) -> Prediction {
+        let mut columns = [[T::zero(); K]; N];
+        for (index, noise) in noise_columns.iter().enumerate() {
+            for (column, entry) in columns.iter_mut().zip(noise) {
+                if let Some(place) = column.get_mut(index) {
+                    *place = *entry;
+                }
+            }
+        }
+        let mut root = self.estimate.root;
+        let mut rest = columns.as_mut_slice();
+        for (index, row) in root.iter_mut().enumerate() {
+            let Some((column, trailing)) = rest.split_first_mut() else { break };
+            let mut entries = row.iter_mut().skip(index);
+            let Some(diagonal) = entries.next() else { break };
+            let (reflection, norm) = Reflection::new(*diagonal, column);
+            *diagonal = norm;
+            for (entry, other) in entries.zip(trailing.iter_mut()) {
+                *entry = reflection.apply_below(*entry, other);
+            }
+            rest = trailing;
+        }
+        self.finish(Gaussian { mean: self.estimate.mean, root })
+    }
+
+    /// Forgets one state alone: it becomes `mean` with standard deviation `std`, independent of the others, of which
+    /// everything stays known. Nothing happens where there is no state of that index.
+    ///
+    /// # Errors
+    /// Where `mean` is not finite, or `std` negative or not finite.
+    pub fn forget(&mut self, index: usize, mean: T, std: T) -> Result<Prediction, InvalidNumber> {
+        Gaussian::independent([mean], [std])?;
+        let mut noise_std = [T::zero(); N];
+        if let (Some(place), Some(noise)) = (self.estimate.mean.get_mut(index), noise_std.get_mut(index)) {
+            (*place, *noise) = (mean, std);
+        }
+        self.estimate.root.iter_mut().filter_map(|column| column.get_mut(index)).for_each(|entry| *entry = T::zero());
+        Ok(self.random_walk(&noise_std))
+    }
+
+    fn finish(&mut self, estimate: Gaussian<T, N>) -> Prediction {
+        if self.accept(estimate, T::zero()) { Prediction::Done } else { Prediction::Reset }
+    }
+}
