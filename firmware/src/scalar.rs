@@ -31,6 +31,12 @@ pub trait Scalar:
     fn tabulated(entry: &Tabulated) -> Self {
         Self::constant(entry.double)
     }
+    /// The number that a sensor gave.
+    fn from_f32(reading: f32) -> Self {
+        Self::constant(f64::from(reading))
+    }
+    /// The nearest single-precision number.
+    fn to_f32(self) -> f32;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Arc cosine in radians; NaN outside −1 … 1.
@@ -93,6 +99,9 @@ impl Scalar for f64 {
     fn constant(value: f64) -> Self {
         value
     }
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
     }
@@ -124,6 +133,12 @@ impl Scalar for f32 {
 
     fn constant(value: f64) -> Self {
         value as f32
+    }
+    fn from_f32(reading: f32) -> Self {
+        reading
+    }
+    fn to_f32(self) -> f32 {
+        self
     }
     fn tabulated(entry: &Tabulated) -> Self {
         entry.single

@@ -33,6 +33,8 @@ pub struct WheelEstimate {
     pub activity: WheelActivity,
     /// Slip i, −1 … 1; none where neither rim nor hub moves.
     pub slip: Option<Estimate>,
+    /// The part of the slip's standard deviation that the camera causes: common to all wheels, with the same sign.
+    pub shared_slip_std: f32,
     /// Resistive torque T, N·m.
     pub resistive_torque_nm: Estimate,
     /// Contact angle: the terrain's slope under the hub, rad against the horizontal, positive uphill.

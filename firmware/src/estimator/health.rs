@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::rover::{Axes, PerSide, PerWheel};
+use crate::rover::{Axes, PerAxle, PerSide, PerWheel};
 use crate::sensor_frame::SensorFrame;
 
 /// One value for each sensor of the rover.
@@ -27,6 +27,11 @@ pub struct PerSensor<T> {
 }
 
 impl<T> PerSensor<T> {
+    /// Each value converted.
+    pub fn map<V>(self, mut convert: impl FnMut(T) -> V) -> PerSensor<V> {
+        self.zip_map(PerSensor::default(), |value, ()| convert(value))
+    }
+
     /// Each value with its partner converted.
     pub fn zip_map<U, V>(self, other: PerSensor<U>, mut convert: impl FnMut(T, U) -> V) -> PerSensor<V> {
         let mut wheels = |one: PerWheel<T>, two: PerWheel<U>| one.zip_wheels(two).map_wheels(|(a, b)| convert(a, b));
@@ -63,6 +68,20 @@ impl<T> PerSensor<T> {
             accel: self.accel.as_ref(),
             gyro: self.gyro.as_ref(),
             velocity: self.velocity.as_ref(),
+        }
+    }
+
+    /// References to the values, to change them.
+    pub fn as_mut(&mut self) -> PerSensor<&mut T> {
+        PerSensor {
+            wheel_rate: self.wheel_rate.as_mut().map(PerAxle::as_mut),
+            motor_torque: self.motor_torque.as_mut().map(PerAxle::as_mut),
+            load_cell: self.load_cell.as_mut().map(PerAxle::as_mut),
+            bogie_angle: self.bogie_angle.as_mut(),
+            rocker_angle: &mut self.rocker_angle,
+            accel: self.accel.as_mut(),
+            gyro: self.gyro.as_mut(),
+            velocity: self.velocity.as_mut(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! One frame after the other.
 
 use super::FrameEstimate;
-use crate::estimator::EstimatorHealth;
+use crate::estimator::{EstimatorHealth, RoverEstimator, Taken};
 use crate::rover::{GeometryError, PerAxle, PerSide, PerWheel, Rover};
 use crate::sensor_frame::SensorFrame;
 use crate::soil::Refusal;
@@ -9,7 +9,7 @@ use crate::soil::Refusal;
 /// The seed's chain, whole: sensor frames to wheel forces to soil.
 #[derive(Debug, Clone)]
 pub struct Pipeline {
-    health: EstimatorHealth,
+    estimator: RoverEstimator<f32>,
 }
 
 impl Pipeline {
@@ -19,18 +19,25 @@ impl Pipeline {
     /// Where there can be no such rover.
     pub fn new(rover: &Rover<f32>) -> Result<Self, GeometryError> {
         rover.check()?;
-        Ok(Self { health: EstimatorHealth::default() })
+        // A rover that passes has no number that a filter refuses.
+        let estimator = RoverEstimator::new(rover).map_err(|_| GeometryError::Coordinate)?;
+        Ok(Self { estimator })
     }
 
     /// Takes a frame. Every number that comes out is finite, whatever comes in.
     pub fn tick(&mut self, frame: &SensorFrame) -> FrameEstimate {
-        self.health.frames = self.health.frames.saturating_add(1);
+        let _: Taken = self.estimator.tick(frame);
         let wheel_soils: PerWheel<_> = PerSide::both(PerAxle::all(Err(Refusal::NoWheels)));
-        FrameEstimate { time_us: frame.time_us, wheels: PerWheel::default(), wheel_soils, soil: Err(Refusal::NoWheels) }
+        FrameEstimate {
+            time_us: frame.time_us,
+            wheels: self.estimator.wheels(),
+            wheel_soils,
+            soil: Err(Refusal::NoWheels),
+        }
     }
 
     /// How sensors and filters do.
     pub fn health(&self) -> &EstimatorHealth {
-        &self.health
+        self.estimator.health()
     }
 }

@@ -24,6 +24,11 @@ impl<T> Axes<T> {
         Axes { x: &self.x, y: &self.y, z: &self.z }
     }
 
+    /// References to the values, to change them.
+    pub fn as_mut(&mut self) -> Axes<&mut T> {
+        Axes { x: &mut self.x, y: &mut self.y, z: &mut self.z }
+    }
+
     /// The values in the order x, y, z.
     pub fn as_array(&self) -> [&T; 3] {
         [&self.x, &self.y, &self.z]

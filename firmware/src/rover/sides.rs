@@ -97,6 +97,11 @@ impl<T> PerSide<T> {
         PerSide { left: &self.left, right: &self.right }
     }
 
+    /// References to the values, to change them.
+    pub fn as_mut(&mut self) -> PerSide<&mut T> {
+        PerSide { left: &mut self.left, right: &mut self.right }
+    }
+
     /// Each value converted, left first.
     pub fn map<U>(self, mut convert: impl FnMut(T) -> U) -> PerSide<U> {
         PerSide { left: convert(self.left), right: convert(self.right) }
@@ -145,6 +150,11 @@ impl<T> PerAxle<T> {
         [&self.front, &self.middle, &self.rear]
     }
 
+    /// The values, front to rear.
+    pub fn into_array(self) -> [T; 3] {
+        [self.front, self.middle, self.rear]
+    }
+
     /// Front to rear, to be changed.
     pub fn as_array_mut(&mut self) -> [&mut T; 3] {
         [&mut self.front, &mut self.middle, &mut self.rear]
@@ -153,6 +163,11 @@ impl<T> PerAxle<T> {
     /// References to the values.
     pub fn as_ref(&self) -> PerAxle<&T> {
         PerAxle { front: &self.front, middle: &self.middle, rear: &self.rear }
+    }
+
+    /// References to the values, to change them.
+    pub fn as_mut(&mut self) -> PerAxle<&mut T> {
+        PerAxle { front: &mut self.front, middle: &mut self.middle, rear: &mut self.rear }
     }
 
     /// Each value converted, front first.

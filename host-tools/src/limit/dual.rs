@@ -99,6 +99,9 @@ impl<const N: usize> Scalar for Dual<N> {
     fn constant(value: f64) -> Self {
         Self { value, slopes: [0.0; N] }
     }
+    fn to_f32(self) -> f32 {
+        self.value as f32
+    }
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.through(sin, cos), self.through(cos, -sin))

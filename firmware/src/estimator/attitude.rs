@@ -1,0 +1,85 @@
+//! How the rover stands against the vertical.
+
+use super::scalar_filter::ScalarFilter;
+use crate::rover::{Axes, SensorNoise};
+use crate::scalar::Scalar;
+
+/// The tilt of the body in the plane of its sides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Attitude<S> {
+    pitch: ScalarFilter<S>,
+    /// How many frames in a row the accelerometer contradicted what the gyro said.
+    contradictions: u8,
+    /// The last specific force of which all axes were known, m/s².
+    specific_force: Axes<S>,
+}
+
+/// How far the accelerometer may be from what the gyro says, in variances, before it is thought to feel something else
+/// than gravity; and for how many frames.
+const GATE: f64 = 16.0;
+const PATIENCE: u8 = 8;
+/// What the rover may turn at without a gyro to tell, rad/s.
+const UNSEEN_TURN: f64 = 0.05;
+
+impl<S: Scalar> Attitude<S> {
+    /// Nothing is known: level, within some radians.
+    pub fn new(gravity_m_s2: S) -> Self {
+        let specific_force = Axes { x: S::zero(), y: S::zero(), z: gravity_m_s2 };
+        Self { pitch: ScalarFilter { mean: S::zero(), variance: S::one() }, contradictions: 0, specific_force }
+    }
+
+    /// Pitch of the body in the plane of its sides against the level line of that plane, rad.
+    pub fn pitch_rad(&self) -> S {
+        self.pitch.mean
+    }
+
+    /// Its variance, rad².
+    pub fn pitch_variance(&self) -> S {
+        self.pitch.variance
+    }
+
+    /// The last specific force that was felt, m/s².
+    pub fn specific_force_m_s2(&self) -> &Axes<S> {
+        &self.specific_force
+    }
+
+    /// Takes the inertial sensors' readings. Gives whether the accelerometer was surprising.
+    pub fn tick(&mut self, accel: Axes<Option<S>>, gyro: Axes<Option<S>>, step_s: S, noise: &SensorNoise<S>) -> bool {
+        self.turn(gyro, step_s, noise.gyro_rad_s);
+        let Some(force) = accel.all() else { return false };
+        let in_plane = (force.x * force.x + force.z * force.z).sqrt();
+        if in_plane < S::constant(0.1) || force.z < S::zero() {
+            return true;
+        }
+        let angle = S::constant(core::f64::consts::FRAC_PI_2) - (force.x / in_plane).acos();
+        let noise = noise.accel_m_s2 / in_plane;
+        let innovation = angle - self.pitch.mean;
+        let variance = self.pitch.variance + noise * noise;
+        let surprising = innovation * innovation > S::constant(GATE) * variance;
+        if surprising && self.contradictions < PATIENCE {
+            self.contradictions += 1;
+            return true;
+        }
+        if surprising {
+            self.pitch.variance = innovation * innovation;
+        }
+        self.contradictions = 0;
+        self.specific_force = force;
+        let _ = self.pitch.update(angle, noise * noise);
+        surprising
+    }
+
+    /// Carries the pitch along: the rate at which gravity turns in the plane, of a body that turns about all axes.
+    fn turn(&mut self, gyro: Axes<Option<S>>, step_s: S, noise_rad_s: S) {
+        let known = gyro.y.is_some();
+        let turn = gyro.map(|rate| rate.unwrap_or(S::zero()));
+        let Axes { x, y, z } = self.specific_force;
+        let in_plane_squared = x * x + z * z;
+        let coupling =
+            if in_plane_squared > S::zero() { y * (turn.z * z + turn.x * x) / in_plane_squared } else { S::zero() };
+        self.pitch.mean += step_s * (coupling - turn.y);
+        let rate_std = if known { noise_rad_s } else { S::constant(UNSEEN_TURN) };
+        let drift = step_s * rate_std;
+        self.pitch.variance = (self.pitch.variance + drift * drift).min(S::one());
+    }
+}

@@ -1,0 +1,215 @@
+//! Filter 2, first half: the contact angles of a side, from how the side moves.
+//!
+//! State: travel ratio κ, contact angles γ of front, middle and rear wheel, pitch of the rocker and of the bogie. The
+//! links' pitches change as the hubs roll along their contacts ([`RollingSide`]); κ and γ drift with travel. Measured are
+//! the velocity of the differential axis and the joints' angles. So the contact angles come from where the hubs go, never
+//! from a quotient of noisy rates.
+
+use super::walk_rate::WalkRate;
+use super::watch::Watch;
+use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise};
+use crate::scalar::Scalar;
+
+/// States: κ, γ front, γ middle, γ rear, rocker pitch, bogie pitch.
+pub const STATES: usize = 6;
+/// Measurements: velocity of the axis forward and up, rocker against body, bogie against rocker.
+pub const MEASUREMENTS: usize = 4;
+
+/// The process model: how the state changes by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactAngleModel<S> {
+    /// The side's shape.
+    pub side: RollingSide<S>,
+    /// Speed that a ratio of one stands for: that of the rims, m/s.
+    pub rim_speed_m_s: S,
+    /// Sine and cosine of the body's pitch in the plane of the side.
+    pub body_pitch: (S, S),
+    /// The body's pitch, rad.
+    pub body_pitch_rad: S,
+}
+
+impl<S: Scalar> ContactAngleModel<S> {
+    /// The motion that a state stands for.
+    pub fn motion(&self, state: &[S; STATES]) -> RollingMotion<S> {
+        let [ratio, front, middle, rear, rocker_pitch_rad, bogie_pitch_rad] = *state;
+        self.side.motion(&RollingState {
+            speed_m_s: ratio * self.rim_speed_m_s,
+            contact_angles_rad: PerAxle { front, middle, rear },
+            rocker_pitch_rad,
+            bogie_pitch_rad,
+        })
+    }
+
+    /// Rates of change of the state, per second.
+    pub fn rates(&self, state: &[S; STATES]) -> [S; STATES] {
+        let motion = self.motion(state);
+        let zero = S::zero();
+        [zero, zero, zero, zero, motion.rocker_rate_rad_s, motion.bogie_rate_rad_s]
+    }
+
+    /// What the sensors see of a state: velocity of the axis in the body's axes, and the joints' angles.
+    pub fn measure(&self, state: &[S; STATES]) -> [S; MEASUREMENTS] {
+        let velocity = self.motion(state).axis_velocity_m_s.turned_back(self.body_pitch);
+        let [_, _, _, _, rocker, bogie] = *state;
+        [velocity.x, velocity.z, rocker - self.body_pitch_rad, bogie - rocker]
+    }
+}
+
+/// What is measured of a side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SideReadings<S> {
+    /// Velocity of this side's end of the axis in the body's axes, m/s.
+    pub axis_velocity_m_s: Planar<Option<S>>,
+    /// One standard deviation of each component of that, m/s.
+    pub velocity_std_m_s: Planar<S>,
+    /// This side's rocker against the body, rad.
+    pub rocker_angle_rad: Option<S>,
+    /// The bogie against the rocker, rad.
+    pub bogie_angle_rad: Option<S>,
+}
+
+/// One standard deviation of a ratio and of an angle that is not known at all.
+const UNKNOWN_RATIO: f64 = 0.5;
+const UNKNOWN_ANGLE: f64 = 0.5;
+/// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
+const RATIO_DRIFT: f64 = 0.2;
+const ANGLE_DRIFT: f64 = 0.32;
+/// Drift of a link's pitch beyond what rolling explains, rad over a metre.
+const PITCH_DRIFT: f64 = 1.0e-3;
+/// Least speed that a ratio refers to, m/s, so that a rover that slides on stopped wheels still has one.
+const LEAST_SPEED: f64 = 1.0e-3;
+
+/// The filter of one side.
+#[derive(Debug, Clone)]
+pub(super) struct ContactAngleFilter<S> {
+    filter: SigmaPointFilter<S, STATES>,
+    model: ContactAngleModel<S>,
+    ratio_rate: WalkRate<S>,
+    angle_rate: WalkRate<S>,
+    watch: Watch,
+}
+
+impl<S: Scalar> ContactAngleFilter<S> {
+    /// A filter that knows nothing but that the rover stands more or less level.
+    pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
+        let side = RollingSide::new(rover);
+        let (zero, one) = (S::zero(), S::one());
+        let model = ContactAngleModel {
+            side,
+            rim_speed_m_s: S::constant(LEAST_SPEED),
+            body_pitch: (zero, one),
+            body_pitch_rad: zero,
+        };
+        Ok(Self {
+            filter: SigmaPointFilter::new(Self::unknown([one, zero, zero, zero, zero, zero])?, Self::unknown_std())?,
+            model,
+            ratio_rate: WalkRate::new(phase),
+            angle_rate: WalkRate::new(phase + 1),
+            watch: Watch::default(),
+        })
+    }
+
+    fn unknown_std() -> [S; STATES] {
+        let angle = S::constant(UNKNOWN_ANGLE);
+        [S::constant(UNKNOWN_RATIO), angle, angle, angle, angle, angle]
+    }
+
+    fn unknown(mean: [S; STATES]) -> Result<Gaussian<S, STATES>, InvalidNumber> {
+        Gaussian::independent(mean, Self::unknown_std())
+    }
+
+    /// What is known of the state.
+    pub fn estimate(&self) -> &Gaussian<S, STATES> {
+        self.filter.estimate()
+    }
+
+    /// The motion at the mean.
+    pub fn motion(&self) -> RollingMotion<S> {
+        self.model.motion(self.filter.estimate().mean())
+    }
+
+    /// How often the filter fell back to its floor.
+    pub fn resets(&self) -> u32 {
+        self.filter.resets()
+    }
+
+    /// How often it gave up what it believed.
+    pub fn relearned(&self) -> u32 {
+        self.watch.relearned()
+    }
+
+    /// Carries the state a step further, with rims that move at `rim_speed_m_s`, and takes what was measured.
+    pub fn tick(
+        &mut self,
+        step_s: S,
+        rim_speed_m_s: S,
+        body_pitch: (S, S),
+        readings: &SideReadings<S>,
+        noise: &SensorNoise<S>,
+    ) -> Innovation<S, MEASUREMENTS> {
+        let (body_pitch_rad, pitch_variance) = body_pitch;
+        self.refer_to(rim_speed_m_s);
+        self.predict(step_s);
+        self.model.body_pitch_rad = body_pitch_rad;
+        self.model.body_pitch = body_pitch_rad.sin_cos();
+        self.learn_rates(step_s, readings);
+        let angle = noise.angle_rad;
+        let noise_std =
+            [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, (angle * angle + pitch_variance).sqrt(), angle];
+        let measured = [
+            readings.axis_velocity_m_s.x,
+            readings.axis_velocity_m_s.z,
+            readings.rocker_angle_rad,
+            readings.bogie_angle_rad,
+        ];
+        let model = self.model;
+        let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
+        if self.watch.contradicted(&told) {
+            let _ = self.filter.random_walk(&Self::unknown_std());
+        }
+        told
+    }
+
+    /// The speed that the ratio refers to. While the rims stand, it keeps the least speed in the direction of before.
+    fn refer_to(&mut self, rim_speed_m_s: S) {
+        let least = S::constant(LEAST_SPEED);
+        self.model.rim_speed_m_s = if rim_speed_m_s.abs() >= least {
+            rim_speed_m_s
+        } else if self.model.rim_speed_m_s < S::zero() {
+            -least
+        } else {
+            least
+        };
+    }
+
+    fn predict(&mut self, step_s: S) {
+        let model = self.model;
+        let process = |state: &[S; STATES]| {
+            let mut next = *state;
+            next.iter_mut().zip(model.rates(state)).for_each(|(number, rate)| *number += step_s * rate);
+            next
+        };
+        let root_travel = (self.model.rim_speed_m_s.abs() * step_s).sqrt();
+        let ratio = S::constant(RATIO_DRIFT) * (self.ratio_rate.factor()).sqrt() * root_travel;
+        let angle = S::constant(ANGLE_DRIFT) * (self.angle_rate.factor()).sqrt() * root_travel;
+        let pitch = S::constant(PITCH_DRIFT) * root_travel;
+        let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch]);
+    }
+
+    /// Learns how fast the ratio and the direction of travel wander, from the velocity alone.
+    fn learn_rates(&mut self, step_s: S, readings: &SideReadings<S>) {
+        let speed = self.model.rim_speed_m_s;
+        let moves = speed.abs() > S::constant(2.0 * LEAST_SPEED);
+        let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s else { return };
+        if !moves {
+            return;
+        }
+        let velocity = Planar { x, z }.turned(self.model.body_pitch);
+        let travel = speed.abs() * step_s;
+        let std = readings.velocity_std_m_s.z / speed.abs();
+        let nominal = |drift: f64| S::constant(drift * drift) * travel;
+        self.ratio_rate.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
+        self.angle_rate.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
+    }
+}

@@ -1,0 +1,75 @@
+//! How the two wheels of a bogie share their drawbar pull.
+//!
+//! The bogie's balance tells only the sum: both hubs hang at the same height under the pivot. The seed shares it in
+//! proportion to load. But the pull of a wheel follows its torque (Ding et al. 2009 give DP as a sum of M/r and W with
+//! factors of the contact's shape alone), so the torques tell how the two differ.
+//!
+//! The form is ours: DP₂ − DP₃ = a ΔT/r + (b ΣDP − c ΣT/r) ΔW/ΣW − d Δs W̄, fitted to equations 1–11 over the soils that
+//! the networks are trained for. The host's test `drawbar_split` draws other soils, and finds the spread that is stated here.
+
+use crate::rover::Planar;
+use crate::scalar::Scalar;
+
+/// The factors a, b, c, d.
+const OF_TORQUE: f64 = 1.065;
+const OF_PULL: f64 = 1.362;
+const OF_TORQUES: f64 = 1.395;
+const OF_SLIP: f64 = 0.0549;
+/// One standard deviation of what the form leaves, per newton of ΔW and of Δs W̄, and what is left of two equal wheels, N.
+const SPREAD_OF_LOAD: f64 = 0.0163;
+const SPREAD_OF_SLIP: f64 = 0.0472;
+const LEAST_SPREAD_N: f64 = 0.1;
+
+/// One wheel of a bogie as its share is told from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BogieWheel<S> {
+    /// Normal load W, N.
+    pub load_n: S,
+    /// Resistive torque over radius, T/r, N.
+    pub rim_force_n: S,
+    /// Slip.
+    pub slip: S,
+}
+
+/// How the drawbar pulls of a bogie's wheels differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawbarSplit<S> {
+    /// Drawbar pull of the middle wheel less that of the rear wheel, N.
+    pub difference_n: S,
+    /// One standard deviation of that, N.
+    pub std_n: S,
+}
+
+impl<S: Scalar> DrawbarSplit<S> {
+    /// The split that torques, loads and slips tell, for wheels whose drawbar pulls sum to `sum_n`.
+    pub fn by_torque(middle: &BogieWheel<S>, rear: &BogieWheel<S>, sum_n: S) -> Self {
+        let loads = middle.load_n + rear.load_n;
+        let torques = middle.rim_force_n + rear.rim_force_n;
+        let unequal_load = middle.load_n - rear.load_n;
+        let unequal_slip = (middle.slip - rear.slip) * loads * S::constant(0.5);
+        let per_load = if loads > S::one() {
+            (S::constant(OF_PULL) * sum_n - S::constant(OF_TORQUES) * torques) / loads
+        } else {
+            S::zero()
+        };
+        let difference_n = S::constant(OF_TORQUE) * (middle.rim_force_n - rear.rim_force_n) + unequal_load * per_load
+            - S::constant(OF_SLIP) * unequal_slip;
+        let load = S::constant(SPREAD_OF_LOAD) * unequal_load;
+        let slip = S::constant(SPREAD_OF_SLIP) * unequal_slip;
+        let least = S::constant(LEAST_SPREAD_N);
+        Self { difference_n, std_n: (load * load + slip * slip + least * least).sqrt() }
+    }
+
+    /// The seed's rule: each wheel pulls in proportion to its load. The difference of the two, N.
+    pub fn by_load_n(middle_load_n: S, rear_load_n: S, sum_n: S) -> S {
+        let loads = middle_load_n + rear_load_n;
+        if loads > S::one() { sum_n * (middle_load_n - rear_load_n) / loads } else { S::zero() }
+    }
+}
+
+/// Normal load and drawbar pull of a force on a hub, N, for a contact at an angle to the link that the force is given in;
+/// sine and cosine of that angle.
+pub(super) fn along_contact<S: Scalar>(force: Planar<S>, angle: (S, S)) -> (S, S) {
+    let turned = force.turned_back(angle);
+    (turned.z, turned.x)
+}

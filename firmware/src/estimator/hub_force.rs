@@ -1,0 +1,218 @@
+//! Filter 2, second half: the forces on the hubs of a side, from load cells and moments.
+//!
+//! State: the force along each cell's axis on front, middle and rear hub, the force along the rocker on the front hub, and
+//! that along the bogie on its two hubs together. In these directions everything that is measured is a sum of states: the
+//! cells, the moment on the bogie and the moment on the rocker. What the two hubs of a bogie have of their joint force
+//! is not observable where they hang at the same height, so it is no state: it comes in as a split with a spread.
+//! Normal load and drawbar pull are these forces seen along the contact ([`super::drawbar_split`]).
+
+use super::walk_rate::WalkRate;
+use super::watch::Watch;
+use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::rover::{PerAxle, Planar, Rover};
+use crate::scalar::Scalar;
+
+/// States: cell forces of front, middle and rear; along the rocker on the front hub; along the bogie on both its hubs, N.
+pub const STATES: usize = 5;
+/// Measurements: three cells, N; moment on the bogie; moment on the rocker, N·m.
+pub const MEASUREMENTS: usize = 5;
+
+/// What ties the forces to the measurements.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HubForceModel<S> {
+    /// Front hub from the differential axis, in the rocker's coordinates, m.
+    pub front_hub: Planar<S>,
+    /// Bogie pivot from the differential axis, in the rocker's coordinates, m.
+    pub bogie_pivot: Planar<S>,
+    /// Middle hub from the pivot, in the bogie's coordinates, m.
+    pub middle_hub: Planar<S>,
+    /// Rear hub from the pivot, in the bogie's coordinates, m.
+    pub rear_hub: Planar<S>,
+    /// Sine and cosine of the bogie's angle against the rocker.
+    pub bogie_angle: (S, S),
+    /// Force along the bogie on the middle hub less that on the rear hub, N: the split, an input.
+    pub difference_n: S,
+}
+
+impl<S: Scalar> HubForceModel<S> {
+    /// What the sensors see of the forces: the cells, then the moments of the soil's forces on bogie and rocker about pivot
+    /// and axis, positive nose-down.
+    pub fn measure(&self, state: &[S; STATES]) -> [S; MEASUREMENTS] {
+        let forces = self.forces(state);
+        let bogie = self.middle_hub.moment_nm(forces.middle) + self.rear_hub.moment_nm(forces.rear);
+        let on_pivot = (forces.middle + forces.rear).turned(self.bogie_angle);
+        let rocker = self.front_hub.moment_nm(forces.front) + self.bogie_pivot.moment_nm(on_pivot);
+        let [front, middle, rear, _, _] = *state;
+        [front, middle, rear, bogie, rocker]
+    }
+
+    /// The force on each hub in the coordinates of its link, N.
+    pub fn forces(&self, [front, middle, rear, along_rocker, along_bogie]: &[S; STATES]) -> PerAxle<Planar<S>> {
+        let half = S::constant(0.5);
+        PerAxle {
+            front: Planar { x: *along_rocker, z: *front },
+            middle: Planar { x: half * (*along_bogie + self.difference_n), z: *middle },
+            rear: Planar { x: half * (*along_bogie - self.difference_n), z: *rear },
+        }
+    }
+}
+
+/// What is measured of a side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ForceReadings<S> {
+    /// The load cells, N.
+    pub cells_n: PerAxle<Option<S>>,
+    /// One standard deviation of a cell, N.
+    pub cell_std_n: S,
+    /// Moment of the soil's forces on the bogie, N·m, with one standard deviation: what its resistive torques balance.
+    pub bogie_moment_nm: (S, S),
+    /// Moment of the soil's forces on the rocker, N·m, with one standard deviation: what the front wheel's torque and half
+    /// the body balance.
+    pub rocker_moment_nm: (S, S),
+}
+
+/// One standard deviation of a force that is not known at all, over the rover's weight.
+const UNKNOWN_SHARE: f64 = 0.3;
+/// Nominal drift over a metre of travel, N: 5 N over a wheel radius.
+const FORCE_DRIFT_N: f64 = 18.0;
+/// What a wheel that starts, stops or turns back leaves unknown of the forces of its side, N.
+const FORGOTTEN_N: f64 = 5.0;
+
+/// The filter of one side.
+#[derive(Debug, Clone)]
+pub(super) struct HubForceFilter<S> {
+    filter: SigmaPointFilter<S, STATES>,
+    model: HubForceModel<S>,
+    unknown_n: S,
+    cell_rates: PerAxle<WalkRate<S>>,
+    rocker_rate: WalkRate<S>,
+    bogie_rate: WalkRate<S>,
+    watch: Watch,
+}
+
+impl<S: Scalar> HubForceFilter<S> {
+    /// A filter that knows the rover's weight.
+    pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
+        let weight = rover.mass_kg * rover.gravity_m_s2;
+        let (load, unknown_n) = (weight * S::constant(1.0 / 6.0), weight * S::constant(UNKNOWN_SHARE));
+        let estimate = Gaussian::independent([load, load, load, S::zero(), S::zero()], [unknown_n; STATES])?;
+        let suspension = &rover.suspension;
+        let model = HubForceModel {
+            front_hub: suspension.front_hub,
+            bogie_pivot: suspension.bogie_pivot,
+            middle_hub: suspension.middle_hub,
+            rear_hub: suspension.rear_hub,
+            bogie_angle: (S::zero(), S::one()),
+            difference_n: S::zero(),
+        };
+        Ok(Self {
+            filter: SigmaPointFilter::new(estimate, [unknown_n; STATES])?,
+            model,
+            unknown_n,
+            cell_rates: PerAxle::from_array([phase, phase + 1, phase + 2]).map(WalkRate::new),
+            rocker_rate: WalkRate::new(phase + 3),
+            bogie_rate: WalkRate::new(phase + 4),
+            watch: Watch::default(),
+        })
+    }
+
+    /// What is known of the state.
+    pub fn estimate(&self) -> &Gaussian<S, STATES> {
+        self.filter.estimate()
+    }
+
+    /// The force on each hub at the mean, in the coordinates of its link, N.
+    pub fn forces_n(&self) -> PerAxle<Planar<S>> {
+        self.model.forces(self.filter.estimate().mean())
+    }
+
+    /// How often the filter fell back to its floor.
+    pub fn resets(&self) -> u32 {
+        self.filter.resets()
+    }
+
+    /// How often it gave up what it believed.
+    pub fn relearned(&self) -> u32 {
+        self.watch.relearned()
+    }
+
+    /// A wheel starts, stops or turns back: the forces are not what they were.
+    pub fn forget(&mut self) {
+        let _ = self.filter.random_walk(&[S::constant(FORGOTTEN_N); STATES]);
+    }
+
+    /// Takes the split that the torques tell.
+    pub fn split(&mut self, difference_n: S) {
+        self.model.difference_n = difference_n;
+    }
+
+    /// Lets the forces drift over so much travel, and takes what was measured with the bogie at an angle to the rocker.
+    pub fn tick(
+        &mut self,
+        travel_m: S,
+        bogie_angle_rad: S,
+        readings: &ForceReadings<S>,
+    ) -> Innovation<S, MEASUREMENTS> {
+        self.model.bogie_angle = bogie_angle_rad.sin_cos();
+        self.learn_rates(travel_m, readings);
+        let drift = S::constant(FORCE_DRIFT_N) * travel_m.sqrt();
+        let PerAxle { front, middle, rear } = self.cell_rates.as_ref();
+        let rates = [front, middle, rear, &self.rocker_rate, &self.bogie_rate];
+        let _ = self.filter.random_walk(&rates.map(|rate| drift * rate.factor().sqrt()));
+        let model = self.model;
+        let told = self.filter.update(
+            |state| model.measure(state),
+            &[
+                readings.cells_n.front,
+                readings.cells_n.middle,
+                readings.cells_n.rear,
+                Some(readings.bogie_moment_nm.0),
+                Some(readings.rocker_moment_nm.0),
+            ],
+            &[
+                readings.cell_std_n,
+                readings.cell_std_n,
+                readings.cell_std_n,
+                readings.bogie_moment_nm.1,
+                readings.rocker_moment_nm.1,
+            ],
+            Gate::one_in_a_thousand(),
+        );
+        if self.watch.contradicted(&told) {
+            let _ = self.filter.random_walk(&[self.unknown_n; STATES]);
+        }
+        told
+    }
+
+    /// Learns how fast the forces wander, from the cells, and from the moments with the forces that the cells tell.
+    fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>) {
+        let nominal = S::constant(FORCE_DRIFT_N * FORCE_DRIFT_N) * travel_m;
+        let variance = readings.cell_std_n * readings.cell_std_n;
+        let cells = self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array());
+        for (rate, cell) in cells {
+            if let Some(force) = cell {
+                rate.see(*force, variance, nominal);
+            }
+        }
+        let PerAxle { front: Some(front), middle: Some(middle), rear: Some(rear) } = readings.cells_n else { return };
+        let square = |value: S| value * value;
+        // The bogie's moment without the forces along it is what the cells' arms make; their height is the lever arm.
+        let without = [front, middle, rear, S::zero(), S::zero()];
+        let [_, _, _, by_cells, _] = self.model.measure(&without);
+        let arm = S::constant(0.5) * (self.model.middle_hub.z + self.model.rear_hub.z);
+        let along_bogie = (readings.bogie_moment_nm.0 - by_cells) / arm;
+        let spread = (variance * (square(self.model.middle_hub.x) + square(self.model.rear_hub.x))
+            + square(readings.bogie_moment_nm.1))
+            / square(arm);
+        self.bogie_rate.see(along_bogie, spread, nominal);
+        let [_, _, _, _, by_others] = self.model.measure(&[front, middle, rear, S::zero(), along_bogie]);
+        let arm = self.model.front_hub.z;
+        let along_rocker = (readings.rocker_moment_nm.0 - by_others) / arm;
+        let pivot = self.model.bogie_pivot;
+        let spread = (variance * (square(self.model.front_hub.x) + square(pivot.x) + square(pivot.x))
+            + square(readings.rocker_moment_nm.1)
+            + spread * square(pivot.z))
+            / square(arm);
+        self.rocker_rate.see(along_rocker, spread, nominal);
+    }
+}

@@ -1,0 +1,155 @@
+//! What is believed of a sensor before any filter sees it.
+
+use super::health::{PerSensor, SensorHealth};
+use crate::rover::{Axes, PerAxle, PerSide, Rover};
+
+/// The same bits for so many frames: no noisy sensor says that.
+const STUCK_FRAMES: u8 = 8;
+/// Bad readings in a row after which a sensor is out of use.
+const DROPPED_AFTER: u8 = 10;
+/// Good readings in a row that bring it back.
+const PROBATION: u8 = 5;
+
+/// The gate of one sensor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SensorGate {
+    /// Readings beyond this magnitude are absurd.
+    limit: f32,
+    last_bits: u32,
+    repeats: u8,
+    bad: u8,
+    good: u8,
+}
+
+impl SensorGate {
+    const fn new(limit: f32) -> Self {
+        Self { limit, last_bits: 0, repeats: 0, bad: 0, good: 0 }
+    }
+
+    /// The reading, if it can be used.
+    fn admit(&mut self, reading: Option<f32>, health: &mut SensorHealth) -> Option<f32> {
+        let Some(value) = reading else {
+            count(&mut health.missing);
+            return None;
+        };
+        let stuck = self.is_stuck(value);
+        let reason = if !value.is_finite() {
+            Some(&mut health.not_finite)
+        } else if value > self.limit || value < -self.limit {
+            Some(&mut health.out_of_range)
+        } else if stuck {
+            Some(&mut health.stuck)
+        } else {
+            None
+        };
+        match reason {
+            Some(counter) => {
+                count(counter);
+                self.good = 0;
+                self.bad = self.bad.saturating_add(1);
+                health.dropped |= self.bad >= DROPPED_AFTER;
+                None
+            }
+            None => self.admit_good(value, health),
+        }
+    }
+
+    fn admit_good(&mut self, value: f32, health: &mut SensorHealth) -> Option<f32> {
+        self.bad = 0;
+        if !health.dropped {
+            return Some(value);
+        }
+        self.good = self.good.saturating_add(1);
+        if self.good < PROBATION {
+            count(&mut health.on_probation);
+            return None;
+        }
+        (health.dropped, self.good) = (false, 0);
+        Some(value)
+    }
+
+    /// An exact zero is excepted: what stands still may well say so for long.
+    fn is_stuck(&mut self, value: f32) -> bool {
+        let same = value.to_bits() == self.last_bits && value != 0.0;
+        self.repeats = if same { self.repeats.saturating_add(1) } else { 0 };
+        self.last_bits = value.to_bits();
+        self.repeats >= STUCK_FRAMES
+    }
+}
+
+/// Adds one to a count that stops at its greatest value.
+pub(super) fn count(counter: &mut u16) {
+    *counter = counter.saturating_add(1);
+}
+
+/// The gates of all sensors.
+#[derive(Debug, Clone)]
+pub(super) struct SensorGates {
+    gates: PerSensor<SensorGate>,
+}
+
+impl SensorGates {
+    /// Gates for what this rover can do at most: a wheel rate of a turn a second and a tenth of the speed of a car, cells
+    /// and drives that hold its whole weight several times over.
+    pub fn new(rover: &Rover<f32>) -> Self {
+        let weight_n = rover.mass_kg * rover.gravity_m_s2;
+        let wheels = |limit: f32| PerSide::both(PerAxle::all(SensorGate::new(limit)));
+        let axes = |limit: f32| {
+            let gate = SensorGate::new(limit);
+            Axes { x: gate, y: gate, z: gate }
+        };
+        let angle = SensorGate::new(1.6);
+        Self {
+            gates: PerSensor {
+                wheel_rate: wheels(2.0 / rover.wheel.radius_m),
+                motor_torque: wheels(3.0 * weight_n * rover.wheel.radius_m),
+                load_cell: wheels(3.0 * weight_n),
+                bogie_angle: PerSide::both(angle),
+                rocker_angle: angle,
+                accel: axes(5.0 * rover.gravity_m_s2),
+                gyro: axes(5.0),
+                velocity: axes(2.0),
+            },
+        }
+    }
+
+    /// The readings that can be used.
+    pub fn admit(
+        &mut self,
+        readings: PerSensor<Option<f32>>,
+        health: &mut PerSensor<SensorHealth>,
+    ) -> PerSensor<Option<f32>> {
+        self.gates
+            .as_mut()
+            .zip_map(health.as_mut(), |gate, health| (gate, health))
+            .zip_map(readings, |(gate, health), reading| gate.admit(reading, health))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PROBATION, STUCK_FRAMES, SensorGate};
+    use crate::estimator::SensorHealth;
+
+    #[test]
+    fn bad_readings_are_counted_by_reason_and_a_bad_sensor_comes_back_after_probation() {
+        let (mut gate, mut health) = (SensorGate::new(10.0), SensorHealth::default());
+        assert_eq!(gate.admit(Some(1.0), &mut health), Some(1.0));
+        assert_eq!(gate.admit(None, &mut health), None);
+        for bad in [f32::NAN, f32::INFINITY, 1.0e6, -11.0] {
+            assert_eq!(gate.admit(Some(bad), &mut health), None);
+        }
+        assert_eq!((health.missing, health.not_finite, health.out_of_range), (1, 2, 2));
+        assert_eq!(gate.admit(Some(2.0), &mut health), Some(2.0), "not dropped yet");
+        for frame in 1..=30 {
+            let admitted = gate.admit(Some(3.0), &mut health);
+            assert_eq!(admitted.is_some(), frame <= STUCK_FRAMES, "frame {frame}");
+        }
+        assert!(health.dropped);
+        for good in 0..PROBATION {
+            let admitted = gate.admit(Some(3.1 + f32::from(good)), &mut health);
+            assert_eq!(admitted.is_some(), good + 1 == PROBATION);
+        }
+        assert!(!health.dropped);
+    }
+}

@@ -1,0 +1,392 @@
+//! The filters of one side, and what they say together.
+
+use super::attitude::Attitude;
+use super::contact_angle::{self, ContactAngleFilter, SideReadings};
+use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
+use super::estimate::{Estimate, WheelActivity, WheelEstimate};
+use super::hub_force::{ForceReadings, HubForceFilter};
+use super::slip_torque::{SlipTorqueFilter, WheelReadings};
+use super::surprise::Surprises;
+use crate::filter::InvalidNumber;
+use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
+use crate::scalar::Scalar;
+
+/// What the sensors of a side, and those of the body, say in a frame; what cannot be used is absent.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SideFrame<S> {
+    /// Encoders, rad/s.
+    pub wheel_rate_rad_s: PerAxle<Option<S>>,
+    /// Drive torques, N·m.
+    pub motor_torque_nm: PerAxle<Option<S>>,
+    /// Load cells, N.
+    pub load_cell_n: PerAxle<Option<S>>,
+    /// Bogie against rocker, rad.
+    pub bogie_angle_rad: Option<S>,
+    /// This side's rocker against the body, rad.
+    pub rocker_angle_rad: Option<S>,
+    /// Velocity of the midpoint of the differential axis, m/s.
+    pub velocity_m_s: Axes<Option<S>>,
+    /// Gyro, rad/s.
+    pub gyro_rad_s: Axes<Option<S>>,
+}
+
+/// Below this speed of rim and hub a wheel stands, m/s.
+const STANDING: f64 = 1.5e-3;
+/// A wheel whose rim moves at less than this part of its hub's speed is blocked.
+const BLOCKED: f64 = 0.08;
+/// Below this load a wheel is lifted, N; or below three standard deviations.
+const LIFTED_N: f64 = 2.0;
+/// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
+const CREEP: f64 = 1.0e-3;
+/// What the body may turn at while its gyro is silent, rad/s.
+const UNSEEN_TURN: f64 = 0.03;
+
+/// The estimators of one side.
+#[derive(Debug, Clone)]
+pub(super) struct SideEstimator<S> {
+    rover: Rover<S>,
+    y_m: S,
+    angles: ContactAngleFilter<S>,
+    wheels: PerAxle<SlipTorqueFilter<S>>,
+    forces: HubForceFilter<S>,
+    activity: PerAxle<WheelActivity>,
+    motion: RollingMotion<S>,
+    rim_speed_m_s: S,
+}
+
+/// What a wheel's filters are told in a frame.
+struct WheelFrame<S> {
+    link_rate_rad_s: S,
+    hub_speed_m_s: S,
+    measured_hub_speed_m_s: Option<S>,
+    hub_speed_std_m_s: S,
+}
+
+impl<S: Scalar> SideEstimator<S> {
+    /// Estimators that know the rover alone. `phase` spreads costly work over frames.
+    pub fn new(rover: &Rover<S>, side: Side, phase: usize) -> Result<Self, InvalidNumber> {
+        let wheel = |place: usize| SlipTorqueFilter::new(rover, phase + place);
+        let angles = ContactAngleFilter::new(rover, phase)?;
+        Ok(Self {
+            rover: *rover,
+            y_m: match side {
+                Side::Left => rover.suspension.half_track_m,
+                Side::Right => -rover.suspension.half_track_m,
+            },
+            motion: angles.motion(),
+            angles,
+            wheels: PerAxle { front: wheel(0)?, middle: wheel(1)?, rear: wheel(2)? },
+            forces: HubForceFilter::new(rover, phase)?,
+            activity: PerAxle::default(),
+            rim_speed_m_s: S::zero(),
+        })
+    }
+
+    /// How often a filter fell back to its floor, and how often one gave up what it believed.
+    pub fn troubles(&self) -> (u32, u32) {
+        let resets = self.wheels.as_array().into_iter().map(SlipTorqueFilter::resets);
+        let relearned = self.wheels.as_array().into_iter().map(SlipTorqueFilter::relearned);
+        (
+            resets.fold(self.angles.resets().saturating_add(self.forces.resets()), u32::saturating_add),
+            relearned.fold(self.angles.relearned().saturating_add(self.forces.relearned()), u32::saturating_add),
+        )
+    }
+
+    /// Takes a frame.
+    pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
+        let mut surprises = Surprises::default();
+        let readings = self.side_readings(frame);
+        self.follow_rims(&frame.wheel_rate_rad_s);
+        let pitch = (attitude.pitch_rad(), attitude.pitch_variance());
+        let told = self.angles.tick(step_s, self.rim_speed_m_s, pitch, &readings, &self.rover.noise);
+        surprises.of_side(&told);
+        self.motion = self.angles.motion();
+        let wheels = self.wheel_frames(&readings, attitude.pitch_rad().sin_cos());
+        self.tick_wheels(step_s, frame, &wheels, &mut surprises);
+        self.tick_forces(step_s, frame, attitude, &mut surprises);
+        surprises
+    }
+
+    fn side_readings(&self, frame: &SideFrame<S>) -> SideReadings<S> {
+        let noise = &self.rover.noise;
+        let Axes { x, z, .. } = frame.velocity_m_s;
+        // A gyro axis that is silent is taken to be still, and to be off by what the rover may turn at.
+        let turn = |rate: Option<S>| match rate {
+            Some(rate) => (rate * self.y_m, noise.gyro_rad_s * self.y_m),
+            None => (S::zero(), S::constant(UNSEEN_TURN) * self.y_m),
+        };
+        let (by_yaw, yaw_std) = turn(frame.gyro_rad_s.z);
+        let (by_roll, roll_std) = turn(frame.gyro_rad_s.x);
+        let joint = |std: S| (noise.velocity_m_s * noise.velocity_m_s + std * std).sqrt();
+        SideReadings {
+            axis_velocity_m_s: Planar { x: x.map(|x| x - by_yaw), z: z.map(|z| z + by_roll) },
+            velocity_std_m_s: Planar { x: joint(yaw_std), z: joint(roll_std) },
+            rocker_angle_rad: frame.rocker_angle_rad,
+            bogie_angle_rad: frame.bogie_angle_rad,
+        }
+    }
+
+    /// The speed of the rims, m/s: the median of what encoders there are, so that one blocked wheel does not matter.
+    fn follow_rims(&mut self, rates: &PerAxle<Option<S>>) {
+        let (rocker, bogie) = (self.motion.rocker_rate_rad_s, self.motion.bogie_rate_rad_s);
+        let speed = |rate: Option<S>, link: S| rate.map(|rate| (rate - link) * self.rover.wheel.radius_m);
+        let speeds = (speed(rates.front, rocker), speed(rates.middle, bogie), speed(rates.rear, bogie));
+        self.rim_speed_m_s = match speeds {
+            (Some(a), Some(b), Some(c)) => a.min(b).max(a.max(b).min(c)),
+            (Some(a), Some(b), None) | (Some(a), None, Some(b)) | (None, Some(a), Some(b)) => {
+                (a + b) * S::constant(0.5)
+            }
+            (Some(a), None, None) | (None, Some(a), None) | (None, None, Some(a)) => a,
+            (None, None, None) => self.rim_speed_m_s,
+        };
+    }
+
+    /// Speeds of the hubs along their contacts: the measured velocity of the axis, and what the joints add to it.
+    fn wheel_frames(&self, readings: &SideReadings<S>, body_pitch: (S, S)) -> PerAxle<WheelFrame<S>> {
+        let motion = &self.motion;
+        let measured = match readings.axis_velocity_m_s {
+            Planar { x: Some(x), z: Some(z) } => Some(Planar { x, z }.turned(body_pitch)),
+            _ => None,
+        };
+        let frame = |hub: Planar<S>, tangent: Planar<S>, link_rate_rad_s: S| {
+            let hub_speed_m_s = hub.dot(tangent);
+            let correction = measured.map(|axis| (axis - motion.axis_velocity_m_s).dot(tangent));
+            WheelFrame {
+                link_rate_rad_s,
+                hub_speed_m_s,
+                measured_hub_speed_m_s: correction.map(|correction| hub_speed_m_s + correction),
+                hub_speed_std_m_s: readings.velocity_std_m_s.x,
+            }
+        };
+        let (hubs, tangents) = (&motion.hub_velocities_m_s, &motion.tangents);
+        PerAxle {
+            front: frame(hubs.front, tangents.front, motion.rocker_rate_rad_s),
+            middle: frame(hubs.middle, tangents.middle, motion.bogie_rate_rad_s),
+            rear: frame(hubs.rear, tangents.rear, motion.bogie_rate_rad_s),
+        }
+    }
+
+    fn tick_wheels(
+        &mut self,
+        step_s: S,
+        frame: &SideFrame<S>,
+        wheels: &PerAxle<WheelFrame<S>>,
+        surprises: &mut Surprises,
+    ) {
+        let noise = &self.rover.noise;
+        let mut changed = false;
+        let filters = self.wheels.as_mut().zip(self.activity.as_mut()).zip(surprises.wheels.as_mut());
+        let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
+        for (((filter, activity), surprise), (wheel, (rate, torque))) in filters.zip(inputs).into_array() {
+            let [before, _, _] = *filter.estimate().mean();
+            let rim = self.rover.wheel.radius_m * before;
+            let now = what_it_does(rim, wheel.hub_speed_m_s);
+            if (now == WheelActivity::Standing) != (*activity == WheelActivity::Standing) {
+                filter.forget();
+                changed = true;
+            }
+            *activity = now;
+            let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
+            let rolls = now == WheelActivity::Rolling;
+            let readings = WheelReadings {
+                rate_rad_s: rate.map(|rate| rate - wheel.link_rate_rad_s),
+                rate_std_rad_s: noise.wheel_rate_rad_s,
+                hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| rolls),
+                hub_speed_std_m_s: wheel.hub_speed_std_m_s,
+                shared_speed_std_m_s: noise.velocity_m_s,
+                motor_torque_nm: torque,
+                motor_torque_std_nm: noise.motor_torque_nm,
+            };
+            surprise.of_wheel(&filter.tick(step_s, speed * step_s, &readings));
+        }
+        if changed {
+            self.forces.forget();
+        }
+    }
+
+    fn tick_forces(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>, surprises: &mut Surprises) {
+        let torques = self.wheels.as_ref().zip(frame.motor_torque_nm).map(|(filter, motor)| {
+            let [_, torque, _] = *filter.estimate().mean();
+            let [_, variance, _] = filter.estimate().variances();
+            let noise = self.rover.noise.motor_torque_nm;
+            // White noise of the drive's sensor comes through the filter slower, not less: what counts over time is that
+            // of the sensor. Without the sensor it is what the filter does not know.
+            (torque, if motor.is_some() { noise * noise } else { variance + noise * noise })
+        });
+        let noise = &self.rover.noise;
+        let body = body_moment_nm(&self.rover, attitude.specific_force_m_s2());
+        let centre = self.rover.suspension.centre_of_mass;
+        let arm_squared = centre.x * centre.x + centre.z * centre.z;
+        let half = S::constant(0.5);
+        let body_std = half * self.rover.mass_kg * noise.accel_m_s2;
+        let readings = ForceReadings {
+            cells_n: frame.load_cell_n,
+            cell_std_n: noise.load_cell_n,
+            bogie_moment_nm: (torques.middle.0 + torques.rear.0, (torques.middle.1 + torques.rear.1).sqrt()),
+            rocker_moment_nm: (
+                torques.front.0 - half * body,
+                (torques.front.1 + body_std * body_std * arm_squared).sqrt(),
+            ),
+        };
+        let [.., rocker_pitch, bogie_pitch] = *self.angles.estimate().mean();
+        self.forces.split(self.split_along_bogie_n(bogie_pitch));
+        let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
+        surprises.of_cells(&self.forces.tick(travel, bogie_pitch - rocker_pitch, &readings));
+    }
+
+    /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
+    fn split_along_bogie_n(&self, bogie_pitch: S) -> S {
+        let (middle, rear) = self.bogie_wheels(bogie_pitch);
+        let split = DrawbarSplit::by_torque(&middle.wheel, &rear.wheel, middle.drawbar_pull_n + rear.drawbar_pull_n);
+        let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
+        let half = S::constant(0.5);
+        let along = |pull: S, wheel: &BogieHub<S>| pull * wheel.angle.1 - wheel.wheel.load_n * wheel.angle.0;
+        along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
+    }
+
+    fn bogie_wheels(&self, bogie_pitch: S) -> (BogieHub<S>, BogieHub<S>) {
+        let [_, _, middle, rear, _, _] = *self.angles.estimate().mean();
+        let forces = self.forces.forces_n();
+        let hub = |force: Planar<S>, contact: S, filter: &SlipTorqueFilter<S>| {
+            let angle = (contact - bogie_pitch).sin_cos();
+            let (load_n, drawbar_pull_n) = along_contact(force, angle);
+            let [_, torque, slip] = *filter.estimate().mean();
+            let wheel = BogieWheel { load_n, rim_force_n: torque / self.rover.wheel.radius_m, slip };
+            BogieHub { wheel, drawbar_pull_n, angle }
+        };
+        (hub(forces.middle, middle, &self.wheels.middle), hub(forces.rear, rear, &self.wheels.rear))
+    }
+
+    /// What is known of the wheels now.
+    pub fn estimates(&self) -> PerAxle<WheelEstimate> {
+        let angles = self.angles.estimate();
+        let [_, front, middle, rear, rocker_pitch, bogie_pitch] = *angles.mean();
+        let forces = self.forces.forces_n();
+        let (middle_wheel, rear_wheel) = self.bogie_wheels(bogie_pitch);
+        let sum = middle_wheel.drawbar_pull_n + rear_wheel.drawbar_pull_n;
+        let split = DrawbarSplit::by_torque(&middle_wheel.wheel, &rear_wheel.wheel, sum);
+        let by_load = DrawbarSplit::by_load_n(middle_wheel.wheel.load_n, rear_wheel.wheel.load_n, sum);
+        let half = S::constant(0.5);
+        let (zero, one) = (S::zero(), S::one());
+        let split_std = half * split.std_n;
+        let pieces = PerAxle {
+            front: Piece {
+                contact: front,
+                // γ less the pitch of the rocker.
+                angle: [zero, one, zero, zero, -one, zero],
+                pitch: rocker_pitch,
+                force: forces.front,
+                along: [zero, zero, zero, one, zero],
+                square: [one, zero, zero, zero, zero],
+                split_std: zero,
+                by_load: None,
+            },
+            middle: Piece {
+                contact: middle,
+                angle: [zero, zero, one, zero, zero, -one],
+                pitch: bogie_pitch,
+                force: forces.middle,
+                along: [zero, zero, zero, zero, half],
+                square: [zero, one, zero, zero, zero],
+                split_std,
+                by_load: Some(half * (sum + by_load)),
+            },
+            rear: Piece {
+                contact: rear,
+                angle: [zero, zero, zero, one, zero, -one],
+                pitch: bogie_pitch,
+                force: forces.rear,
+                along: [zero, zero, zero, zero, half],
+                square: [zero, zero, one, zero, zero],
+                split_std,
+                by_load: Some(half * (sum - by_load)),
+            },
+        };
+        let stds = angles.stds();
+        let [_, front_std, middle_std, rear_std, _, _] = stds;
+        let stds = PerAxle { front: front_std, middle: middle_std, rear: rear_std };
+        pieces.zip(stds).zip(self.wheels.as_ref().zip(self.activity)).map(
+            |((piece, contact_std), (filter, activity))| {
+                let wheel = self.forces_of(&piece);
+                let [_, torque, _] = *filter.estimate().mean();
+                let [_, torque_std, _] = filter.estimate().stds();
+                let lifted = wheel.0.value < LIFTED_N as f32 || wheel.0.value < 3.0 * wheel.0.std;
+                WheelEstimate {
+                    activity: if lifted { WheelActivity::Lifted } else { activity },
+                    slip: self.slip(filter, activity),
+                    shared_slip_std: filter.shared_slip_variance().sqrt().to_f32(),
+                    resistive_torque_nm: published(torque, torque_std),
+                    contact_angle_rad: published(piece.contact, contact_std),
+                    normal_load_n: wheel.0,
+                    drawbar_pull_n: wheel.1,
+                    split_std_n: piece.split_std.to_f32(),
+                    drawbar_pull_by_load_n: piece.by_load.map_or(wheel.1.value, Scalar::to_f32),
+                }
+            },
+        )
+    }
+
+    /// Normal load and drawbar pull: the hub's force along the contact, with the errors of force and angle.
+    fn forces_of(&self, piece: &Piece<S>) -> (Estimate, Estimate) {
+        let angle = (piece.contact - piece.pitch).sin_cos();
+        let (sine, cosine) = angle;
+        let (load, pull) = along_contact(piece.force, angle);
+        let (_, angle_variance) = self.angles.estimate().weighted_sum(&piece.angle);
+        let sum = |square: S, along: S| {
+            let mut weights = [S::zero(); super::hub_force::STATES];
+            let parts = piece.square.iter().zip(&piece.along);
+            weights.iter_mut().zip(parts).for_each(|(weight, (s, a))| *weight = square * *s + along * *a);
+            self.forces.estimate().weighted_sum(&weights).1
+        };
+        let split_variance = piece.split_std * piece.split_std;
+        let load_variance = sum(cosine, -sine) + pull * pull * angle_variance + sine * sine * split_variance;
+        let pull_variance = sum(sine, cosine) + load * load * angle_variance + cosine * cosine * split_variance;
+        (published(load, load_variance.sqrt()), published(pull, pull_variance.sqrt()))
+    }
+
+    fn slip(&self, filter: &SlipTorqueFilter<S>, activity: WheelActivity) -> Option<Estimate> {
+        let [_, _, slip] = *filter.estimate().mean();
+        let [_, _, std] = filter.estimate().stds();
+        match activity {
+            WheelActivity::Standing => None,
+            WheelActivity::Blocked => Some(Estimate { value: -1.0, std: BLOCKED as f32 }),
+            _ => Some(published(slip.max(-S::one()).min(S::one()), std)),
+        }
+    }
+}
+
+/// A wheel of the bogie, seen along its contact.
+struct BogieHub<S> {
+    wheel: BogieWheel<S>,
+    drawbar_pull_n: S,
+    /// Sine and cosine of the contact angle less the bogie's pitch.
+    angle: (S, S),
+}
+
+/// What a wheel's forces are put together from.
+struct Piece<S> {
+    contact: S,
+    angle: [S; contact_angle::STATES],
+    pitch: S,
+    force: Planar<S>,
+    along: [S; super::hub_force::STATES],
+    square: [S; super::hub_force::STATES],
+    split_std: S,
+    by_load: Option<S>,
+}
+
+fn published<S: Scalar>(value: S, std: S) -> Estimate {
+    Estimate { value: value.to_f32(), std: std.to_f32() }
+}
+
+/// What a wheel does, by the speeds of its rim and its hub, m/s.
+fn what_it_does<S: Scalar>(rim: S, hub: S) -> WheelActivity {
+    let standing = S::constant(STANDING);
+    if rim.abs() < standing && hub.abs() < standing {
+        WheelActivity::Standing
+    } else if rim.abs() < S::constant(BLOCKED) * hub.abs() {
+        WheelActivity::Blocked
+    } else {
+        WheelActivity::Rolling
+    }
+}

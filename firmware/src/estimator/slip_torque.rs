@@ -1,0 +1,206 @@
+//! Filter 1: slip and resistive torque of one wheel.
+//!
+//! State: absolute rate ω, resistive torque T, slip s. J ω̇ = τ − T; T and s drift with travel. Measured are the encoder,
+//! with the rate of its link added, and the speed of the hub along its contact.
+
+use super::walk_rate::WalkRate;
+use super::watch::Watch;
+use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::rover::Rover;
+use crate::scalar::Scalar;
+
+/// States: rate ω, rad/s; resistive torque T, N·m; slip s.
+pub const STATES: usize = 3;
+/// Measurements: rate ω, rad/s; speed of the hub, m/s.
+pub const MEASUREMENTS: usize = 2;
+
+/// The model of one driven wheel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlipTorqueModel<S> {
+    /// Radius of the wheel, m.
+    pub radius_m: S,
+    /// One over the reflected inertia, 1/(kg·m²).
+    pub inverse_inertia: S,
+    /// Torque of the drive, the control input, N·m; none where it is unknown: then the wheel keeps its rate.
+    pub motor_torque_nm: Option<S>,
+}
+
+impl<S: Scalar> SlipTorqueModel<S> {
+    /// Rates of change of the state, per second.
+    pub fn rates(&self, [_, torque, _]: &[S; STATES]) -> [S; STATES] {
+        let driven = self.motor_torque_nm.map_or(S::zero(), |motor| motor - *torque);
+        [driven * self.inverse_inertia, S::zero(), S::zero()]
+    }
+
+    /// What is measured of a state.
+    pub fn measure(&self, [rate, _, slip]: &[S; STATES]) -> [S; MEASUREMENTS] {
+        [*rate, self.radius_m * *rate * travel_over_rim(*slip)]
+    }
+}
+
+/// Speed of the hub over that of the rim at a slip: 1 − s when driving, 1/(1 + s) when braking, not nearer to a wheel that
+/// stands than slip −0.95.
+fn travel_over_rim<S: Scalar>(slip: S) -> S {
+    let one = S::one();
+    if slip >= S::zero() { one - slip } else { one / (one + slip.max(S::constant(-0.95))) }
+}
+
+/// What is measured of a wheel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WheelReadings<S> {
+    /// Absolute rate, rad/s: encoder and link.
+    pub rate_rad_s: Option<S>,
+    /// One standard deviation of that, rad/s.
+    pub rate_std_rad_s: S,
+    /// Speed of the hub along its contact, m/s.
+    pub hub_speed_m_s: Option<S>,
+    /// One standard deviation of that, m/s.
+    pub hub_speed_std_m_s: S,
+    /// The part of it that all wheels share: the velocimeter is one camera, m/s.
+    pub shared_speed_std_m_s: S,
+    /// Torque of the drive, N·m.
+    pub motor_torque_nm: Option<S>,
+    /// One standard deviation of that, N·m.
+    pub motor_torque_std_nm: S,
+}
+
+/// One standard deviation of what is not known at all.
+const UNKNOWN: [f64; STATES] = [1.0, 5.0, 0.5];
+/// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
+const TORQUE_DRIFT_NM: f64 = 1.1;
+const SLIP_DRIFT: f64 = 0.37;
+/// What the torque of a drive may be off by when its sensor is silent, N·m.
+const UNSEEN_TORQUE_NM: f64 = 2.0;
+/// How much of torque and slip a wheel forgets when it starts, stops or turns back.
+const FORGOTTEN: [f64; STATES] = [0.0, 1.0, 0.3];
+
+/// The filter of one wheel.
+#[derive(Debug, Clone)]
+pub(super) struct SlipTorqueFilter<S> {
+    filter: SigmaPointFilter<S, STATES>,
+    model: SlipTorqueModel<S>,
+    torque_rate: WalkRate<S>,
+    slip_rate: WalkRate<S>,
+    shared_slip_variance: S,
+    watch: Watch,
+}
+
+impl<S: Scalar> SlipTorqueFilter<S> {
+    /// A filter that knows nothing.
+    pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
+        let unknown = UNKNOWN.map(S::constant);
+        let model = SlipTorqueModel {
+            radius_m: rover.wheel.radius_m,
+            inverse_inertia: S::one() / rover.drive.reflected_inertia_kg_m2,
+            motor_torque_nm: None,
+        };
+        Ok(Self {
+            filter: SigmaPointFilter::new(Gaussian::independent([S::zero(); STATES], unknown)?, unknown)?,
+            model,
+            torque_rate: WalkRate::new(phase),
+            slip_rate: WalkRate::new(phase + 2),
+            shared_slip_variance: S::zero(),
+            watch: Watch::default(),
+        })
+    }
+
+    /// What is known of the state.
+    pub fn estimate(&self) -> &Gaussian<S, STATES> {
+        self.filter.estimate()
+    }
+
+    /// Variance of the part of the slip's error that comes from the camera, and so is common to all wheels.
+    pub fn shared_slip_variance(&self) -> S {
+        self.shared_slip_variance
+    }
+
+    /// How often the filter fell back to its floor.
+    pub fn resets(&self) -> u32 {
+        self.filter.resets()
+    }
+
+    /// How often it gave up what it believed.
+    pub fn relearned(&self) -> u32 {
+        self.watch.relearned()
+    }
+
+    /// The wheel starts, stops or turns back: torque and slip are not what they were.
+    pub fn forget(&mut self) {
+        let _ = self.filter.random_walk(&FORGOTTEN.map(S::constant));
+        self.shared_slip_variance = S::zero();
+    }
+
+    /// Carries the state a step further, over so much travel, and takes what was measured.
+    pub fn tick(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
+        self.learn_rates(travel_m, readings);
+        self.predict(step_s, travel_m, readings);
+        let model = self.model;
+        let told = self.filter.update(
+            |state| model.measure(state),
+            &[readings.rate_rad_s, readings.hub_speed_m_s],
+            &[readings.rate_std_rad_s, readings.hub_speed_std_m_s],
+            Gate::one_in_a_thousand(),
+        );
+        self.share_camera_error(readings);
+        if self.watch.contradicted(&told) {
+            let _ = self.filter.random_walk(&UNKNOWN.map(S::constant));
+        }
+        told
+    }
+
+    fn predict(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) {
+        self.model.motor_torque_nm = readings.motor_torque_nm;
+        let model = self.model;
+        let process = |state: &[S; STATES]| {
+            let mut next = *state;
+            next.iter_mut().zip(model.rates(state)).for_each(|(number, rate)| *number += step_s * rate);
+            next
+        };
+        let root_travel = travel_m.sqrt();
+        let torque_std = match readings.motor_torque_nm {
+            Some(_) => readings.motor_torque_std_nm,
+            None => S::constant(UNSEEN_TORQUE_NM),
+        };
+        let noise = [
+            step_s * torque_std * self.model.inverse_inertia,
+            S::constant(TORQUE_DRIFT_NM) * self.torque_rate.factor().sqrt() * root_travel,
+            S::constant(SLIP_DRIFT) * self.slip_rate.factor().sqrt() * root_travel,
+        ];
+        let _ = self.filter.predict(process, &noise);
+    }
+
+    /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds.
+    fn learn_rates(&mut self, travel_m: S, readings: &WheelReadings<S>) {
+        let nominal = |drift: f64| S::constant(drift * drift) * travel_m;
+        if let Some(torque) = readings.motor_torque_nm {
+            let std = readings.motor_torque_std_nm;
+            self.torque_rate.see(torque, std * std, nominal(TORQUE_DRIFT_NM));
+        }
+        let [rate, _, _] = *self.filter.estimate().mean();
+        let rim = self.model.radius_m * rate;
+        if let Some(hub) = readings.hub_speed_m_s
+            && rim.abs() > S::constant(2.0e-3)
+        {
+            let std = readings.hub_speed_std_m_s / rim;
+            self.slip_rate.see(S::one() - hub / rim, std * std, nominal(SLIP_DRIFT));
+        }
+    }
+
+    /// Follows the camera's error through the filter: the gain g of the slip on the hub's speed takes the new error in, and
+    /// 1 − g h of the old one stays, h being the slope of the speed in the slip.
+    fn share_camera_error(&mut self, readings: &WheelReadings<S>) {
+        if readings.hub_speed_m_s.is_none() {
+            return;
+        }
+        let [rate, _, slip] = *self.filter.estimate().mean();
+        let [_, _, slip_variance] = self.filter.estimate().variances();
+        let ratio = travel_over_rim(slip);
+        let rim = self.model.radius_m * rate;
+        let slope = if slip >= S::zero() { rim } else { rim * ratio * ratio };
+        let noise = readings.hub_speed_std_m_s;
+        let gain = slope * slip_variance / (noise * noise);
+        let kept = S::one() - gain * slope;
+        let taken = gain * readings.shared_speed_std_m_s;
+        self.shared_slip_variance = (kept * kept * self.shared_slip_variance + taken * taken).min(slip_variance);
+    }
+}

@@ -1,0 +1,102 @@
+//! How fast a quantity wanders, learned from what its sensor says.
+//!
+//! A random walk with one fixed rate is wrong on most ground: level sand changes nothing over metres, a rock changes
+//! everything within a wheel radius. Several rates are tried side by side by filters of one number each, and each is
+//! weighed by how likely it made the recent measurements (multiple-model estimation, Magill 1965).
+
+use super::scalar_filter::ScalarFilter;
+use crate::scalar::Scalar;
+
+/// Rates that are tried, as variances over the nominal one: each sixteen times the one before.
+const CANDIDATES: usize = 5;
+const LEAST: f64 = 1.0e-4;
+const STEP: f64 = 16.0;
+
+/// Of what the candidates explained badly, the share that is still held against them a frame later.
+const MEMORY: f64 = 0.98;
+
+/// The rate of one quantity.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WalkRate<S> {
+    trials: [Trial<S>; CANDIDATES],
+    factor: S,
+    frame: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Trial<S> {
+    filter: ScalarFilter<S>,
+    /// ln of the innovation's variance, renewed now and then: it changes slowly.
+    log_variance: S,
+    /// Twice the negative logarithm of the likelihood of the recent measurements.
+    misfit: S,
+}
+
+impl<S: Scalar> WalkRate<S> {
+    /// A rate of which nothing is known yet. Of many, each should have another `phase`: the costly part of the work is done
+    /// in one of so many frames, and phases spread it.
+    pub fn new(phase: usize) -> Self {
+        let filter = ScalarFilter { mean: S::zero(), variance: S::constant(1.0e6) };
+        let trial = Trial { filter, log_variance: S::zero(), misfit: S::zero() };
+        Self { trials: [trial; CANDIDATES], factor: S::one(), frame: phase }
+    }
+
+    /// Takes a measurement with noise of this variance, where the nominal walk since the one before has `nominal_variance`.
+    pub fn see(&mut self, measured: S, noise_variance: S, nominal_variance: S) {
+        self.frame = self.frame.wrapping_add(1);
+        let renew = self.frame % CANDIDATES == 0;
+        let mut factor = S::constant(LEAST);
+        for trial in &mut self.trials {
+            trial.filter.variance += factor * nominal_variance;
+            let (misfit, variance) = trial.filter.update(measured, noise_variance);
+            if renew {
+                trial.log_variance = variance.ln();
+            }
+            // One wild measurement says that something is wrong with it, and little about the rate.
+            trial.misfit = S::constant(MEMORY) * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            factor = factor * S::constant(STEP);
+        }
+        if renew {
+            self.factor = self.mean_factor();
+        }
+    }
+
+    /// The rate over the nominal one, as a variance.
+    pub fn factor(&self) -> S {
+        self.factor
+    }
+
+    /// The geometric mean of the candidates, weighed by their likelihood.
+    fn mean_factor(&self) -> S {
+        let best = self.trials.iter().fold(S::constant(1.0e30), |best, trial| best.min(trial.misfit));
+        let (mut weights, mut sum, mut rank) = (S::zero(), S::zero(), S::zero());
+        for trial in &self.trials {
+            let weight = (S::constant(0.5) * (best - trial.misfit)).exp();
+            weights += weight;
+            sum += weight * rank;
+            rank += S::one();
+        }
+        S::constant(LEAST) * (S::constant(2.772_588_722_239_781) * (sum / weights)).exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::WalkRate;
+
+    /// A noise-free staircase of a known rate, and a constant, both with alternating measurement errors.
+    #[test]
+    fn a_still_quantity_gets_a_lesser_rate_than_one_that_wanders() {
+        let rate = |wander: f64| {
+            let mut rate = WalkRate::<f64>::new(0);
+            for frame in 0..200_u32 {
+                let error = if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
+                let place = wander * f64::from(frame / 10 % 2);
+                rate.see(place + error, 0.01, 0.01);
+            }
+            rate.factor()
+        };
+        assert!(rate(0.0) < 1.0e-3, "{}", rate(0.0));
+        assert!(rate(1.0) > 1.0, "{}", rate(1.0));
+    }
+}
