@@ -7,6 +7,7 @@ pub mod estimator;
 pub mod filter;
 pub mod fingerprint;
 pub mod frozen;
+pub mod fusion;
 pub mod link;
 pub mod math;
 pub mod network;

@@ -2,11 +2,16 @@
 #![no_std]
 #![no_main]
 
+use core::cell::{Cell, RefCell};
+
 use kapvik_board_an386::{bench::Bench, entry, exit};
 use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
 use kapvik_firmware::frozen::{ROVER, WHEEL as WHEEL_TABLE};
 use kapvik_firmware::math;
 use kapvik_firmware::network::RoverGolden;
+use kapvik_firmware::pipeline::Pipeline;
+use kapvik_firmware::rover::{Axes, PerAxle, PerSide, Rover};
+use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
 
 const WHEEL: Wheel<f32> = Wheel { radius_m: 0.075, width_m: 0.07 };
@@ -34,6 +39,14 @@ fn main() -> ! {
     let [first, ..] = &ROVER.golden;
     let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
     bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
+    if let Ok(pipeline) = Pipeline::new(&Rover::assumed()) {
+        let pipeline = RefCell::new(pipeline);
+        let time_us = Cell::new(0_u64);
+        bench.kernel("tick", -1.0, 1.0, |wobble| {
+            time_us.set(time_us.get() + 100_000);
+            pipeline.borrow_mut().tick(&drive::frame(time_us.get(), wobble))
+        });
+    }
     for print in &FINGERPRINTS {
         bench.fingerprint(print.name, (print.compute)());
     }
@@ -45,4 +58,27 @@ fn rover_outputs(pair: &RoverGolden, slip: f32) -> [f32; 6] {
     let mut wheels = pair.wheels;
     wheels[0][2] = slip;
     ROVER.outputs(&pair.context, wheels)
+}
+
+/// A frame of a rover that drives over level ground, no two readings alike.
+mod drive {
+    use super::*;
+
+    pub fn frame(time_us: u64, wobble: f32) -> SensorFrame {
+        let wheel = |share: f32| WheelSensors {
+            rate_rad_s: Some(0.3 + 0.05 * share + 0.002 * wobble),
+            motor_torque_nm: Some(1.4 + 0.3 * share + 0.05 * wobble),
+            load_cell_n: Some(67.0 - 3.0 * share + 0.5 * wobble),
+        };
+        let side = |share: f32| PerAxle { front: wheel(share), middle: wheel(-share), rear: wheel(0.5 * share) };
+        SensorFrame {
+            time_us,
+            wheels: PerSide { left: side(1.0), right: side(-0.7) },
+            bogie_angle_rad: PerSide { left: Some(0.001 * wobble), right: Some(-0.001 * wobble) },
+            rocker_angle_rad: Some(0.0007 * wobble),
+            accel_m_s2: Axes { x: Some(0.02 * wobble), y: Some(-0.02 * wobble), z: Some(9.81 + 0.01 * wobble) },
+            gyro_rad_s: Axes { x: Some(0.001 * wobble), y: Some(-0.001 * wobble), z: Some(0.0005 * wobble) },
+            velocity_m_s: Axes { x: Some(0.018 + 0.0005 * wobble), y: Some(0.0), z: Some(0.0005 * wobble) },
+        }
+    }
 }

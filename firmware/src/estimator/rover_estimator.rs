@@ -30,10 +30,10 @@ pub struct RoverEstimator<S> {
 }
 
 /// What became of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Taken {
-    /// It is in the estimate.
-    Used,
+    /// It is in the estimate; travel of the rims since the one before, m.
+    Used(f32),
     /// It repeats the time of the one before, or is from before that.
     LeftOut,
 }
@@ -78,7 +78,12 @@ impl<S: Scalar> RoverEstimator<S> {
         let right = self.sides.right.tick(step_s, &side_frame(&readings, Side::Right), &self.attitude);
         note_surprises(&mut self.health.sensors, &PerSide { left, right });
         self.note_troubles();
-        Taken::Used
+        Taken::Used(self.travel_m(step_s).to_f32())
+    }
+
+    fn travel_m(&self, step_s: S) -> S {
+        let PerSide { left, right } = self.sides.as_ref().map(SideEstimator::speed_m_s);
+        S::constant(0.5) * (left + right) * step_s
     }
 
     /// What is known of the wheels.

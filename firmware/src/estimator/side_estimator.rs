@@ -92,6 +92,11 @@ impl<S: Scalar> SideEstimator<S> {
         )
     }
 
+    /// How fast this side travels, m/s, forward or back.
+    pub fn speed_m_s(&self) -> S {
+        self.motion.axis_velocity_m_s.length()
+    }
+
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();

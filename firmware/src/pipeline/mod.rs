@@ -2,9 +2,8 @@
 //! ([`answer`]).
 
 mod frame_estimate;
-mod soil_query;
 mod tick;
 
-pub use frame_estimate::{FrameEstimate, RoverSoil};
-pub use soil_query::answer;
+pub use crate::soil::answer;
+pub use frame_estimate::FrameEstimate;
 pub use tick::Pipeline;

@@ -1,7 +1,8 @@
 //! One frame after the other.
 
 use super::FrameEstimate;
-use crate::estimator::{EstimatorHealth, RoverEstimator, Taken};
+use crate::estimator::{Estimate, EstimatorHealth, RoverEstimator, Taken};
+use crate::fusion::SoilOverTime;
 use crate::rover::{GeometryError, PerAxle, PerSide, PerWheel, Rover};
 use crate::sensor_frame::SensorFrame;
 use crate::soil::Refusal;
@@ -10,6 +11,8 @@ use crate::soil::Refusal;
 #[derive(Debug, Clone)]
 pub struct Pipeline {
     estimator: RoverEstimator<f32>,
+    soil: SoilOverTime,
+    last: FrameEstimate,
 }
 
 impl Pipeline {
@@ -21,19 +24,22 @@ impl Pipeline {
         rover.check()?;
         // A rover that passes has no number that a filter refuses.
         let estimator = RoverEstimator::new(rover).map_err(|_| GeometryError::Coordinate)?;
-        Ok(Self { estimator })
+        let wheel_soils = PerSide::both(PerAxle::all(Err(Refusal::NotRolling)));
+        let last =
+            FrameEstimate { time_us: 0, wheels: PerWheel::default(), wheel_soils, soil: Err(Refusal::NotRolling) };
+        Ok(Self { estimator, soil: SoilOverTime::new(rover), last })
     }
 
-    /// Takes a frame. Every number that comes out is finite, whatever comes in.
+    /// Takes a frame. Every number that comes out is finite, whatever comes in. A frame that repeats the time of the one
+    /// before, or comes from before it, changes nothing: the estimate is that of the one before.
     pub fn tick(&mut self, frame: &SensorFrame) -> FrameEstimate {
-        let _: Taken = self.estimator.tick(frame);
-        let wheel_soils: PerWheel<_> = PerSide::both(PerAxle::all(Err(Refusal::NoWheels)));
-        FrameEstimate {
-            time_us: frame.time_us,
-            wheels: self.estimator.wheels(),
-            wheel_soils,
-            soil: Err(Refusal::NoWheels),
+        if let Taken::Used(travel_m) = self.estimator.tick(frame) {
+            let wheels = self.estimator.wheels();
+            let pitch = Estimate { value: self.estimator.pitch_rad(), std: self.estimator.pitch_std_rad() };
+            let (wheel_soils, soil) = self.soil.tick(&wheels, pitch, travel_m);
+            self.last = FrameEstimate { time_us: frame.time_us, wheels, wheel_soils, soil };
         }
+        self.last
     }
 
     /// How sensors and filters do.

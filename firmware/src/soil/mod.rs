@@ -3,7 +3,10 @@
 mod answer;
 mod estimate;
 mod features;
+mod query;
 
 pub use answer::QueryAnswer;
 pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};
 pub use features::{ContextFeatures, FifthInput, WheelFeatures};
+pub use query::answer;
+pub(crate) use query::{rover_outputs, wheel_soil};

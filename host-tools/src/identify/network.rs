@@ -183,6 +183,7 @@ pub fn refusal_in_words(refusal: Refusal) -> &'static str {
         Refusal::NoWheels => "there is no wheel",
         Refusal::NotFinite => "a number is not finite",
         Refusal::OutOfRange => "a number is outside the range that the networks take",
+        Refusal::NotRolling => "no wheel rolls under load",
         Refusal::SelfTestFailed => "the flight computer's self-test failed",
     }
 }

@@ -3,18 +3,20 @@
 use heapless::Vec;
 
 use crate::frozen;
-use crate::soil::{FifthInput, QueryAnswer, Refusal, SoilEstimate};
+use crate::network::OUTPUTS;
 use crate::wheel_state::{SoilQuery, WheelState};
+
+use super::{FifthInput, QueryAnswer, Refusal, SoilEstimate};
 
 /// Estimates the soil. Every number that comes out is finite, whatever comes in.
 pub fn answer(query: &SoilQuery) -> QueryAnswer {
-    let mut answer = QueryAnswer { wheels: Vec::new(), rover: estimate_rover(query) };
-    query.wheels.iter().for_each(|state| answer.push(estimate_wheel(query, state)));
+    let mut answer = QueryAnswer { wheels: Vec::new(), rover: rover_soil(query) };
+    query.wheels.iter().for_each(|state| answer.push(wheel_soil(query, state)));
     answer
 }
 
-/// The soil under one wheel.
-fn estimate_wheel(query: &SoilQuery, state: &WheelState) -> Result<SoilEstimate, Refusal> {
+/// The soil under one wheel of a query.
+pub(crate) fn wheel_soil(query: &SoilQuery, state: &WheelState) -> Result<SoilEstimate, Refusal> {
     check_shared(query)?;
     check_state(&WheelState { sinkage_m: None, ..*state })?;
     let fifth = FifthInput::slope(query.slope);
@@ -26,7 +28,13 @@ fn estimate_wheel(query: &SoilQuery, state: &WheelState) -> Result<SoilEstimate,
 }
 
 /// The soil under all wheels of the query.
-fn estimate_rover(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
+fn rover_soil(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
+    let (outputs, inside) = rover_outputs(query)?;
+    Ok(SoilEstimate::new(&frozen::ROVER.posterior.read(&outputs), inside))
+}
+
+/// What the rover network says of a query, and whether all of its inputs lie in the training range.
+pub(crate) fn rover_outputs(query: &SoilQuery) -> Result<([f32; OUTPUTS], bool), Refusal> {
     check_shared(query)?;
     if query.wheels.is_empty() {
         return Err(Refusal::NoWheels);
@@ -38,9 +46,9 @@ fn estimate_rover(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
     }
     let (context, wheels) = query.rover_features();
     let table = &frozen::ROVER;
-    let posterior = table.posterior.read(&table.outputs(&context, wheels.clone()));
+    let outputs = table.outputs(&context, wheels.clone());
     let inside = table.context.contains(&context) && wheels.into_iter().all(|wheel| table.wheel.contains(&wheel));
-    Ok(SoilEstimate::new(&posterior, inside))
+    Ok((outputs, inside))
 }
 
 fn positive(value: f32) -> bool {

@@ -1,0 +1,151 @@
+//! The soil under each wheel at each instant, and under the rover over time.
+
+use heapless::Vec;
+
+use super::rover_soil::RoverSoil;
+use super::soil_average::SoilAverage;
+use super::soil_change::SoilChangeDetector;
+use crate::estimator::{Estimate, WheelActivity, WheelEstimate};
+use crate::frozen;
+use crate::math;
+use crate::rover::{PerWheel, Rover};
+use crate::soil::{Refusal, SoilEstimate, rover_outputs, wheel_soil};
+use crate::terramechanics::Wheel;
+use crate::wheel_state::{Slope, SoilQuery, WHEELS, WheelNoise, WheelState};
+
+/// What is left of a standard deviation that averages away, when the network is asked what lasts.
+const HARDLY_ANY: f32 = 0.2;
+/// One standard deviation of the slope that the soil sees, beyond that of the pitch, rad: the wheels' mean contact angle
+/// is not quite the body's pitch.
+const SLOPE_STD_RAD: f32 = 0.01;
+
+/// The networks' users in flight.
+#[derive(Debug, Clone)]
+pub struct SoilOverTime {
+    wheel: Wheel<f32>,
+    average: SoilAverage,
+    changes: SoilChangeDetector,
+    inside_training_range: bool,
+    /// Every other frame the rover network is asked what would last without noise.
+    asks_what_lasts: bool,
+}
+
+impl SoilOverTime {
+    /// Nothing is known of the soil.
+    pub fn new(rover: &Rover<f32>) -> Self {
+        let suspension = &rover.suspension;
+        let wheelbase_m = suspension.front_hub.x - (suspension.bogie_pivot.x + suspension.rear_hub.x);
+        Self {
+            wheel: rover.wheel,
+            average: SoilAverage::new(),
+            changes: SoilChangeDetector::new(rover.wheel.radius_m, wheelbase_m),
+            inside_training_range: true,
+            asks_what_lasts: false,
+        }
+    }
+
+    /// Takes the wheels after some travel, m. Gives the soil under each and under the rover.
+    pub fn tick(
+        &mut self,
+        wheels: &PerWheel<WheelEstimate>,
+        slope: Estimate,
+        travel_m: f32,
+    ) -> (PerWheel<Result<SoilEstimate, Refusal>>, Result<RoverSoil, Refusal>) {
+        let variance = slope.std * slope.std + SLOPE_STD_RAD * SLOPE_STD_RAD;
+        let slope = Slope { angle_rad: slope.value, std_rad: math::sqrt(variance) };
+        let wheel_soils = wheels.map_wheels(|wheel| self.under_wheel(&wheel, slope));
+        if self.changes.tick(wheels, travel_m).is_some() {
+            self.average = SoilAverage::new();
+        }
+        let rover = self.under_rover(wheels, travel_m);
+        (wheel_soils, rover)
+    }
+
+    fn under_wheel(&self, wheel: &WheelEstimate, slope: Slope) -> Result<SoilEstimate, Refusal> {
+        let state = state_of(wheel).ok_or(Refusal::NotRolling)?;
+        let mut query = SoilQuery { wheel: self.wheel, noise: noise_of(wheel), slope: Some(slope), wheels: Vec::new() };
+        // One wheel always fits.
+        let _ = query.wheels.push(state);
+        wheel_soil(&query, &state)
+    }
+
+    fn under_rover(&mut self, wheels: &PerWheel<WheelEstimate>, travel_m: f32) -> Result<RoverSoil, Refusal> {
+        let newest = self.changes.on_newest_soil();
+        let taking_part = wheels.zip_wheels(newest).map_wheels(|(wheel, newest)| newest && state_of(&wheel).is_some());
+        let mut states = Vec::<WheelState, WHEELS>::new();
+        let mut squares = [0.0_f32; 4];
+        let mut shared = 0.0;
+        for (wheel, _) in wheels.iter_wheels().zip(taking_part.iter_wheels()).filter(|(_, takes_part)| **takes_part) {
+            let WheelNoise { drawbar_pull_n, load_n, torque_nm, slip, .. } = noise_of(wheel);
+            let stds = [drawbar_pull_n, load_n, torque_nm, slip];
+            squares.iter_mut().zip(stds).for_each(|(square, std)| *square += std * std);
+            shared += wheel.shared_slip_std * wheel.shared_slip_std;
+            state_of(wheel).into_iter().for_each(|state| {
+                let _ = states.push(state);
+            });
+        }
+        if states.is_empty() {
+            // While nothing rolls, what was learned stays.
+            return self.fused(taking_part).ok_or(Refusal::NotRolling);
+        }
+        let count = states.len() as f32;
+        let [drawbar_pull_n, load_n, torque_nm, slip] = squares.map(|square| math::sqrt(square / count));
+        let noise = WheelNoise { drawbar_pull_n, load_n, torque_nm, slip, sinkage_m: 1.0 };
+        let query = SoilQuery { wheel: self.wheel, noise, slope: None, wheels: states };
+        self.take(query, math::sqrt(shared / count), travel_m)?;
+        self.fused(taking_part).ok_or(Refusal::NotRolling)
+    }
+
+    /// Asks the rover network, in turn as it is and what would last without noise.
+    fn take(&mut self, mut query: SoilQuery, shared_slip_std: f32, travel_m: f32) -> Result<(), Refusal> {
+        self.asks_what_lasts = !self.asks_what_lasts;
+        if self.asks_what_lasts && self.average.outputs().is_some() {
+            let noise = &mut query.noise;
+            let lasting = HARDLY_ANY * noise.slip;
+            noise.slip = if shared_slip_std > lasting { shared_slip_std } else { lasting };
+            noise.drawbar_pull_n *= HARDLY_ANY;
+            noise.load_n *= HARDLY_ANY;
+            noise.torque_nm *= HARDLY_ANY;
+            let (outputs, _) = rover_outputs(&query)?;
+            self.average.take_noiseless(&outputs, travel_m);
+        } else {
+            let (outputs, inside) = rover_outputs(&query)?;
+            self.inside_training_range = inside;
+            self.average.take(&outputs, travel_m);
+        }
+        Ok(())
+    }
+
+    fn fused(&self, wheels: PerWheel<bool>) -> Option<RoverSoil> {
+        let outputs = self.average.outputs()?;
+        let posterior = frozen::ROVER.posterior.read(&outputs);
+        Some(RoverSoil {
+            estimate: SoilEstimate::new(&posterior, self.inside_training_range),
+            wheels,
+            instants: self.average.instants(),
+            changes: self.changes.changes(),
+        })
+    }
+}
+
+/// The state that a network takes; none of a wheel that does not roll under load.
+fn state_of(wheel: &WheelEstimate) -> Option<WheelState> {
+    let slip = wheel.slip.filter(|_| wheel.activity == WheelActivity::Rolling)?;
+    Some(WheelState {
+        drawbar_pull_n: wheel.drawbar_pull_n.value,
+        load_n: wheel.normal_load_n.value,
+        torque_nm: wheel.resistive_torque_nm.value,
+        slip: slip.value,
+        sinkage_m: None,
+    })
+}
+
+fn noise_of(wheel: &WheelEstimate) -> WheelNoise {
+    WheelNoise {
+        drawbar_pull_n: wheel.drawbar_pull_n.std,
+        load_n: wheel.normal_load_n.std,
+        torque_nm: wheel.resistive_torque_nm.std,
+        slip: wheel.slip.map_or(1.0, |slip| slip.std),
+        sinkage_m: 1.0,
+    }
+}
