@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::rover::PerAxle;
+
 /// A quantity and how far it may be off.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Estimate {
@@ -49,4 +51,13 @@ pub struct WheelEstimate {
     pub split_std_n: f32,
     /// Drawbar pull by the seed's rule, the bogie's sum shared in proportion to load, N; a front wheel's own.
     pub drawbar_pull_by_load_n: f32,
+}
+
+/// Forces and motion of one side.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct SideEstimate {
+    /// Its wheels.
+    pub wheels: PerAxle<WheelEstimate>,
+    /// Drawbar pull of the bogie's two wheels together, N: what of theirs is observable.
+    pub bogie_drawbar_pull_n: Estimate,
 }

@@ -10,12 +10,15 @@ pub mod hub_force;
 mod rover_estimator;
 mod scalar_filter;
 mod sensor_gate;
+mod side_estimate;
 mod side_estimator;
 pub mod slip_torque;
 mod surprise;
 mod walk_rate;
 mod watch;
 
-pub use estimate::{Estimate, WheelActivity, WheelEstimate};
+pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 pub use health::{EstimatorHealth, PerSensor, SensorHealth};
 pub use rover_estimator::{RoverEstimator, Taken};
+pub use side_estimate::WheelCovariance;
+pub use side_estimator::SideInnovations;

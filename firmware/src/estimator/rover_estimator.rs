@@ -1,10 +1,11 @@
 //! The estimators of the whole rover: a frame in, the state of every wheel out.
 
 use super::attitude::Attitude;
-use super::estimate::WheelEstimate;
+use super::estimate::SideEstimate;
 use super::health::{EstimatorHealth, PerSensor, SensorHealth};
 use super::sensor_gate::{SensorGates, count};
-use super::side_estimator::{SideEstimator, SideFrame};
+use super::side_estimate::WheelCovariance;
+use super::side_estimator::{SideEstimator, SideFrame, SideInnovations};
 use super::surprise::Surprises;
 use crate::filter::InvalidNumber;
 use crate::rover::{PerSide, PerWheel, Rover, Side};
@@ -86,9 +87,19 @@ impl<S: Scalar> RoverEstimator<S> {
         S::constant(0.5) * (left + right) * step_s
     }
 
-    /// What is known of the wheels.
-    pub fn wheels(&self) -> PerWheel<WheelEstimate> {
-        self.sides.as_ref().map(SideEstimator::estimates)
+    /// What is known of the sides.
+    pub fn estimate(&self) -> PerSide<SideEstimate> {
+        self.sides.as_ref().map(SideEstimator::estimate)
+    }
+
+    /// How the errors of each wheel's estimates belong together.
+    pub fn covariances(&self) -> PerWheel<WheelCovariance<S>> {
+        self.sides.as_ref().map(SideEstimator::covariances)
+    }
+
+    /// What the measurements told the filters in the last frame.
+    pub fn innovations(&self) -> PerSide<&SideInnovations<S>> {
+        self.sides.as_ref().map(SideEstimator::innovations)
     }
 
     /// Pitch of the body in the plane of its sides, rad, nose-up.

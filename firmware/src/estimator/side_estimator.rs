@@ -3,11 +3,11 @@
 use super::attitude::Attitude;
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
-use super::estimate::{Estimate, WheelActivity, WheelEstimate};
-use super::hub_force::{ForceReadings, HubForceFilter};
-use super::slip_torque::{SlipTorqueFilter, WheelReadings};
+use super::estimate::WheelActivity;
+use super::hub_force::{self, ForceReadings, HubForceFilter};
+use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
-use crate::filter::InvalidNumber;
+use crate::filter::{Innovation, InvalidNumber};
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
@@ -33,9 +33,7 @@ pub(super) struct SideFrame<S> {
 /// Below this speed of rim and hub a wheel stands, m/s.
 const STANDING: f64 = 1.5e-3;
 /// A wheel whose rim moves at less than this part of its hub's speed is blocked.
-const BLOCKED: f64 = 0.08;
-/// Below this load a wheel is lifted, N; or below three standard deviations.
-const LIFTED_N: f64 = 2.0;
+pub(super) const BLOCKED: f64 = 0.08;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// What the body may turn at while its gyro is silent, rad/s.
@@ -46,12 +44,24 @@ const UNSEEN_TURN: f64 = 0.03;
 pub(super) struct SideEstimator<S> {
     rover: Rover<S>,
     y_m: S,
-    angles: ContactAngleFilter<S>,
-    wheels: PerAxle<SlipTorqueFilter<S>>,
-    forces: HubForceFilter<S>,
-    activity: PerAxle<WheelActivity>,
+    pub(super) angles: ContactAngleFilter<S>,
+    pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
+    pub(super) forces: HubForceFilter<S>,
+    pub(super) activity: PerAxle<WheelActivity>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
+    told: SideInnovations<S>,
+}
+
+/// What the measurements of a side told its filters in the last frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SideInnovations<S> {
+    /// Filter 1 of each wheel: rate and speed of the hub.
+    pub wheels: PerAxle<Innovation<S, { slip_torque::MEASUREMENTS }>>,
+    /// Filter 2, contact angles: velocity of the axis forward and up, angles of rocker and bogie.
+    pub angles: Innovation<S, { contact_angle::MEASUREMENTS }>,
+    /// Filter 2, forces: the cells, the moments on bogie and rocker.
+    pub forces: Innovation<S, { hub_force::MEASUREMENTS }>,
 }
 
 /// What a wheel's filters are told in a frame.
@@ -79,6 +89,11 @@ impl<S: Scalar> SideEstimator<S> {
             forces: HubForceFilter::new(rover, phase)?,
             activity: PerAxle::default(),
             rim_speed_m_s: S::zero(),
+            told: SideInnovations {
+                wheels: PerAxle::all(Innovation::nothing()),
+                angles: Innovation::nothing(),
+                forces: Innovation::nothing(),
+            },
         })
     }
 
@@ -90,6 +105,11 @@ impl<S: Scalar> SideEstimator<S> {
             resets.fold(self.angles.resets().saturating_add(self.forces.resets()), u32::saturating_add),
             relearned.fold(self.angles.relearned().saturating_add(self.forces.relearned()), u32::saturating_add),
         )
+    }
+
+    /// What the measurements told in the last frame.
+    pub fn innovations(&self) -> &SideInnovations<S> {
+        &self.told
     }
 
     /// How fast this side travels, m/s, forward or back.
@@ -105,6 +125,7 @@ impl<S: Scalar> SideEstimator<S> {
         let pitch = (attitude.pitch_rad(), attitude.pitch_variance());
         let told = self.angles.tick(step_s, self.rim_speed_m_s, pitch, &readings, &self.rover.noise);
         surprises.of_side(&told);
+        self.told.angles = told;
         self.motion = self.angles.motion();
         let wheels = self.wheel_frames(&readings, attitude.pitch_rad().sin_cos());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
@@ -180,9 +201,12 @@ impl<S: Scalar> SideEstimator<S> {
     ) {
         let noise = &self.rover.noise;
         let mut changed = false;
-        let filters = self.wheels.as_mut().zip(self.activity.as_mut()).zip(surprises.wheels.as_mut());
+        let filters = self.wheels.as_mut().zip(self.activity.as_mut());
+        let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
-        for (((filter, activity), surprise), (wheel, (rate, torque))) in filters.zip(inputs).into_array() {
+        for (((filter, activity), (told, surprise)), (wheel, (rate, torque))) in
+            filters.zip(told).zip(inputs).into_array()
+        {
             let [before, _, _] = *filter.estimate().mean();
             let rim = self.rover.wheel.radius_m * before;
             let now = what_it_does(rim, wheel.hub_speed_m_s);
@@ -202,7 +226,8 @@ impl<S: Scalar> SideEstimator<S> {
                 motor_torque_nm: torque,
                 motor_torque_std_nm: noise.motor_torque_nm,
             };
-            surprise.of_wheel(&filter.tick(step_s, speed * step_s, &readings));
+            *told = filter.tick(step_s, speed * step_s, &readings);
+            surprise.of_wheel(told);
         }
         if changed {
             self.forces.forget();
@@ -236,7 +261,8 @@ impl<S: Scalar> SideEstimator<S> {
         let [.., rocker_pitch, bogie_pitch] = *self.angles.estimate().mean();
         self.forces.split(self.split_along_bogie_n(bogie_pitch));
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
-        surprises.of_cells(&self.forces.tick(travel, bogie_pitch - rocker_pitch, &readings));
+        self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, &readings);
+        surprises.of_cells(&self.told.forces);
     }
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
@@ -249,7 +275,8 @@ impl<S: Scalar> SideEstimator<S> {
         along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
     }
 
-    fn bogie_wheels(&self, bogie_pitch: S) -> (BogieHub<S>, BogieHub<S>) {
+    /// The wheels of the bogie along their contacts, with the split that was taken last.
+    pub(super) fn bogie_wheels(&self, bogie_pitch: S) -> (BogieHub<S>, BogieHub<S>) {
         let [_, _, middle, rear, _, _] = *self.angles.estimate().mean();
         let forces = self.forces.forces_n();
         let hub = |force: Planar<S>, contact: S, filter: &SlipTorqueFilter<S>| {
@@ -261,127 +288,16 @@ impl<S: Scalar> SideEstimator<S> {
         };
         (hub(forces.middle, middle, &self.wheels.middle), hub(forces.rear, rear, &self.wheels.rear))
     }
-
-    /// What is known of the wheels now.
-    pub fn estimates(&self) -> PerAxle<WheelEstimate> {
-        let angles = self.angles.estimate();
-        let [_, front, middle, rear, rocker_pitch, bogie_pitch] = *angles.mean();
-        let forces = self.forces.forces_n();
-        let (middle_wheel, rear_wheel) = self.bogie_wheels(bogie_pitch);
-        let sum = middle_wheel.drawbar_pull_n + rear_wheel.drawbar_pull_n;
-        let split = DrawbarSplit::by_torque(&middle_wheel.wheel, &rear_wheel.wheel, sum);
-        let by_load = DrawbarSplit::by_load_n(middle_wheel.wheel.load_n, rear_wheel.wheel.load_n, sum);
-        let half = S::constant(0.5);
-        let (zero, one) = (S::zero(), S::one());
-        let split_std = half * split.std_n;
-        let pieces = PerAxle {
-            front: Piece {
-                contact: front,
-                // γ less the pitch of the rocker.
-                angle: [zero, one, zero, zero, -one, zero],
-                pitch: rocker_pitch,
-                force: forces.front,
-                along: [zero, zero, zero, one, zero],
-                square: [one, zero, zero, zero, zero],
-                split_std: zero,
-                by_load: None,
-            },
-            middle: Piece {
-                contact: middle,
-                angle: [zero, zero, one, zero, zero, -one],
-                pitch: bogie_pitch,
-                force: forces.middle,
-                along: [zero, zero, zero, zero, half],
-                square: [zero, one, zero, zero, zero],
-                split_std,
-                by_load: Some(half * (sum + by_load)),
-            },
-            rear: Piece {
-                contact: rear,
-                angle: [zero, zero, zero, one, zero, -one],
-                pitch: bogie_pitch,
-                force: forces.rear,
-                along: [zero, zero, zero, zero, half],
-                square: [zero, zero, one, zero, zero],
-                split_std,
-                by_load: Some(half * (sum - by_load)),
-            },
-        };
-        let stds = angles.stds();
-        let [_, front_std, middle_std, rear_std, _, _] = stds;
-        let stds = PerAxle { front: front_std, middle: middle_std, rear: rear_std };
-        pieces.zip(stds).zip(self.wheels.as_ref().zip(self.activity)).map(
-            |((piece, contact_std), (filter, activity))| {
-                let wheel = self.forces_of(&piece);
-                let [_, torque, _] = *filter.estimate().mean();
-                let [_, torque_std, _] = filter.estimate().stds();
-                let lifted = wheel.0.value < LIFTED_N as f32 || wheel.0.value < 3.0 * wheel.0.std;
-                WheelEstimate {
-                    activity: if lifted { WheelActivity::Lifted } else { activity },
-                    slip: self.slip(filter, activity),
-                    shared_slip_std: filter.shared_slip_variance().sqrt().to_f32(),
-                    resistive_torque_nm: published(torque, torque_std),
-                    contact_angle_rad: published(piece.contact, contact_std),
-                    normal_load_n: wheel.0,
-                    drawbar_pull_n: wheel.1,
-                    split_std_n: piece.split_std.to_f32(),
-                    drawbar_pull_by_load_n: piece.by_load.map_or(wheel.1.value, Scalar::to_f32),
-                }
-            },
-        )
-    }
-
-    /// Normal load and drawbar pull: the hub's force along the contact, with the errors of force and angle.
-    fn forces_of(&self, piece: &Piece<S>) -> (Estimate, Estimate) {
-        let angle = (piece.contact - piece.pitch).sin_cos();
-        let (sine, cosine) = angle;
-        let (load, pull) = along_contact(piece.force, angle);
-        let (_, angle_variance) = self.angles.estimate().weighted_sum(&piece.angle);
-        let sum = |square: S, along: S| {
-            let mut weights = [S::zero(); super::hub_force::STATES];
-            let parts = piece.square.iter().zip(&piece.along);
-            weights.iter_mut().zip(parts).for_each(|(weight, (s, a))| *weight = square * *s + along * *a);
-            self.forces.estimate().weighted_sum(&weights).1
-        };
-        let split_variance = piece.split_std * piece.split_std;
-        let load_variance = sum(cosine, -sine) + pull * pull * angle_variance + sine * sine * split_variance;
-        let pull_variance = sum(sine, cosine) + load * load * angle_variance + cosine * cosine * split_variance;
-        (published(load, load_variance.sqrt()), published(pull, pull_variance.sqrt()))
-    }
-
-    fn slip(&self, filter: &SlipTorqueFilter<S>, activity: WheelActivity) -> Option<Estimate> {
-        let [_, _, slip] = *filter.estimate().mean();
-        let [_, _, std] = filter.estimate().stds();
-        match activity {
-            WheelActivity::Standing => None,
-            WheelActivity::Blocked => Some(Estimate { value: -1.0, std: BLOCKED as f32 }),
-            _ => Some(published(slip.max(-S::one()).min(S::one()), std)),
-        }
-    }
 }
 
 /// A wheel of the bogie, seen along its contact.
-struct BogieHub<S> {
-    wheel: BogieWheel<S>,
-    drawbar_pull_n: S,
+pub(super) struct BogieHub<S> {
+    /// What its share is told from.
+    pub wheel: BogieWheel<S>,
+    /// Drawbar pull, N.
+    pub drawbar_pull_n: S,
     /// Sine and cosine of the contact angle less the bogie's pitch.
-    angle: (S, S),
-}
-
-/// What a wheel's forces are put together from.
-struct Piece<S> {
-    contact: S,
-    angle: [S; contact_angle::STATES],
-    pitch: S,
-    force: Planar<S>,
-    along: [S; super::hub_force::STATES],
-    square: [S; super::hub_force::STATES],
-    split_std: S,
-    by_load: Option<S>,
-}
-
-fn published<S: Scalar>(value: S, std: S) -> Estimate {
-    Estimate { value: value.to_f32(), std: std.to_f32() }
+    pub angle: (S, S),
 }
 
 /// What a wheel does, by the speeds of its rim and its hub, m/s.

@@ -67,6 +67,11 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
         (sum(&self.mean), variance)
     }
 
+    /// Covariance of two weighted sums of the numbers.
+    pub fn covariance_of_sums(&self, one: &[T; N], other: &[T; N]) -> T {
+        self.root.iter().fold(T::zero(), |sum, column| sum + dot(one, column) * dot(other, column))
+    }
+
     /// Whether every number in it is finite.
     pub(super) fn is_finite(&self) -> bool {
         self.mean.iter().chain(self.root.as_flattened()).all(|value| value.is_finite())

@@ -83,3 +83,16 @@ pub struct Innovation<T, const M: usize> {
     /// How many measurements were used.
     pub degrees_of_freedom: usize,
 }
+
+impl<T: Scalar, const M: usize> Innovation<T, M> {
+    /// What a filter was told that has seen no measurement yet.
+    pub fn nothing() -> Self {
+        let residual = Residual { fate: Fate::Missing, innovation: T::zero(), std: T::zero() };
+        Self {
+            fusion: Fusion::NothingToFuse,
+            residuals: [residual; M],
+            normalised_square: T::zero(),
+            degrees_of_freedom: 0,
+        }
+    }
+}

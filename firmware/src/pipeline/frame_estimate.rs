@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::estimator::WheelEstimate;
+use crate::estimator::{Estimate, WheelEstimate};
 use crate::fusion::RoverSoil;
-use crate::rover::PerWheel;
+use crate::rover::{PerSide, PerWheel};
 use crate::soil::{Refusal, SoilEstimate};
 
 /// Everything that is known after a frame.
@@ -14,6 +14,8 @@ pub struct FrameEstimate {
     pub time_us: u64,
     /// Forces and motion of the wheels.
     pub wheels: PerWheel<WheelEstimate>,
+    /// Drawbar pull of each bogie's two wheels together, N: what of theirs is observable.
+    pub bogie_drawbar_pull_n: PerSide<Estimate>,
     /// The soil under each wheel by itself, from this instant alone.
     pub wheel_soils: PerWheel<Result<SoilEstimate, Refusal>>,
     /// The soil under the rover.

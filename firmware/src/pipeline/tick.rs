@@ -25,8 +25,13 @@ impl Pipeline {
         // A rover that passes has no number that a filter refuses.
         let estimator = RoverEstimator::new(rover).map_err(|_| GeometryError::Coordinate)?;
         let wheel_soils = PerSide::both(PerAxle::all(Err(Refusal::NotRolling)));
-        let last =
-            FrameEstimate { time_us: 0, wheels: PerWheel::default(), wheel_soils, soil: Err(Refusal::NotRolling) };
+        let last = FrameEstimate {
+            time_us: 0,
+            wheels: PerWheel::default(),
+            bogie_drawbar_pull_n: PerSide::default(),
+            wheel_soils,
+            soil: Err(Refusal::NotRolling),
+        };
         Ok(Self { estimator, soil: SoilOverTime::new(rover), last })
     }
 
@@ -34,12 +39,19 @@ impl Pipeline {
     /// before, or comes from before it, changes nothing: the estimate is that of the one before.
     pub fn tick(&mut self, frame: &SensorFrame) -> FrameEstimate {
         if let Taken::Used(travel_m) = self.estimator.tick(frame) {
-            let wheels = self.estimator.wheels();
+            let sides = self.estimator.estimate();
+            let wheels = sides.map(|side| side.wheels);
+            let bogie_drawbar_pull_n = sides.map(|side| side.bogie_drawbar_pull_n);
             let pitch = Estimate { value: self.estimator.pitch_rad(), std: self.estimator.pitch_std_rad() };
             let (wheel_soils, soil) = self.soil.tick(&wheels, pitch, travel_m);
-            self.last = FrameEstimate { time_us: frame.time_us, wheels, wheel_soils, soil };
+            self.last = FrameEstimate { time_us: frame.time_us, wheels, bogie_drawbar_pull_n, wheel_soils, soil };
         }
         self.last
+    }
+
+    /// The filters, for whoever tests them.
+    pub fn estimator(&self) -> &RoverEstimator<f32> {
+        &self.estimator
     }
 
     /// How sensors and filters do.

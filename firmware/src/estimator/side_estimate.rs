@@ -1,0 +1,184 @@
+//! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
+
+use super::contact_angle;
+use super::drawbar_split::{DrawbarSplit, along_contact};
+use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
+use super::hub_force;
+use super::side_estimator::{BLOCKED, SideEstimator};
+use super::slip_torque::SlipTorqueFilter;
+use crate::rover::{Axle, PerAxle, Planar};
+use crate::scalar::Scalar;
+
+/// Below this load a wheel is lifted, N; or below three standard deviations.
+const LIFTED_N: f32 = 2.0;
+
+/// How the errors of one wheel's estimates belong together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WheelCovariance<S> {
+    /// Covariance of filter 1: resistive torque, N·m, and slip.
+    pub torque_slip: [[S; 2]; 2],
+    /// Covariance of filter 2: contact angle, rad, normal load and drawbar pull, N.
+    pub contact: [[S; 3]; 3],
+}
+
+/// Forces along one contact, and how they hang on the states of filter 2.
+struct ContactForces<S> {
+    contact_angle_rad: S,
+    load_n: S,
+    pull_n: S,
+    /// Contact angle, load and pull by the states of the contact-angle filter.
+    by_angles: [[S; contact_angle::STATES]; 3],
+    /// The same by the states of the hub-force filter.
+    by_forces: [[S; hub_force::STATES]; 3],
+    /// The same by the split between the wheels of a bogie: one standard deviation, N.
+    by_split: [S; 3],
+}
+
+impl<S: Scalar> SideEstimator<S> {
+    /// What is known of the side now.
+    pub fn estimate(&self) -> SideEstimate {
+        let PerAxle { front, middle, rear } = self.contacts();
+        let sum = middle.pull_n + rear.pull_n;
+        let half = S::constant(0.5);
+        let by_load = DrawbarSplit::by_load_n(middle.load_n, rear.load_n, sum);
+        let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
+        let bogie_drawbar_pull_n = self.sum_of_pulls(&middle, &rear);
+        let contacts = PerAxle { front, middle, rear };
+        let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).map(
+            |((contact, by_load), (filter, activity))| WheelEstimate {
+                drawbar_pull_by_load_n: by_load.to_f32(),
+                ..self.wheel(&contact, filter, activity)
+            },
+        );
+        SideEstimate { wheels, bogie_drawbar_pull_n }
+    }
+
+    /// How the errors of each wheel's estimates belong together.
+    pub fn covariances(&self) -> PerAxle<WheelCovariance<S>> {
+        let entry =
+            |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
+        self.contacts().zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
+            torque_slip: [[entry(filter, 1, 1), entry(filter, 1, 2)], [entry(filter, 2, 1), entry(filter, 2, 2)]],
+            contact: self.covariance(&contact),
+        })
+    }
+
+    fn wheel(
+        &self,
+        contact: &ContactForces<S>,
+        filter: &SlipTorqueFilter<S>,
+        activity: WheelActivity,
+    ) -> WheelEstimate {
+        let [angle_std, load_std, pull_std] = self.variances(contact).map(S::sqrt);
+        let [_, torque, _] = *filter.estimate().mean();
+        let [_, torque_std, _] = filter.estimate().stds();
+        let normal_load_n = published(contact.load_n, load_std);
+        let lifted = normal_load_n.value < LIFTED_N || normal_load_n.value < 3.0 * normal_load_n.std;
+        let [_, _, split_std] = contact.by_split;
+        WheelEstimate {
+            activity: if lifted { WheelActivity::Lifted } else { activity },
+            slip: slip(filter, activity),
+            shared_slip_std: filter.shared_slip_variance().sqrt().to_f32(),
+            resistive_torque_nm: published(torque, torque_std),
+            contact_angle_rad: published(contact.contact_angle_rad, angle_std),
+            normal_load_n,
+            drawbar_pull_n: published(contact.pull_n, pull_std),
+            split_std_n: split_std.abs().to_f32(),
+            drawbar_pull_by_load_n: contact.pull_n.to_f32(),
+        }
+    }
+
+    /// The contacts, with the split of the bogie's pull that the torques tell now.
+    fn contacts(&self) -> PerAxle<ContactForces<S>> {
+        let [_, front, middle, rear, rocker_pitch, bogie_pitch] = *self.angles.estimate().mean();
+        let forces = self.forces.forces_n();
+        let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch);
+        let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
+        let split = S::constant(0.5) * DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
+        PerAxle {
+            front: contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero()),
+            middle: contact_forces(Axle::Middle, middle, bogie_pitch, forces.middle, split),
+            rear: contact_forces(Axle::Rear, rear, bogie_pitch, forces.rear, -split),
+        }
+    }
+
+    fn variances(&self, contact: &ContactForces<S>) -> [S; 3] {
+        let mut variances = contact.by_split.map(|split| split * split);
+        let rows = contact.by_angles.iter().zip(&contact.by_forces);
+        for (variance, (by_angles, by_forces)) in variances.iter_mut().zip(rows) {
+            *variance +=
+                self.angles.estimate().weighted_sum(by_angles).1 + self.forces.estimate().weighted_sum(by_forces).1;
+        }
+        variances
+    }
+
+    fn covariance(&self, contact: &ContactForces<S>) -> [[S; 3]; 3] {
+        let rows = || contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split);
+        let mut covariance = [[S::zero(); 3]; 3];
+        for (line, ((angles, forces), split)) in covariance.iter_mut().zip(rows()) {
+            for (place, ((other_angles, other_forces), other_split)) in line.iter_mut().zip(rows()) {
+                *place = self.angles.estimate().covariance_of_sums(angles, other_angles)
+                    + self.forces.estimate().covariance_of_sums(forces, other_forces)
+                    + split * other_split;
+            }
+        }
+        covariance
+    }
+
+    /// The sum of a bogie's drawbar pulls, which does not hang on their split but for the contacts' difference.
+    fn sum_of_pulls(&self, middle: &ContactForces<S>, rear: &ContactForces<S>) -> Estimate {
+        let ([.., middle_angles], [.., rear_angles]) = (&middle.by_angles, &rear.by_angles);
+        let ([.., middle_forces], [.., rear_forces]) = (&middle.by_forces, &rear.by_forces);
+        let ([.., middle_split], [.., rear_split]) = (middle.by_split, rear.by_split);
+        let by_angles = self.angles.estimate().weighted_sum(&sums(middle_angles, rear_angles)).1;
+        let by_forces = self.forces.estimate().weighted_sum(&sums(middle_forces, rear_forces)).1;
+        let split = middle_split + rear_split;
+        published(middle.pull_n + rear.pull_n, (by_angles + by_forces + split * split).sqrt())
+    }
+}
+
+/// Forces along a contact of a hub, with the force on it in the coordinates of its link at a pitch.
+fn contact_forces<S: Scalar>(axle: Axle, contact: S, pitch: S, force: Planar<S>, split: S) -> ContactForces<S> {
+    let (zero, one, half) = (S::zero(), S::one(), S::constant(0.5));
+    let (sine, cosine) = (contact - pitch).sin_cos();
+    let (load_n, pull_n) = along_contact(force, (sine, cosine));
+    // A contact that is steeper by dγ sees W + DP dγ·(−1) as load and DP + W dγ as pull.
+    let (angle, against_link) = match axle {
+        Axle::Front => ([zero, one, zero, zero, zero, zero], [zero, one, zero, zero, -one, zero]),
+        Axle::Middle => ([zero, zero, one, zero, zero, zero], [zero, zero, one, zero, zero, -one]),
+        Axle::Rear => ([zero, zero, zero, one, zero, zero], [zero, zero, zero, one, zero, -one]),
+    };
+    let by_hub = |across: S, along: S| match axle {
+        Axle::Front => [across, zero, zero, along, zero],
+        Axle::Middle => [zero, across, zero, zero, half * along],
+        Axle::Rear => [zero, zero, across, zero, half * along],
+    };
+    ContactForces {
+        contact_angle_rad: contact,
+        load_n,
+        pull_n,
+        by_angles: [angle, against_link.map(|entry| -pull_n * entry), against_link.map(|entry| load_n * entry)],
+        by_forces: [by_hub(zero, zero), by_hub(cosine, -sine), by_hub(sine, cosine)],
+        by_split: [zero, -sine * split, cosine * split],
+    }
+}
+
+fn sums<S: Scalar, const N: usize>(one: &[S; N], other: &[S; N]) -> [S; N] {
+    let mut sums = *one;
+    sums.iter_mut().zip(other).for_each(|(sum, entry)| *sum += *entry);
+    sums
+}
+
+fn published<S: Scalar>(value: S, std: S) -> Estimate {
+    Estimate { value: value.to_f32(), std: std.to_f32() }
+}
+
+fn slip<S: Scalar>(filter: &SlipTorqueFilter<S>, activity: WheelActivity) -> Option<Estimate> {
+    let [_, _, slip] = *filter.estimate().mean();
+    let [_, _, std] = filter.estimate().stds();
+    match activity {
+        WheelActivity::Standing => None,
+        WheelActivity::Blocked => Some(Estimate { value: -1.0, std: BLOCKED as f32 }),
+        _ => Some(published(slip.max(-S::one()).min(S::one()), std)),
+    }
+}
