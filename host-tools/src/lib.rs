@@ -11,5 +11,6 @@ pub mod process;
 pub mod qemu;
 pub mod report;
 pub mod setup;
+pub mod simulate;
 pub mod soil_catalogue;
 pub mod train;

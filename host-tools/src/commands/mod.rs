@@ -5,6 +5,7 @@ mod forward;
 mod identify;
 mod run;
 mod setup;
+mod simulate;
 mod soils;
 mod test;
 mod train;
@@ -38,6 +39,11 @@ pub enum Command {
     /// decides, and every other column, stays as it was written. A row that gives neither, has no slip, or asks for a
     /// load that the soil cannot carry is an error: then nothing is written.
     Forward(forward::Arguments),
+    /// A drive of a simulated rocker-bogie: frames of its sensors, and what was true beside
+    ///
+    /// Writes FRAMES.csv, one row a frame, and FRAMES.truth.csv. Soil, terrain, rim speeds and noise of a scenario are drawn
+    /// from the seed; the same seed gives the same bytes.
+    Simulate(simulate::Arguments),
     /// The catalogue of soils of the literature, with sources
     Soils,
     /// Find or install what the flight image is built and run with: the Arm target and QEMU
@@ -58,6 +64,7 @@ impl Command {
             Self::Bench(subject) => subject.execute(),
             Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
+            Self::Simulate(arguments) => simulate::execute(&arguments),
             Self::Soils => soils::execute(),
             Self::Setup(arguments) => setup::execute(&arguments),
             Self::Test(arguments) => test::execute(&arguments),

@@ -2,8 +2,13 @@
 
 pub mod atomic_write;
 pub mod campaign;
+pub mod frame_file;
+pub mod number_stream;
+pub mod rover_file;
+pub mod sensor_channels;
 pub mod soil_file;
 pub mod table;
 pub mod text;
 pub mod toml_file;
+pub mod truth_file;
 pub mod wheel_file;

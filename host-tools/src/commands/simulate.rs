@@ -1,0 +1,182 @@
+//! `kapvik simulate`: sensor frames of a drive, with truth.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::time::Duration;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use kapvik_firmware::rover::Rover;
+use kapvik_firmware::terramechanics::Soil;
+
+use crate::data::atomic_write::write_atomically;
+use crate::data::rover_file::RoverFile;
+use crate::data::soil_file::SoilTable;
+use crate::data::truth_file::{truth_path, write_truth};
+use crate::data::{frame_file, truth_file};
+use crate::error::HostError;
+use crate::simulate::effects::{KNOWN, SensorEffects};
+use crate::simulate::faults::{FAILURES, Fault};
+use crate::simulate::ground_soils::{Becomes, Change};
+use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
+use crate::soil_catalogue::{Completion, catalogue};
+
+/// What to simulate, and where it goes.
+#[derive(Args)]
+pub struct Arguments {
+    /// What all chance is drawn from: soil, ground, rim speeds, noise
+    #[arg(long)]
+    seed: u64,
+    /// Where the frames go; the truth goes beside, to FRAMES.truth.csv
+    #[arg(short, long, value_name = "FRAMES.csv")]
+    output: PathBuf,
+    /// The kind of drive
+    #[arg(long, value_enum, default_value = "traverse")]
+    scenario: Scenario,
+    /// How long it takes, s, in place of the scenario's own length
+    #[arg(long, value_name = "S", value_parser = above_zero)]
+    duration: Option<f64>,
+    /// Frames a second
+    #[arg(long, value_name = "HZ", value_parser = above_zero, default_value_t = RATE_HZ)]
+    rate: f64,
+    /// The rover; without: the assumed set K0, which also stands in for keys that the file lacks
+    #[arg(long, value_name = "R.toml")]
+    rover: Option<PathBuf>,
+    /// The soil, in place of one that is drawn: a name of `kapvik soils` or a file as of `kapvik forward`
+    #[arg(long, value_name = "NAME|S.toml")]
+    soil: Option<String>,
+    /// Another soil from METRES on, in place of the scenario's; also ice-cemented or sublimated: the soil before it, changed
+    #[arg(long, value_name = "SOIL@METRES")]
+    then: Vec<String>,
+    /// An effect or a fault, may be repeated
+    ///
+    /// Effects: drive-friction (N·m), drive-viscosity (N·m·s/rad), torque-scale, force-bias (N), force-drift (N/h),
+    /// crosstalk, rolling-radius (m), pitch-misalignment (rad), velocity-scale, latency (s), each with a number.
+    ///
+    /// Faults: nan, inf, outlier (a million), stuck, dropout, each with SENSOR@T1-T2: a column of the frames, or a pattern with
+    /// `*`, and times in s. repeat-frames and skip-frames take @T1-T2.
+    #[arg(long, value_name = "ID=VALUE")]
+    effect: Vec<String>,
+}
+
+/// Simulates the drive and writes frames and truth.
+///
+/// # Errors
+/// Where an argument or a file is not what is expected, or the rover gets stuck: then nothing is written.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let rover = match &arguments.rover {
+        Some(path) => RoverFile::read(path)?.rover,
+        None => Rover::assumed(),
+    };
+    let (effects, faults) = effects_and_faults(&arguments.effect)?;
+    let soil = arguments.soil.as_deref().map(soil).transpose()?;
+    let changes = arguments.then.iter().map(|text| change(text)).collect::<Result<Vec<_>, _>>()?;
+    let options = Options {
+        duration_s: arguments.duration,
+        rate_hz: Some(arguments.rate),
+        soil,
+        changes: (!changes.is_empty()).then_some(changes),
+        effects,
+        faults,
+    };
+    let traverse = Traverse::new(arguments.scenario, arguments.seed, &rover, &options)
+        .map_err(|error| HostError::Failed(error.to_string()))?;
+    let truth = truth_path(&arguments.output);
+    let told = write(&arguments.output, &truth, traverse)?;
+    println!("{told}, seed {}", arguments.seed);
+    println!("{} and {}", arguments.output.display(), truth.display());
+    Ok(())
+}
+
+/// Writes both files, row by row, and gives what is to be told.
+fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Result<String, HostError> {
+    let bar = progress(traverse.frames());
+    let (mut written, mut last_s, mut way_m) = (0_u64, 0.0, 0.0);
+    write_atomically(frames_path, |frames| {
+        write_atomically(truths_path, |truths| {
+            frame_file::write_header(frames).map_err(HostError::file(frames_path))?;
+            truth_file::write_header(truths).map_err(HostError::file(truths_path))?;
+            for row in &mut traverse {
+                let (frame, truth) = row.map_err(|error| HostError::Failed(error.to_string()))?;
+                frame_file::write_frame(frames, &frame).map_err(HostError::file(frames_path))?;
+                write_truth(truths, &truth).map_err(HostError::file(truths_path))?;
+                (written, last_s, way_m) = (written + 1, 1.0e-6 * frame.time_us as f64, truth.x_m);
+                bar.inc(1);
+            }
+            truths.flush().map_err(HostError::file(truths_path))
+        })
+    })?;
+    bar.finish_and_clear();
+    let first = traverse.world().soils.at(0.0);
+    Ok(format!(
+        "{written} frames, {last_s} s, {way_m:.2} m, on c = {:.0} Pa, phi = {:.1}°, K = {:.1} mm",
+        first.cohesion_pa,
+        first.friction_angle_rad.to_degrees(),
+        1e3 * first.shear_modulus_m
+    ))
+}
+
+fn progress(frames: u64) -> ProgressBar {
+    let bar = ProgressBar::new(frames);
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} frames {elapsed}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    let number = f64::from_str(text).ok().filter(|number| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+/// A soil by its name in the catalogue, or from a file.
+fn soil(name: &str) -> Result<Soil<f64>, HostError> {
+    let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
+    match soils.iter().find(|soil| soil.id == name) {
+        Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {
+            HostError::Failed(format!("{name}: its source leaves open what the equations need ({missing:?})"))
+        }),
+        None if name.ends_with(".toml") => SoilTable::read_complete(Path::new(name)),
+        None => Err(HostError::Failed(format!(
+            "{name}: expected a file S.toml, or a soil of the catalogue: {}",
+            soils.iter().map(|soil| soil.id.as_str()).collect::<Vec<_>>().join(", ")
+        ))),
+    }
+}
+
+fn change(text: &str) -> Result<Change, HostError> {
+    let expected = || HostError::Failed(format!("--then {text}: expected SOIL@METRES"));
+    let (name, metres) = text.rsplit_once('@').ok_or_else(expected)?;
+    let from_m = f64::from_str(metres).ok().filter(|metres| metres.is_finite()).ok_or_else(expected)?;
+    let becomes = match name {
+        "ice-cemented" => Becomes::IceCemented,
+        "sublimated" => Becomes::Sublimated,
+        name => Becomes::Soil(soil(name)?),
+    };
+    Ok(Change { from_m, becomes })
+}
+
+fn effects_and_faults(texts: &[String]) -> Result<(SensorEffects, Vec<Fault>), HostError> {
+    let mut effects = SensorEffects::default();
+    let mut faults = Vec::new();
+    for text in texts {
+        let refuse = |message: String| HostError::Failed(format!("--effect {text}: {message}"));
+        let (id, value) = text.split_once('=').ok_or_else(|| refuse("expected ID=VALUE".into()))?;
+        if let Some((_, failure)) = FAILURES.iter().find(|(name, _)| *name == id) {
+            faults.push(Fault::parse(*failure, value).map_err(refuse)?);
+            continue;
+        }
+        let number = f64::from_str(value).ok().filter(|number| number.is_finite());
+        let known = KNOWN.iter().any(|known| known.id == id);
+        match number {
+            Some(number) if effects.set(id, number) => {}
+            None if known => return Err(refuse(format!("`{value}`: expected a number"))),
+            _ => {
+                let ids = KNOWN.iter().map(|known| known.id).chain(FAILURES.iter().map(|(name, _)| *name));
+                let ids = ids.collect::<Vec<_>>().join(", ");
+                return Err(refuse(format!("no effect is named `{id}`: expected one of {ids}")));
+            }
+        }
+    }
+    Ok((effects, faults))
+}

@@ -1,0 +1,107 @@
+//! Sensor frames in CSV, one row each: read and written frame by frame.
+
+use std::io::Write;
+use std::path::Path;
+
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+use super::number_stream::{NumberStream, Row, microseconds, write_seconds};
+use super::sensor_channels::{names, values, values_mut};
+use crate::error::HostError;
+
+/// The column of the time.
+pub(super) const TIME: &str = "t_s";
+
+/// The frames of a file, in the order of time.
+///
+/// Needed are `t_s`, which must rise from row to row, and at least one sensor. A sensor without a column is absent, one
+/// with an empty field gave nothing in that frame, and columns of other names are passed over. `NaN` and `inf` are values:
+/// a sensor may say so, and it is for the flight software to refuse them.
+pub struct FrameReader {
+    stream: NumberStream,
+    time: usize,
+    /// Where each sensor stands in a row, in the order of the channels.
+    columns: Vec<Option<usize>>,
+    last_us: Option<u64>,
+}
+
+impl FrameReader {
+    /// Opens a file of frames.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or its header has no time or no sensor.
+    pub fn open(path: &Path) -> Result<Self, HostError> {
+        Self::new(NumberStream::open(path)?)
+    }
+
+    /// The frames of a table.
+    ///
+    /// # Errors
+    /// Where its header has no time or no sensor.
+    pub fn new(stream: NumberStream) -> Result<Self, HostError> {
+        let time = stream.required_column(TIME)?;
+        let columns: Vec<_> = names().iter().map(|name| stream.column(name)).collect();
+        if columns.iter().all(Option::is_none) {
+            let expected = "no sensor: expected columns such as wheel_rate_fl_rad_s, load_cell_fl_n, accel_x_m_s2";
+            return Err(stream.error(1, 1, format!("{expected} in the header (found {})", stream.header().join(", "))));
+        }
+        Ok(Self { stream, time, columns, last_us: None })
+    }
+
+    fn frame(&mut self, row: &Row) -> Result<SensorFrame, HostError> {
+        let time_us = self.time(row)?;
+        let mut frame = SensorFrame { time_us, ..SensorFrame::default() };
+        for (value, column) in values_mut(&mut frame).zip(&self.columns) {
+            if let Some(column) = *column {
+                *value = self.stream.number(row, column)?;
+            }
+        }
+        self.last_us = Some(time_us);
+        Ok(frame)
+    }
+
+    fn time(&self, row: &Row) -> Result<u64, HostError> {
+        let number: Option<f64> = self.stream.number(row, self.time)?;
+        let refuse = |found: String, expected: &str| {
+            Err(self.stream.error_at(row, self.time, format!("{found}: expected {expected}")))
+        };
+        let Some(time_s) = number else { return refuse("empty".into(), "a time in s") };
+        let Some(time_us) = microseconds(time_s) else { return refuse(time_s.to_string(), "a time of 0 s or more") };
+        match self.last_us {
+            Some(last) if time_us < last => refuse(format!("{time_s}: time runs backwards"), "a later time than before"),
+            Some(last) if time_us == last => refuse(format!("{time_s}: this time again"), "a later time than before"),
+            _ => Ok(time_us),
+        }
+    }
+}
+
+impl Iterator for FrameReader {
+    type Item = Result<SensorFrame, HostError>;
+    fn next(&mut self) -> Option<Self::Item> {
+        let row = self.stream.next_row().transpose()?;
+        Some(row.and_then(|row| self.frame(&row)))
+    }
+}
+
+/// Writes the header of a file of frames, with a column for every sensor.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_header(out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(out, "{TIME},{}", names().join(","))
+}
+
+/// Writes a frame as a row, each number in as many digits as lead back to it.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_frame(out: &mut dyn Write, frame: &SensorFrame) -> std::io::Result<()> {
+    write_seconds(out, frame.time_us)?;
+    for value in values(frame) {
+        match value {
+            Some(value) => write!(out, ",{value}")?,
+            None => write!(out, ",")?,
+        }
+    }
+    writeln!(out)
+}

@@ -1,0 +1,171 @@
+//! Long CSV tables of numbers, row by row: no more than a row is ever in memory.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use csv::{ReaderBuilder, StringRecord};
+
+use crate::error::HostError;
+
+/// A row longer than this many bytes is refused: such a file is not a table.
+const LONGEST_ROW: u64 = 1 << 20;
+
+/// A table that is read from its start to its end.
+pub struct NumberStream {
+    path: PathBuf,
+    input: Box<dyn BufRead>,
+    line: u64,
+    text: Vec<u8>,
+    header: Vec<String>,
+}
+
+/// A row of a table: its fields as they were written.
+#[derive(Debug, Clone)]
+pub struct Row {
+    line: u64,
+    fields: StringRecord,
+}
+
+impl NumberStream {
+    /// Opens a table and reads its header.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or has no header that names each column once.
+    pub fn open(path: &Path) -> Result<Self, HostError> {
+        let file = File::open(path).map_err(HostError::file(path))?;
+        Self::new(path, Box::new(BufReader::new(file)))
+    }
+
+    /// A table that comes from elsewhere, under the name of a file.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn new(path: &Path, input: Box<dyn BufRead>) -> Result<Self, HostError> {
+        let mut stream = Self { path: path.to_path_buf(), input, line: 0, text: Vec::new(), header: Vec::new() };
+        let Some(row) = stream.next_row()? else {
+            return Err(stream.error(1, 1, "the file is empty: expected a header with the names of the columns"));
+        };
+        stream.header = row.fields.iter().map(|name| name.trim().to_owned()).collect();
+        for (place, name) in stream.header.iter().enumerate() {
+            let column = place as u64 + 1;
+            if name.is_empty() {
+                return Err(stream.error(row.line, column, "this column has no name: expected one in the header"));
+            }
+            if stream.header.iter().take(place).any(|other| other == name) {
+                let message = format!("a second column is named `{name}`: expected each name once");
+                return Err(stream.error(row.line, column, message));
+            }
+        }
+        Ok(stream)
+    }
+
+    /// The names of the columns.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// Where the column of that name stands.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|other| other == name)
+    }
+
+    /// Where the column of that name stands, which the caller cannot do without.
+    ///
+    /// # Errors
+    /// Where the header does not have it.
+    pub fn required_column(&self, name: &str) -> Result<usize, HostError> {
+        let found = || format!("no column `{name}`: expected one in the header (found {})", self.header.join(", "));
+        self.column(name).ok_or_else(|| self.error(1, 1, found()))
+    }
+
+    /// The next row; `None` at the end. Empty lines are passed over.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, is not UTF-8, leaves a quote open, or has a row unlike the header in length.
+    pub fn next_row(&mut self) -> Result<Option<Row>, HostError> {
+        loop {
+            self.text.clear();
+            let read = (&mut self.input).take(LONGEST_ROW).read_until(b'\n', &mut self.text);
+            if read.map_err(HostError::file(&self.path))? == 0 {
+                return Ok(None);
+            }
+            self.line += 1;
+            if self.line == 1 && self.text.starts_with(b"\xef\xbb\xbf") {
+                self.text.drain(..3);
+            }
+            if self.text.iter().any(|byte| !matches!(byte, b'\n' | b'\r')) {
+                return self.row().map(Some);
+            }
+        }
+    }
+
+    fn row(&self) -> Result<Row, HostError> {
+        let text = std::str::from_utf8(&self.text).map_err(|error| {
+            let column = String::from_utf8_lossy(&self.text[..error.valid_up_to()]).chars().count() as u64 + 1;
+            self.error(self.line, column, "this byte is not UTF-8; expected text in UTF-8")
+        })?;
+        if self.text.len() as u64 == LONGEST_ROW {
+            return Err(self.error(self.line, 1, "this row does not end: expected a table of numbers"));
+        }
+        if text.matches('"').count() % 2 == 1 {
+            let column = text.rfind('"').map_or(1, |place| text[..place].chars().count() as u64 + 1);
+            return Err(self.error(self.line, column, "a quote is not closed: expected another in the same line"));
+        }
+        let mut fields = StringRecord::new();
+        let mut reader = ReaderBuilder::new().has_headers(false).buffer_capacity(1 << 9).from_reader(text.as_bytes());
+        reader
+            .read_record(&mut fields)
+            .map_err(|error| self.error(self.line, 1, format!("not a row of a CSV table: {error}")))?;
+        let (length, expected) = (fields.len(), self.header.len());
+        if length != expected && !self.header.is_empty() {
+            let column = length.min(expected) as u64 + 1;
+            let message = format!("{length} fields in this row: expected {expected}, as in the header");
+            return Err(self.error(self.line, column, message));
+        }
+        Ok(Row { line: self.line, fields })
+    }
+
+    /// A number of a row, NaN and infinity among them; none where the field is empty.
+    ///
+    /// # Errors
+    /// Where the field holds something else.
+    pub fn number<T: FromStr>(&self, row: &Row, column: usize) -> Result<Option<T>, HostError> {
+        let text = row.fields.get(column).unwrap_or("").trim();
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let number = text.parse::<T>().map(Some);
+        number.map_err(|_| self.error_at(row, column, format!("`{text}`: expected a number, or nothing")))
+    }
+
+    /// An error at a field, which its message names by its column.
+    pub fn error_at(&self, row: &Row, column: usize, message: impl AsRef<str>) -> HostError {
+        let name = self.header.get(column).map_or("", String::as_str);
+        self.error(row.line, column as u64 + 1, format!("{name}: {}", message.as_ref()))
+    }
+
+    /// An error at a place of this file.
+    pub fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
+        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
+    }
+}
+
+/// Seconds since the start as µs; `None` where it is no time, or too long for one.
+pub fn microseconds(time_s: f64) -> Option<u64> {
+    // Up to 2^53 µs, 285 years, a number of seconds with six decimals comes back as the same whole number.
+    const LONGEST_S: f64 = 9.0e9;
+    (0.0..=LONGEST_S).contains(&time_s).then(|| libm::round(1.0e6 * time_s) as u64)
+}
+
+/// Writes µs as seconds, with no more decimals than it takes.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_seconds(out: &mut dyn Write, time_us: u64) -> std::io::Result<()> {
+    let decimals = format!("{:06}", time_us % 1_000_000);
+    let decimals = decimals.trim_end_matches('0');
+    let point = if decimals.is_empty() { "" } else { "." };
+    write!(out, "{}{point}{decimals}", time_us / 1_000_000)
+}

@@ -1,0 +1,225 @@
+//! The rover file: dimensions, drives and sensors of a rocker-bogie.
+
+use std::ops::Range;
+use std::path::Path;
+
+use kapvik_firmware::rover::{Axes, GeometryError, Planar, Rover};
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::toml_file::TomlFile;
+use super::wheel_file::Grousers;
+use crate::error::HostError;
+
+type Number = Option<Spanned<f64>>;
+type Point<const N: usize> = Option<Spanned<[f64; N]>>;
+
+/// A rover as a file describes it. A key that is absent takes the value of the assumed set K0.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct RoverTable {
+    mass_kg: Number,
+    gravity_m_s2: Number,
+    wheel: WheelKeys,
+    suspension: SuspensionKeys,
+    drive: DriveKeys,
+    noise: NoiseKeys,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct WheelKeys {
+    radius_m: Number,
+    width_m: Number,
+    grouser_height_m: Number,
+    grouser_count: Option<u32>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct SuspensionKeys {
+    front_hub: Point<2>,
+    bogie_pivot: Point<2>,
+    middle_hub: Point<2>,
+    rear_hub: Point<2>,
+    half_track: Number,
+    centre_of_mass: Point<3>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct DriveKeys {
+    reflected_inertia_kg_m2: Number,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct NoiseKeys {
+    wheel_rate_rad_s: Number,
+    motor_torque_nm: Number,
+    load_cell_n: Number,
+    angle_rad: Number,
+    accel_m_s2: Number,
+    gyro_rad_s: Number,
+    velocity_m_s: Number,
+}
+
+/// Grousers of K0.
+const GROUSERS: Grousers = Grousers { height_m: 0.005, count: 24 };
+
+/// A rover with what the equations leave out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoverFile {
+    /// The rover.
+    pub rover: Rover<f64>,
+    /// The grousers of its wheels, which act only through an effect.
+    pub grousers: Grousers,
+}
+
+impl RoverFile {
+    /// The assumed set K0, which an empty file describes.
+    pub fn assumed() -> Self {
+        Self { rover: Rover::assumed(), grousers: GROUSERS }
+    }
+
+    /// Reads a rover file.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, a key is unknown or of the wrong kind, or no rover of that geometry can stand: at the
+    /// key that is to blame.
+    pub fn read(path: &Path) -> Result<Self, HostError> {
+        Self::parse(&TomlFile::read(path)?)
+    }
+
+    /// The rover of a file that is in memory.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(file: &TomlFile) -> Result<Self, HostError> {
+        let table: RoverTable = file.whole()?;
+        let rover = table.rover();
+        rover.check().map_err(|error| {
+            let place = table.to_blame(error).map_or(0, |span| span.start);
+            file.error_at_offset(place, in_words(error))
+        })?;
+        let mut grousers = GROUSERS;
+        if let Some(height) = &table.wheel.grouser_height_m {
+            grousers.height_m = *height.get_ref();
+            if !(grousers.height_m >= 0.0 && grousers.height_m.is_finite()) {
+                let message = format!("grouser_height_m = {}: expected 0 m or more", grousers.height_m);
+                return Err(file.error_at(height, message));
+            }
+        }
+        grousers.count = table.wheel.grouser_count.unwrap_or(grousers.count);
+        Ok(Self { rover, grousers })
+    }
+}
+
+impl RoverTable {
+    fn rover(&self) -> Rover<f64> {
+        let mut rover = Rover::assumed();
+        let (suspension, noise) = (&mut rover.suspension, &mut rover.noise);
+        let numbers = [
+            (&self.mass_kg, &mut rover.mass_kg),
+            (&self.gravity_m_s2, &mut rover.gravity_m_s2),
+            (&self.wheel.radius_m, &mut rover.wheel.radius_m),
+            (&self.wheel.width_m, &mut rover.wheel.width_m),
+            (&self.suspension.half_track, &mut suspension.half_track_m),
+            (&self.drive.reflected_inertia_kg_m2, &mut rover.drive.reflected_inertia_kg_m2),
+            (&self.noise.wheel_rate_rad_s, &mut noise.wheel_rate_rad_s),
+            (&self.noise.motor_torque_nm, &mut noise.motor_torque_nm),
+            (&self.noise.load_cell_n, &mut noise.load_cell_n),
+            (&self.noise.angle_rad, &mut noise.angle_rad),
+            (&self.noise.accel_m_s2, &mut noise.accel_m_s2),
+            (&self.noise.gyro_rad_s, &mut noise.gyro_rad_s),
+            (&self.noise.velocity_m_s, &mut noise.velocity_m_s),
+        ];
+        for (given, place) in numbers {
+            *place = given.as_ref().map_or(*place, |number| *number.get_ref());
+        }
+        let points = [
+            (&self.suspension.front_hub, &mut suspension.front_hub),
+            (&self.suspension.bogie_pivot, &mut suspension.bogie_pivot),
+            (&self.suspension.middle_hub, &mut suspension.middle_hub),
+            (&self.suspension.rear_hub, &mut suspension.rear_hub),
+        ];
+        for (given, place) in points {
+            if let Some([x, z]) = given.as_ref().map(|point| *point.get_ref()) {
+                *place = Planar { x, z };
+            }
+        }
+        if let Some([x, y, z]) = self.suspension.centre_of_mass.as_ref().map(|point| *point.get_ref()) {
+            suspension.centre_of_mass = Axes { x, y, z };
+        }
+        rover
+    }
+
+    /// Where the key stands that an error is about: the first that is wrong by itself, else the first that is there.
+    fn to_blame(&self, error: GeometryError) -> Option<Range<usize>> {
+        let Self { wheel, suspension, drive, noise, .. } = self;
+        let numbers = |keys: &[&Number]| {
+            let there = || keys.iter().filter_map(|key| key.as_ref());
+            let wrong = there().find(|key| !(*key.get_ref() > 0.0 && key.get_ref().is_finite()));
+            wrong.or_else(|| there().next()).map(Spanned::span)
+        };
+        let points = |keys: &[&Point<2>]| {
+            let there = || keys.iter().filter_map(|key| key.as_ref());
+            let wrong = there().find(|key| key.get_ref().iter().any(|coordinate| !coordinate.is_finite()));
+            wrong.or_else(|| there().next()).map(Spanned::span)
+        };
+        let centre = suspension.centre_of_mass.as_ref().map(Spanned::span);
+        let SuspensionKeys { front_hub, bogie_pivot, middle_hub, rear_hub, half_track, .. } = suspension;
+        match error {
+            GeometryError::Weight => numbers(&[&self.mass_kg, &self.gravity_m_s2]),
+            GeometryError::Wheel => numbers(&[&wheel.radius_m, &wheel.width_m]),
+            GeometryError::Coordinate => {
+                let bad_centre = suspension.centre_of_mass.as_ref().filter(|centre| {
+                    centre.get_ref().iter().any(|coordinate| !coordinate.is_finite())
+                });
+                let bad_track = half_track.as_ref().filter(|track| !(*track.get_ref() > 0.0));
+                let single = bad_track.map(Spanned::span).or(bad_centre.map(Spanned::span));
+                single.or_else(|| points(&[front_hub, bogie_pivot, middle_hub, rear_hub]))
+            }
+            GeometryError::HubOrder => points(&[front_hub, middle_hub, rear_hub, bogie_pivot]),
+            GeometryError::BogiePivot => points(&[bogie_pivot, middle_hub, rear_hub, front_hub]),
+            GeometryError::LeverArm => {
+                let below = |key: &&&Point<2>| key.as_ref().is_some_and(|point| point.get_ref()[1] >= 0.0);
+                let hubs = [front_hub, middle_hub, rear_hub];
+                hubs.iter().find(below).map_or_else(|| points(&hubs), |key| points(&[*key]))
+            }
+            GeometryError::CentreOfMass => centre.or_else(|| points(&[front_hub, bogie_pivot])),
+            GeometryError::Inertia => numbers(&[&drive.reflected_inertia_kg_m2]),
+            GeometryError::Noise => numbers(&[
+                &noise.wheel_rate_rad_s,
+                &noise.motor_torque_nm,
+                &noise.load_cell_n,
+                &noise.angle_rad,
+                &noise.accel_m_s2,
+                &noise.gyro_rad_s,
+                &noise.velocity_m_s,
+            ]),
+        }
+    }
+}
+
+/// What a person is told of an impossible rover.
+fn in_words(error: GeometryError) -> &'static str {
+    match error {
+        GeometryError::Weight => "no rover weighs this: expected a mass and a gravity above 0",
+        GeometryError::Wheel => "no wheel has this size: expected a radius and a width above 0 m",
+        GeometryError::Coordinate => "the suspension is nowhere: expected finite coordinates and a half_track above 0 m",
+        GeometryError::HubOrder => "the hubs are out of order: expected front_hub, middle_hub, rear_hub from front to rear",
+        GeometryError::BogiePivot => {
+            "the bogie would not stand: expected bogie_pivot behind front_hub, middle_hub ahead of it and rear_hub behind"
+        }
+        GeometryError::LeverArm => {
+            "drawbar pull would have no lever arm: expected front_hub below the differential axis (z < 0), middle_hub and \
+             rear_hub below the bogie pivot (z < 0)"
+        }
+        GeometryError::CentreOfMass => {
+            "the rover would not stand: expected centre_of_mass between bogie_pivot and front_hub, and between the sides"
+        }
+        GeometryError::Inertia => "no drive has this inertia: expected reflected_inertia_kg_m2 above 0",
+        GeometryError::Noise => "no sensor has this noise: expected standard deviations above 0",
+    }
+}

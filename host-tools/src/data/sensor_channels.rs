@@ -1,0 +1,67 @@
+//! The columns of a sensor frame: their names in the files, and where each stands in [`SensorFrame`].
+
+use kapvik_firmware::rover::{Axes, PerSide};
+use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
+
+/// The wheels as the files name them, in the order of the flight library.
+pub const WHEEL_NAMES: [&str; 6] = ["fl", "ml", "rl", "fr", "mr", "rr"];
+
+/// The names of the columns, in the order of [`values`].
+pub fn names() -> Vec<String> {
+    let wheels = WHEEL_NAMES.into_iter().flat_map(|wheel| {
+        [format!("wheel_rate_{wheel}_rad_s"), format!("motor_torque_{wheel}_nm"), format!("load_cell_{wheel}_n")]
+    });
+    let joints = ["bogie_angle_l_rad", "bogie_angle_r_rad", "rocker_angle_rad"].map(str::to_owned);
+    let axes = [("accel", "m_s2"), ("gyro", "rad_s"), ("velocity", "m_s")];
+    let body = axes.into_iter().flat_map(|(name, unit)| ["x", "y", "z"].map(|axis| format!("{name}_{axis}_{unit}")));
+    wheels.chain(joints).chain(body).collect()
+}
+
+/// The values of a frame, in the order of [`names`].
+pub fn values(frame: &SensorFrame) -> Vec<Option<f32>> {
+    let mut copy = *frame;
+    values_mut(&mut copy).map(|value| *value).collect()
+}
+
+/// The values of a frame, to be changed, in the order of [`names`].
+pub fn values_mut(frame: &mut SensorFrame) -> impl Iterator<Item = &mut Option<f32>> {
+    let SensorFrame {
+        time_us: _,
+        wheels,
+        bogie_angle_rad: PerSide { left, right },
+        rocker_angle_rad,
+        accel_m_s2,
+        gyro_rad_s,
+        velocity_m_s,
+    } = frame;
+    wheels
+        .iter_wheels_mut()
+        .flat_map(|WheelSensors { rate_rad_s, motor_torque_nm, load_cell_n }| {
+            [rate_rad_s, motor_torque_nm, load_cell_n]
+        })
+        .chain([left, right, rocker_angle_rad])
+        .chain([accel_m_s2, gyro_rad_s, velocity_m_s].into_iter().flat_map(|Axes { x, y, z }| [x, y, z]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{names, values, values_mut};
+    use kapvik_firmware::sensor_frame::SensorFrame;
+
+    #[test]
+    fn names_and_values_stand_in_the_same_order() {
+        let mut frame = SensorFrame::default();
+        for (place, value) in values_mut(&mut frame).enumerate() {
+            *value = Some(place as f32);
+        }
+        let place = |name: &str| names().iter().position(|other| other == name).map(|place| place as f32);
+        assert_eq!(names().len(), values(&frame).len());
+        assert_eq!(frame.wheels.right.middle.load_cell_n, place("load_cell_mr_n"));
+        assert_eq!(frame.wheels.left.rear.motor_torque_nm, place("motor_torque_rl_nm"));
+        assert_eq!(frame.bogie_angle_rad.right, place("bogie_angle_r_rad"));
+        assert_eq!(frame.rocker_angle_rad, place("rocker_angle_rad"));
+        assert_eq!(frame.gyro_rad_s.z, place("gyro_z_rad_s"));
+        assert_eq!(frame.velocity_m_s.x, place("velocity_x_m_s"));
+        assert_eq!(values(&frame).last().copied().flatten(), place("velocity_z_m_s"));
+    }
+}

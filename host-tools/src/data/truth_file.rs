@@ -1,0 +1,216 @@
+//! What is true of a simulated drive, in CSV, row by row beside its sensor frames.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use kapvik_firmware::rover::PerWheel;
+
+use super::frame_file::TIME;
+use super::number_stream::{NumberStream, Row, microseconds, write_seconds};
+use super::sensor_channels::WHEEL_NAMES;
+use crate::error::HostError;
+
+/// The soil at one place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TrueSoil {
+    /// Cohesion c, Pa.
+    pub cohesion_pa: f64,
+    /// Friction angle φ, rad.
+    pub friction_angle_rad: f64,
+    /// Shear deformation modulus K, m.
+    pub shear_modulus_m: f64,
+    /// Stiffness k_c/b + k_φ under the rover's wheel, Pa/mⁿ.
+    pub stiffness_pa_m_n: f64,
+    /// Sinkage exponent n.
+    pub sinkage_exponent: f64,
+}
+
+/// What is true of one wheel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WheelTruth {
+    /// Slip i, −1 … 1, positive when driving in either direction; none where the wheel stands.
+    pub slip: Option<f64>,
+    /// Torque with which the soil resists, N·m.
+    pub resistive_torque_nm: f64,
+    /// Slope of the terrain under the hub against the horizontal, in the wheel's plane, rad, uphill.
+    pub contact_angle_rad: f64,
+    /// Normal load W, N.
+    pub normal_load_n: f64,
+    /// Drawbar pull DP, N.
+    pub drawbar_pull_n: f64,
+    /// Sinkage z, m; 0 where the wheel is in the air.
+    pub sinkage_m: f64,
+    /// Force of the soil along the axle, N, to the left.
+    pub side_force_n: f64,
+    /// The soil under its hub.
+    pub soil: TrueSoil,
+}
+
+/// What is true at one instant.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Truth {
+    /// Time, µs.
+    pub time_us: u64,
+    /// The wheels.
+    pub wheels: PerWheel<WheelTruth>,
+    /// The soil under the differential axis.
+    pub soil: TrueSoil,
+    /// x of the midpoint of the differential axis, m.
+    pub x_m: f64,
+    /// Its height, m.
+    pub z_m: f64,
+    /// Pitch of the body, nose-up, rad.
+    pub pitch_rad: f64,
+    /// Roll of the body, left side up, rad.
+    pub roll_rad: f64,
+}
+
+/// Where the truth of a file of frames is written: NAME.truth.csv beside NAME.csv.
+pub fn truth_path(frames: &Path) -> PathBuf {
+    frames.with_extension("truth.csv")
+}
+
+/// Names of the columns, in the order of [`values`].
+fn names() -> Vec<String> {
+    let wheel = |wheel: &str| {
+        [
+            format!("slip_{wheel}"),
+            format!("resistive_torque_{wheel}_nm"),
+            format!("contact_angle_{wheel}_rad"),
+            format!("normal_load_{wheel}_n"),
+            format!("drawbar_pull_{wheel}_n"),
+            format!("sinkage_{wheel}_m"),
+            format!("side_force_{wheel}_n"),
+        ]
+        .into_iter()
+        .chain(soil_names().map(|name| format!("{name}_{wheel}")))
+        .collect::<Vec<_>>()
+    };
+    let body = ["x_m", "z_m", "pitch_rad", "roll_rad"].map(str::to_owned);
+    WHEEL_NAMES.into_iter().flat_map(wheel).chain(soil_names().map(str::to_owned)).chain(body).collect()
+}
+
+fn soil_names() -> [&'static str; 5] {
+    ["cohesion_pa", "friction_angle_rad", "shear_modulus_m", "stiffness_pa_m_n", "sinkage_exponent"]
+}
+
+fn soil_values(soil: &TrueSoil) -> [Option<f64>; 5] {
+    let TrueSoil { cohesion_pa, friction_angle_rad, shear_modulus_m, stiffness_pa_m_n, sinkage_exponent } = *soil;
+    [cohesion_pa, friction_angle_rad, shear_modulus_m, stiffness_pa_m_n, sinkage_exponent].map(Some)
+}
+
+/// The values of a row, in the order of [`names`].
+fn values(truth: &Truth) -> Vec<Option<f64>> {
+    let wheel = |wheel: &WheelTruth| {
+        let forces = [wheel.resistive_torque_nm, wheel.contact_angle_rad, wheel.normal_load_n, wheel.drawbar_pull_n];
+        let forces = forces.into_iter().chain([wheel.sinkage_m, wheel.side_force_n]).map(Some);
+        [wheel.slip].into_iter().chain(forces).chain(soil_values(&wheel.soil)).collect::<Vec<_>>()
+    };
+    let body = [truth.x_m, truth.z_m, truth.pitch_rad, truth.roll_rad].map(Some);
+    truth.wheels.iter_wheels().flat_map(wheel).chain(soil_values(&truth.soil)).chain(body).collect()
+}
+
+/// The next values of a row, in the order of [`names`]; a missing one is NaN.
+struct Values<I>(I);
+
+impl<I: Iterator<Item = Option<f64>>> Values<I> {
+    fn next(&mut self) -> f64 {
+        self.0.next().flatten().unwrap_or(f64::NAN)
+    }
+
+    fn soil(&mut self) -> TrueSoil {
+        TrueSoil {
+            cohesion_pa: self.next(),
+            friction_angle_rad: self.next(),
+            shear_modulus_m: self.next(),
+            stiffness_pa_m_n: self.next(),
+            sinkage_exponent: self.next(),
+        }
+    }
+
+    fn wheel(&mut self) -> WheelTruth {
+        WheelTruth {
+            slip: self.0.next().flatten(),
+            resistive_torque_nm: self.next(),
+            contact_angle_rad: self.next(),
+            normal_load_n: self.next(),
+            drawbar_pull_n: self.next(),
+            sinkage_m: self.next(),
+            side_force_n: self.next(),
+            soil: self.soil(),
+        }
+    }
+
+    fn truth(mut self, time_us: u64) -> Truth {
+        Truth {
+            time_us,
+            wheels: PerWheel::<()>::default().map_wheels(|()| self.wheel()),
+            soil: self.soil(),
+            x_m: self.next(),
+            z_m: self.next(),
+            pitch_rad: self.next(),
+            roll_rad: self.next(),
+        }
+    }
+}
+
+/// Writes the header of a file of truths.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_header(out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(out, "{TIME},{}", names().join(","))
+}
+
+/// Writes a truth as a row, each number in as many digits as lead back to it.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_truth(out: &mut dyn Write, truth: &Truth) -> std::io::Result<()> {
+    write_seconds(out, truth.time_us)?;
+    for value in values(truth) {
+        match value {
+            Some(value) => write!(out, ",{value}")?,
+            None => write!(out, ",")?,
+        }
+    }
+    writeln!(out)
+}
+
+/// The truths of a file, row by row. Beside `t_s` each column may be missing; what is not there is NaN.
+pub struct TruthReader {
+    stream: NumberStream,
+    time: usize,
+    columns: Vec<Option<usize>>,
+}
+
+impl TruthReader {
+    /// Opens a file of truths.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or its header has no time.
+    pub fn open(path: &Path) -> Result<Self, HostError> {
+        let stream = NumberStream::open(path)?;
+        let time = stream.required_column(TIME)?;
+        let columns = names().iter().map(|name| stream.column(name)).collect();
+        Ok(Self { stream, time, columns })
+    }
+
+    fn truth(&self, row: &Row) -> Result<Truth, HostError> {
+        let time_s: Option<f64> = self.stream.number(row, self.time)?;
+        let Some(time_us) = time_s.and_then(microseconds) else {
+            return Err(self.stream.error_at(row, self.time, "expected a time in s, of 0 or more"));
+        };
+        let number = |column: &Option<usize>| column.map_or(Ok(None), |column| self.stream.number(row, column));
+        let values = self.columns.iter().map(number).collect::<Result<Vec<_>, _>>()?;
+        Ok(Values(values.into_iter()).truth(time_us))
+    }
+}
+
+impl Iterator for TruthReader {
+    type Item = Result<Truth, HostError>;
+    fn next(&mut self) -> Option<Self::Item> {
+        let row = self.stream.next_row().transpose()?;
+        Some(row.and_then(|row| self.truth(&row)))
+    }
+}

@@ -1,0 +1,244 @@
+//! The forces on the rover at one instant, and what they leave unbalanced.
+
+use kapvik_firmware::rover::{
+    Axes, Axle, Contact, PerAxle, PerSide, PerWheel, Planar, Rover, Side, SideLayout, body_moment_nm, bogie_moment_nm,
+    rocker_moment_nm,
+};
+use kapvik_firmware::terramechanics::{ForceError, WheelForces};
+
+use super::ground_soils::SoilsAlongTheWay;
+use super::pose::{Coordinates, Pose};
+use super::terrain::{Ground, Terrain};
+use super::wheel_soil::WheelMotion;
+
+/// Damping of the sinking motion at a wheel that carries its share of the weight, N·s/m.
+const SINKING_DAMPING_N_S_M: f64 = 500.0;
+/// Stiffness of a bogie's stop, N·m/rad.
+const STOP_STIFFNESS_NM_RAD: f64 = 2000.0;
+
+/// What stays the same over a drive.
+#[derive(Debug, Clone)]
+pub struct World {
+    /// The rover, its wheel as large as it truly is.
+    pub rover: Rover<f64>,
+    /// The ground.
+    pub terrain: Terrain,
+    /// The soil.
+    pub soils: SoilsAlongTheWay,
+    /// How far a bogie can turn against its rocker before a stop holds it, rad, both ways; infinite: no stop.
+    pub bogie_stop_rad: f64,
+}
+
+/// How the rover is placed and moves; what the forces follow from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Where it is.
+    pub pose: Pose,
+    /// How the pose changes.
+    pub rates: Pose,
+    /// Acceleration of the centre of mass in the world, m/s².
+    pub acceleration_m_s2: Axes<f64>,
+    /// Rim speeds that the drives hold against the links, m/s.
+    pub rim_speed_m_s: PerWheel<f64>,
+}
+
+/// One wheel at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WheelInstant {
+    /// The hub in the body's axes, m.
+    pub hub_m: Axes<f64>,
+    /// The contact in the wheel's plane: x and z of the body.
+    pub contact: Contact<f64>,
+    /// Slope of the terrain along the wheel's plane against the horizontal, rad, uphill.
+    pub contact_angle_rad: f64,
+    /// How it moves on the soil.
+    pub motion: WheelMotion,
+    /// What the soil does to it.
+    pub forces: WheelForces<f64>,
+    /// Force of the soil on it along its axle, N, to the left.
+    pub side_force_n: f64,
+}
+
+/// The rover at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instant {
+    /// How it is placed and moves.
+    pub motion: Motion,
+    /// Specific force at the centre of mass in the body's axes, m/s²: acceleration less gravity.
+    pub specific_force_m_s2: Axes<f64>,
+    /// The wheels.
+    pub wheels: PerWheel<WheelInstant>,
+    /// Moments of the bogies' stops on the bogies, N·m, nose-down.
+    pub stops_nm: PerSide<f64>,
+    /// What is left over, N and N·m: forward and upward force in the body's axes, moment about the body's x, each rocker
+    /// about the differential axis, each bogie about its pivot.
+    pub residual: Coordinates,
+}
+
+impl World {
+    /// The forces of a motion.
+    ///
+    /// # Errors
+    /// Where a wheel is beyond the wheel–soil equations.
+    pub fn instant(&self, motion: &Motion) -> Result<Instant, ForceError> {
+        let Motion { pose, rates, acceleration_m_s2, rim_speed_m_s } = motion;
+        let gravity = self.rover.gravity_m_s2;
+        let felt = Axes { z: acceleration_m_s2.z + gravity, ..*acceleration_m_s2 };
+        let specific_force = pose.into_body(felt);
+        let layouts = Side::ALL.map(|side| SideLayout::new(&self.rover, side, &pose.joints(rates, side)));
+        let mut wheels = PerSide {
+            left: self.wheels_of(Side::Left, motion, &layouts.left, &rim_speed_m_s.left)?,
+            right: self.wheels_of(Side::Right, motion, &layouts.right, &rim_speed_m_s.right)?,
+        };
+        self.share_side_force(&mut wheels, &specific_force);
+        let stops_nm =
+            PerSide { left: pose.bogie_left, right: pose.bogie_right }.map(|angle| self.stop_moment_nm(angle));
+        let residual = self.residual(&layouts, &wheels, &stops_nm, &specific_force);
+        Ok(Instant { motion: *motion, specific_force_m_s2: specific_force, wheels, stops_nm, residual })
+    }
+
+    fn wheels_of(
+        &self,
+        side: Side,
+        motion: &Motion,
+        layout: &SideLayout<f64>,
+        rim_speeds: &PerAxle<f64>,
+    ) -> Result<PerAxle<WheelInstant>, ForceError> {
+        let joints = motion.pose.joints(&motion.rates, side);
+        let body = motion.pose.motion(&motion.rates);
+        let velocities = layout.hub_velocities_m_s(&body, &joints);
+        // Nose-up against inertial space: a wheel held on its link turns back with it.
+        let rocker_rate = joints.rocker.rate_rad_s - body.turn_rad_s.y;
+        let bogie_rate = rocker_rate + joints.bogie.rate_rad_s;
+        let link_rates = PerAxle { front: rocker_rate, middle: bogie_rate, rear: bogie_rate };
+        let place = |axle: Axle| {
+            let rim_speed = *rim_speeds.of(axle) - self.rover.wheel.radius_m * *link_rates.of(axle);
+            let hub = *layout.hubs.of(axle);
+            let hub_m = Axes { x: hub.x, y: layout.y_m, z: hub.z };
+            self.wheel(side, axle, &motion.pose, hub_m, *velocities.of(axle), rim_speed)
+        };
+        Ok(PerAxle { front: place(Axle::Front)?, middle: place(Axle::Middle)?, rear: place(Axle::Rear)? })
+    }
+
+    fn wheel(
+        &self,
+        side: Side,
+        axle: Axle,
+        pose: &Pose,
+        hub_m: Axes<f64>,
+        velocity_m_s: Planar<f64>,
+        rim_speed_m_s: f64,
+    ) -> Result<WheelInstant, ForceError> {
+        let from_axis = pose.into_world(hub_m);
+        let ground = self.terrain.at(side, axle, pose.x + from_axis.x);
+        let contact = contact_in_wheel_plane(pose, &ground);
+        let in_world = |v: Planar<f64>| pose.into_world(Axes { x: v.x, y: 0.0, z: v.z });
+        let normal = in_world(contact.normal);
+        // The hub's distance from the terrain's tangent, measured along the normal that lies in the wheel's plane.
+        let distance_m = (pose.z + from_axis.z - ground.height_m) / (normal.z - ground.slope * normal.x);
+        let motion = WheelMotion {
+            rim_speed_m_s,
+            hub_speed_m_s: velocity_m_s.dot(contact.tangent),
+            sinkage_m: self.rover.wheel.radius_m - distance_m,
+            sinking_m_s: -velocity_m_s.dot(contact.normal),
+        };
+        let damping_speed = self.wheel_weight_n() / SINKING_DAMPING_N_S_M;
+        let soil = self.soils.at(pose.x + from_axis.x);
+        let forces = motion.forces(&self.rover.wheel, &soil, damping_speed)?;
+        let contact_angle_rad = libm::asin(in_world(contact.tangent).z.clamp(-1.0, 1.0));
+        Ok(WheelInstant { hub_m, contact, contact_angle_rad, motion, forces, side_force_n: 0.0 })
+    }
+
+    /// A wheel's share of the weight, N.
+    fn wheel_weight_n(&self) -> f64 {
+        self.rover.mass_kg * self.rover.gravity_m_s2 / 6.0
+    }
+
+    /// Heading and sideways motion are held by side forces. Each wheel takes a share in proportion to its load times a
+    /// straight line along the rover: the line's two coefficients give the total force and the total moment about z.
+    fn share_side_force(&self, wheels: &mut PerWheel<WheelInstant>, specific_force: &Axes<f64>) {
+        let centre = self.rover.suspension.centre_of_mass;
+        let mass = self.rover.mass_kg;
+        let wanted_n = mass * specific_force.y;
+        let mut wanted_nm = mass * (centre.x * specific_force.y - centre.y * specific_force.x);
+        let [mut load, mut first, mut second] = [0.0; 3];
+        for wheel in wheels.iter_wheels() {
+            wanted_nm += wheel.hub_m.y * wheel.hub_force_n().x;
+            let x = wheel.rim_m(self.rover.wheel.radius_m).x;
+            load += wheel.forces.load_n;
+            first += wheel.forces.load_n * x;
+            second += wheel.forces.load_n * x * x;
+        }
+        let determinant = load * second - first * first;
+        if determinant <= 0.0 {
+            return;
+        }
+        let constant = (second * wanted_n - first * wanted_nm) / determinant;
+        let slope = (load * wanted_nm - first * wanted_n) / determinant;
+        for wheel in wheels.iter_wheels_mut() {
+            let x = wheel.rim_m(self.rover.wheel.radius_m).x;
+            wheel.side_force_n = wheel.forces.load_n * (constant + slope * x);
+        }
+    }
+
+    /// Moment of a stop on its bogie, N·m, nose-down.
+    fn stop_moment_nm(&self, bogie_rad: f64) -> f64 {
+        let beyond = bogie_rad - bogie_rad.clamp(-self.bogie_stop_rad, self.bogie_stop_rad);
+        STOP_STIFFNESS_NM_RAD * beyond
+    }
+
+    fn residual(
+        &self,
+        layouts: &PerSide<SideLayout<f64>>,
+        wheels: &PerWheel<WheelInstant>,
+        stops_nm: &PerSide<f64>,
+        specific_force: &Axes<f64>,
+    ) -> Coordinates {
+        let mass = self.rover.mass_kg;
+        let centre = self.rover.suspension.centre_of_mass;
+        let mut forward_n = -mass * specific_force.x;
+        let mut upward_n = -mass * specific_force.z;
+        let mut roll_nm = mass * (centre.z * specific_force.y - centre.y * specific_force.z);
+        for wheel in wheels.iter_wheels() {
+            let force = wheel.hub_force_n();
+            forward_n += force.x;
+            upward_n += force.z;
+            // The side force acts on the rim, the others through the hub.
+            roll_nm += wheel.hub_m.y * force.z - wheel.rim_m(self.rover.wheel.radius_m).z * wheel.side_force_n;
+        }
+        let half_body_nm = 0.5 * body_moment_nm(&self.rover, specific_force);
+        let links_nm = layouts.zip(wheels.as_ref()).zip(*stops_nm).map(|((layout, wheels), stop_nm)| {
+            let forces = wheels.as_ref().map(WheelInstant::hub_force_n);
+            let torques = wheels.as_ref().map(|wheel| wheel.forces.torque_nm);
+            let rocker_nm = rocker_moment_nm(&layout, &forces, &torques) + half_body_nm - stop_nm;
+            (rocker_nm, bogie_moment_nm(&layout, &forces, &torques) + stop_nm)
+        });
+        let (left, right) = (links_nm.left, links_nm.right);
+        Coordinates::from([forward_n, upward_n, roll_nm, left.0, right.0, left.1, right.1])
+    }
+}
+
+impl WheelInstant {
+    /// The soil's force on the hub in the plane of the side, N, in the body's axes.
+    pub fn hub_force_n(&self) -> Planar<f64> {
+        self.contact.hub_force_n(self.forces.load_n, self.forces.drawbar_pull_n)
+    }
+
+    /// The point of the rim that the normal meets, where the side force acts, m in the body's axes.
+    pub fn rim_m(&self, radius_m: f64) -> Axes<f64> {
+        let down = self.contact.normal.scaled(-radius_m);
+        Axes { x: self.hub_m.x + down.x, y: self.hub_m.y, z: self.hub_m.z + down.z }
+    }
+}
+
+/// Tangent and normal of the ground in the plane of the wheels (x and z of the body). The ground rises along the world's x
+/// and is level across; the tangent is where that surface cuts the wheel's plane.
+fn contact_in_wheel_plane(pose: &Pose, ground: &Ground) -> Contact<f64> {
+    let (sine, cosine) = libm::sincos(pose.pitch);
+    let along = Planar {
+        x: libm::cos(pose.roll) * (cosine + ground.slope * sine),
+        z: ground.slope * cosine - sine,
+    };
+    let tangent = along.scaled(1.0 / along.length());
+    Contact { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
+}

@@ -1,0 +1,158 @@
+//! What a drive is: ground, soil, commands, faults.
+
+use kapvik_firmware::rover::{PerSide, PerWheel, Rover};
+use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::faults::Fault;
+use super::ground_soils::Change;
+use super::programme::{Command, Programme, Wander};
+use super::terrain::{Shape, Terrain};
+use crate::train::prior;
+
+/// A drive, all its details drawn.
+#[derive(Debug, Clone)]
+pub struct Course {
+    /// How long it takes, s.
+    pub duration_s: f64,
+    /// The ground.
+    pub terrain: Terrain,
+    /// The soil it begins on.
+    pub soil: Soil<f64>,
+    /// How the soil changes.
+    pub changes: Vec<Change>,
+    /// What the drives are told.
+    pub programme: Programme,
+    /// How far the bogies turn, rad.
+    pub bogie_stop_rad: f64,
+    /// Sensors that fail.
+    pub faults: Vec<Fault>,
+}
+
+/// What a soil must be able to do for a drive to be possible.
+#[derive(Debug, Clone, Copy)]
+pub struct Demand {
+    /// Pull over load that each wheel must reach at a slip of [`HARD_SLIP`], all wheels alike.
+    pub pull_ratio: f64,
+    /// How deep a wheel may sink under its share of the weight, over its radius.
+    pub depth: f64,
+}
+
+/// A slip at which a rover still makes way.
+const HARD_SLIP: f64 = 0.6;
+
+/// Forces of a wheel on level ground under its share of the weight: pull over load.
+pub fn pull_ratio(rover: &Rover<f64>, soil: &Soil<f64>, slip: f64) -> Option<(f64, f64)> {
+    let load_n = rover.mass_kg * rover.gravity_m_s2 / 6.0;
+    let sinkage_m = sinkage_for_load(&rover.wheel, soil, slip, load_n).ok()?;
+    let forces = wheel_forces(&rover.wheel, soil, slip, sinkage_m).ok()?;
+    Some((forces.drawbar_pull_n / load_n, sinkage_m / rover.wheel.radius_m))
+}
+
+/// A soil of the prior that meets a demand.
+pub fn draw_soil(random: &mut ChaCha8Rng, rover: &Rover<f64>, demand: &Demand) -> Option<Soil<f64>> {
+    const TRIALS: usize = 20_000;
+    (0..TRIALS).find_map(|_| {
+        let mut draw = |range: &prior::Range| range.at(random.random::<f64>());
+        let soil = Soil {
+            cohesion_pa: draw(&prior::COHESION_PA),
+            friction_angle_rad: draw(&prior::FRICTION_ANGLE_RAD),
+            shear_modulus_m: draw(&prior::SHEAR_MODULUS_M),
+            sinkage_exponent: draw(&prior::SINKAGE_EXPONENT),
+            frictional_modulus: draw(&prior::STIFFNESS),
+            cohesive_modulus: 0.0,
+            peak_stress_c1: draw(&prior::PEAK_STRESS_C1),
+            peak_stress_c2: draw(&prior::PEAK_STRESS_C2),
+            rebound_ratio: 0.0,
+        };
+        let (ratio, depth) = pull_ratio(rover, &soil, HARD_SLIP)?;
+        (ratio >= demand.pull_ratio && depth <= demand.depth).then_some(soil)
+    })
+}
+
+/// Number of hills on a side.
+const WAVES: usize = 3;
+
+/// Hills of a side between two places: three sine waves of 1 … 4 m whose steepest place is that of a slope drawn from
+/// `steepest`.
+pub fn draw_hills(random: &mut ChaCha8Rng, between_m: (f64, f64), steepest: (f64, f64)) -> Vec<Shape> {
+    let mut waves = Vec::new();
+    for _ in 0..WAVES {
+        let wavelength_m = 1.0 * libm::pow(4.0, random.random::<f64>());
+        // Equal slopes on average, so that the longer waves are the higher.
+        let amplitude_m = wavelength_m * random.random_range(0.3..1.0);
+        let phase_rad = random.random_range(0.0..std::f64::consts::TAU);
+        waves.push((wavelength_m, amplitude_m, phase_rad));
+    }
+    let shapes = |scale: f64| -> Vec<Shape> {
+        let shape = |&(wavelength_m, amplitude_m, phase_rad): &(f64, f64, f64)| Shape::Wave {
+            between_m,
+            amplitude_m: scale * amplitude_m,
+            wavelength_m,
+            phase_rad,
+        };
+        waves.iter().map(shape).collect()
+    };
+    let wanted = random.random_range(steepest.0..steepest.1);
+    shapes(libm::tan(wanted) / steepest_slope(&shapes(1.0), between_m))
+}
+
+fn steepest_slope(shapes: &[Shape], between_m: (f64, f64)) -> f64 {
+    const PLACES: u32 = 2000;
+    let step = (between_m.1 - between_m.0) / f64::from(PLACES);
+    let slope = |place: u32| -> f64 {
+        let x = between_m.0 + step * f64::from(place);
+        shapes.iter().map(|shape| shape.at(x).slope).sum()
+    };
+    (0..=PLACES).map(slope).fold(1.0e-9, |steepest, slope| steepest.max(slope.abs()))
+}
+
+/// Rim speeds that are meant to be equal, and are to one or two percent.
+pub fn draw_equal_speeds(random: &mut ChaCha8Rng, rim_speed_m_s: f64) -> PerWheel<f64> {
+    PerWheel::<f64>::default().map_wheels(|_| rim_speed_m_s * (1.0 + random.random_range(-0.015..0.015)))
+}
+
+/// Rim speeds that let the slips of six wheels spread from about 0.05 to 0.6 on level ground, in an order that is drawn:
+/// the slips are spaced so that the pulls at equal loads cancel, as they must at a steady speed.
+pub fn draw_spread_speeds(
+    random: &mut ChaCha8Rng,
+    rover: &Rover<f64>,
+    soil: &Soil<f64>,
+    fastest_m_s: f64,
+) -> PerWheel<f64> {
+    let ends = (random.random_range(0.04..0.07), random.random_range(0.55..0.62));
+    let slips = |skew: f64| {
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0_f64].map(|place| ends.0 + (ends.1 - ends.0) * libm::pow(place / 5.0, skew))
+    };
+    let total = |skew: f64| -> f64 {
+        slips(skew).iter().map(|slip| pull_ratio(rover, soil, *slip).map_or(0.0, |(ratio, _)| ratio)).sum()
+    };
+    let (mut low, mut high) = (0.2, 12.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if total(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    let mut order = slips(low);
+    for last in (1..order.len()).rev() {
+        order.swap(last, random.random_range(0..=last));
+    }
+    let hub_speed_m_s = fastest_m_s * (1.0 - ends.1);
+    let mut speeds = order.into_iter().map(|slip| hub_speed_m_s / (1.0 - slip));
+    PerWheel::<f64>::default().map_wheels(|_| speeds.next().unwrap_or(hub_speed_m_s))
+}
+
+/// A programme of commands, with a slow wander of a percent or so.
+pub fn draw_programme(random: &mut ChaCha8Rng, commands: Vec<Command>) -> Programme {
+    let wander = PerWheel::<Wander>::default().map_wheels(|_| Wander {
+        share: random.random_range(0.002..0.012),
+        rate_rad_s: std::f64::consts::TAU / random.random_range(8.0..30.0),
+        phase_rad: random.random_range(0.0..std::f64::consts::TAU),
+    });
+    Programme { commands, wander }
+}
+
+/// The same shapes on both sides.
+pub fn on_both_sides(shapes: Vec<Shape>) -> Terrain {
+    Terrain { sides: PerSide::both(shapes), under_one: None }
+}

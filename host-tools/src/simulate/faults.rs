@@ -1,0 +1,136 @@
+//! Sensors that fail, in some columns for some time.
+
+use std::str::FromStr;
+
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+use crate::data::sensor_channels::{names, values, values_mut};
+
+/// How a sensor fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Failure {
+    /// It says NaN.
+    Nan,
+    /// It says infinity.
+    Infinity,
+    /// It says a million.
+    Outlier,
+    /// It repeats what it said last before.
+    Stuck,
+    /// It says nothing.
+    Dropout,
+    /// No frame comes at all.
+    SkipFrames,
+}
+
+/// Names of the failures on the command line. A frame that repeats is one whose sensors are all stuck.
+pub const FAILURES: [(&str, Failure); 7] = [
+    ("nan", Failure::Nan),
+    ("inf", Failure::Infinity),
+    ("outlier", Failure::Outlier),
+    ("stuck", Failure::Stuck),
+    ("dropout", Failure::Dropout),
+    ("repeat-frames", Failure::Stuck),
+    ("skip-frames", Failure::SkipFrames),
+];
+
+/// Columns that fail in one way for some time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// How.
+    pub failure: Failure,
+    /// Which columns, in the order of the channels.
+    pub columns: Vec<bool>,
+    /// From when to when, s, both included.
+    pub between_s: (f64, f64),
+}
+
+impl Fault {
+    /// A fault of the columns that a pattern names: `*` stands for any characters.
+    ///
+    /// # Errors
+    /// Says what was expected where no column fits, or the time is none.
+    pub fn new(failure: Failure, pattern: &str, between_s: (f64, f64)) -> Result<Self, String> {
+        let columns: Vec<bool> = names().iter().map(|name| fits(pattern, name)).collect();
+        if !columns.contains(&true) {
+            return Err(format!("`{pattern}`: expected a column such as load_cell_fl_n, or a pattern such as gyro_*"));
+        }
+        if !(between_s.0 <= between_s.1) {
+            return Err(format!("{}-{}: expected two times in s, rising", between_s.0, between_s.1));
+        }
+        Ok(Self { failure, columns, between_s })
+    }
+
+    /// A fault as the command line writes it: SENSOR@T1-T2, or @T1-T2 for all sensors; T alone is one frame.
+    ///
+    /// # Errors
+    /// Says what was expected.
+    pub fn parse(failure: Failure, text: &str) -> Result<Self, String> {
+        let expected = || format!("`{text}`: expected SENSOR@T1-T2 or @T1-T2, times in s");
+        let (pattern, times) = text.split_once('@').ok_or_else(expected)?;
+        let (start, end) = times.split_once('-').unwrap_or((times, times));
+        let time = |text: &str| f64::from_str(text.trim()).ok().filter(|time| time.is_finite()).ok_or_else(expected);
+        Self::new(failure, if pattern.is_empty() { "*" } else { pattern }, (time(start)?, time(end)?))
+    }
+
+    /// Whether it acts at a time. Half a microsecond is allowed for the rounding of times.
+    pub fn acts_at(&self, time_s: f64) -> bool {
+        time_s >= self.between_s.0 - 5.0e-7 && time_s <= self.between_s.1 + 5.0e-7
+    }
+}
+
+/// The faults of a drive, and what the sensors said last before they were stuck.
+#[derive(Debug, Clone)]
+pub struct Faults {
+    faults: Vec<Fault>,
+    held: Vec<Option<SensorFrame>>,
+}
+
+impl Faults {
+    /// These faults.
+    pub fn new(faults: Vec<Fault>) -> Self {
+        let held = vec![None; faults.len()];
+        Self { faults, held }
+    }
+
+    /// What comes of a frame; `None` where it is lost.
+    pub fn applied(&mut self, frame: &SensorFrame) -> Option<SensorFrame> {
+        let time_s = 1.0e-6 * frame.time_us as f64;
+        let mut failed = *frame;
+        let mut lost = false;
+        for (fault, held) in self.faults.iter().zip(&mut self.held) {
+            if !fault.acts_at(time_s) {
+                *held = Some(*frame);
+                continue;
+            }
+            lost |= fault.failure == Failure::SkipFrames;
+            let before = values(held.as_ref().unwrap_or(frame));
+            for ((value, before), _) in
+                values_mut(&mut failed).zip(before).zip(&fault.columns).filter(|(_, fails)| **fails)
+            {
+                *value = match fault.failure {
+                    Failure::Nan => Some(f32::NAN),
+                    Failure::Infinity => Some(f32::INFINITY),
+                    Failure::Outlier => Some(1.0e6),
+                    Failure::Stuck => before,
+                    Failure::Dropout => None,
+                    Failure::SkipFrames => *value,
+                };
+            }
+        }
+        (!lost).then_some(failed)
+    }
+}
+
+/// Whether a name fits a pattern in which `*` stands for any characters.
+fn fits(pattern: &str, name: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let Some(mut rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };
+    let mut last = None;
+    for part in parts {
+        last = Some(part);
+        let Some(place) = rest.find(part) else { return false };
+        rest = &rest[place + part.len()..];
+    }
+    last.map_or(rest.is_empty(), |last| name.ends_with(last))
+}

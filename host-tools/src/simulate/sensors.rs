@@ -1,0 +1,95 @@
+//! What the sensors say of an instant, before faults.
+
+use kapvik_firmware::rover::{Axes, Axle, PerAxle, PerSide, PerWheel, Planar, SensorNoise, Side};
+use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::balance::Instant;
+use super::effects::SensorEffects;
+use super::programme::WheelTurn;
+use crate::data::sensor_channels::{values, values_mut};
+
+/// The readings of an instant without noise, with the effects that act on sensors and drives.
+pub fn readings(
+    instant: &Instant,
+    turns: &PerWheel<WheelTurn>,
+    radius_m: f64,
+    inertia_kg_m2: f64,
+    effects: &SensorEffects,
+) -> SensorFrame {
+    let motion = &instant.motion;
+    let body = motion.pose.motion(&motion.rates);
+    let brackets = Side::ALL.map(|side| bracket_axes(instant, side));
+    let wheel = |side: Side, axle: Axle| {
+        let (wheel, turn) = (instant.wheels.of_wheel(side, axle), turns.of_wheel(side, axle));
+        let rate_rad_s = turn.rim_speed_m_s / radius_m;
+        let soil_nm = wheel.forces.torque_nm;
+        let drive_nm = soil_nm + inertia_kg_m2 * turn.rim_acceleration_m_s2 / radius_m + effects.friction_nm(rate_rad_s);
+        let up = *brackets.of_wheel(side, axle);
+        let ahead = Planar { x: up.z, z: -up.x };
+        let force = wheel.hub_force_n();
+        let cell_n = force.dot(up) + effects.crosstalk * force.dot(ahead);
+        WheelSensors {
+            rate_rad_s: reading(rate_rad_s),
+            motor_torque_nm: reading(drive_nm * (1.0 + effects.torque_scale)),
+            load_cell_n: reading(cell_n + effects.force_bias_n),
+        }
+    };
+    let mounted = |vector: Axes<f64>| {
+        let tilted = Planar { x: vector.x, z: vector.z }.turned_back(libm::sincos(effects.pitch_misalignment_rad));
+        Axes { x: tilted.x, z: tilted.z, ..vector }.map(reading)
+    };
+    SensorFrame {
+        time_us: 0,
+        wheels: Side::ALL.map(|side| Axle::ALL.map(|axle| wheel(side, axle))),
+        bogie_angle_rad: PerSide { left: motion.pose.bogie_left, right: motion.pose.bogie_right }.map(reading),
+        rocker_angle_rad: reading(motion.pose.rocker),
+        accel_m_s2: mounted(instant.specific_force_m_s2),
+        gyro_rad_s: mounted(body.turn_rad_s),
+        velocity_m_s: body.velocity_m_s.map(|speed| reading(speed * (1.0 + effects.velocity_scale))),
+    }
+}
+
+/// The load cells' axes in the plane of a side: square to rocker or bogie.
+fn bracket_axes(instant: &Instant, side: Side) -> PerAxle<Planar<f64>> {
+    let joints = instant.motion.pose.joints(&instant.motion.rates, side);
+    let up = Planar { x: 0.0, z: 1.0 };
+    let rocker = up.turned(libm::sincos(joints.rocker.pitch_rad));
+    let bogie = up.turned(libm::sincos(joints.rocker.pitch_rad + joints.bogie.pitch_rad));
+    PerAxle { front: rocker, middle: bogie, rear: bogie }
+}
+
+/// A reading in the sensors' precision.
+fn reading(value: f64) -> Option<f32> {
+    Some(value as f32)
+}
+
+/// One standard deviation of each channel, in the channels' order.
+pub fn standard_deviations(noise: &SensorNoise<f64>) -> SensorFrame {
+    let wheel = WheelSensors {
+        rate_rad_s: reading(noise.wheel_rate_rad_s),
+        motor_torque_nm: reading(noise.motor_torque_nm),
+        load_cell_n: reading(noise.load_cell_n),
+    };
+    let axes = |std: f64| Axes { x: std, y: std, z: std }.map(reading);
+    SensorFrame {
+        time_us: 0,
+        wheels: PerSide::both(PerAxle::all(wheel)),
+        bogie_angle_rad: PerSide::both(noise.angle_rad).map(reading),
+        rocker_angle_rad: reading(noise.angle_rad),
+        accel_m_s2: axes(noise.accel_m_s2),
+        gyro_rad_s: axes(noise.gyro_rad_s),
+        velocity_m_s: axes(noise.velocity_m_s),
+    }
+}
+
+/// Adds white noise to every channel: as many draws in every frame, so that a missing sensor changes no other's noise.
+pub fn add_noise(frame: &mut SensorFrame, standard_deviations: &SensorFrame, random: &mut ChaCha8Rng) {
+    for (value, std) in values_mut(frame).zip(values(standard_deviations)) {
+        let normal: f64 = StandardNormal.sample(random);
+        if let (Some(value), Some(std)) = (value, std) {
+            *value = (f64::from(*value) + normal * f64::from(std)) as f32;
+        }
+    }
+}

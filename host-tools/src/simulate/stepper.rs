@@ -1,0 +1,131 @@
+//! From one instant to the next: implicit in time, so that forces and motion agree at each.
+
+use kapvik_firmware::rover::{Axes, PerWheel};
+use kapvik_firmware::terramechanics::sinkage_for_load;
+
+use super::balance::{Instant, Motion, World};
+use super::newton::{Newton, Residual};
+use super::pose::{Coordinates, Pose};
+
+/// The last two instants, which the next follows from by the backward differentiation formula of second order:
+/// q̇ = (3 q − 4 q₋₁ + q₋₂) / 2h, the same for the velocity of the centre of mass.
+#[derive(Debug, Clone)]
+pub struct Stepper {
+    newton: Newton,
+    last: Past,
+    before: Past,
+    rates: Coordinates,
+}
+
+/// What is kept of an instant.
+#[derive(Debug, Clone, Copy)]
+struct Past {
+    pose: Coordinates,
+    centre_velocity_m_s: Axes<f64>,
+}
+
+/// The rover at rest: the unknowns are its place but for x, and in the place of x the speed at which it creeps, which is
+/// what holds it on a slope.
+struct AtRest<'a> {
+    world: &'a World,
+    x_m: f64,
+}
+
+impl Residual for AtRest<'_> {
+    type State = Instant;
+    fn at(&self, unknowns: &Coordinates) -> Option<(Coordinates, Instant)> {
+        let mut pose = Pose::from(*unknowns);
+        let rates = Pose { x: pose.x, ..Pose::default() };
+        pose.x = self.x_m;
+        let rim_speed_m_s = PerWheel::default();
+        let motion = Motion { pose, rates, acceleration_m_s2: Axes::default(), rim_speed_m_s };
+        let instant = self.world.instant(&motion).ok()?;
+        Some((instant.residual, instant))
+    }
+}
+
+/// One step: the unknowns are the rates at its end.
+struct Step<'a> {
+    world: &'a World,
+    stepper: &'a Stepper,
+    step_s: f64,
+    rim_speed_m_s: &'a PerWheel<f64>,
+}
+
+impl Residual for Step<'_> {
+    type State = Instant;
+    fn at(&self, rates: &Coordinates) -> Option<(Coordinates, Instant)> {
+        let Stepper { last, before, .. } = self.stepper;
+        let pose = Pose::from((last.pose * 4.0 - before.pose + rates * (2.0 * self.step_s)) / 3.0);
+        let rates = Pose::from(*rates);
+        let velocity = centre_velocity_m_s(self.world, &pose, &rates);
+        let difference = |now: f64, last: f64, before: f64| (3.0 * now - 4.0 * last + before) / (2.0 * self.step_s);
+        let (last, before) = (last.centre_velocity_m_s, before.centre_velocity_m_s);
+        let acceleration_m_s2 = Axes {
+            x: difference(velocity.x, last.x, before.x),
+            y: difference(velocity.y, last.y, before.y),
+            z: difference(velocity.z, last.z, before.z),
+        };
+        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s: *self.rim_speed_m_s };
+        let instant = self.world.instant(&motion).ok()?;
+        Some((instant.residual, instant))
+    }
+}
+
+impl Stepper {
+    /// The rover standing at rest with its differential axis at x = 0; `None` where the ground does not hold it.
+    pub fn at_rest(world: &World) -> Option<(Self, Instant)> {
+        let start = Coordinates::from(standing(world)?);
+        let solved = Newton::default().solve(&AtRest { world, x_m: 0.0 }, start)?;
+        let instant = solved.state;
+        let past = Past { pose: instant.motion.pose.into(), centre_velocity_m_s: Axes::default() };
+        let stepper = Self { newton: Newton::default(), last: past, before: past, rates: Coordinates::zeros() };
+        Some((stepper, instant))
+    }
+
+    /// The next instant, with the wheels at the given rim speeds; `None` where no balance is found.
+    pub fn advance(&mut self, world: &World, step_s: f64, rim_speed_m_s: &PerWheel<f64>) -> Option<Instant> {
+        let mut newton = std::mem::take(&mut self.newton);
+        let solved = newton.solve(&Step { world, stepper: self, step_s, rim_speed_m_s }, self.rates)?;
+        let Motion { pose, rates, .. } = solved.state.motion;
+        self.newton = newton;
+        self.before = self.last;
+        self.last = Past { pose: pose.into(), centre_velocity_m_s: centre_velocity_m_s(world, &pose, &rates) };
+        self.rates = solved.unknowns;
+        Some(solved.state)
+    }
+}
+
+/// Velocity of the centre of mass in the world, m/s.
+fn centre_velocity_m_s(world: &World, pose: &Pose, rates: &Pose) -> Axes<f64> {
+    let (centre, turn) = (world.rover.suspension.centre_of_mass, pose.motion(rates).turn_rad_s);
+    let swept = pose.into_world(Axes {
+        x: turn.y * centre.z - turn.z * centre.y,
+        y: turn.z * centre.x - turn.x * centre.z,
+        z: turn.x * centre.y - turn.y * centre.x,
+    });
+    Axes { x: rates.x + swept.x, y: swept.y, z: rates.z + swept.z }
+}
+
+/// About where the rover stands: on the plane through the ground under its outer hubs, sunk as a wheel with its share of
+/// the weight. The sinkage is also what tells that the soil can carry it.
+fn standing(world: &World) -> Option<Pose> {
+    use kapvik_firmware::rover::{Axle, Side};
+    let suspension = &world.rover.suspension;
+    let weight_n = world.rover.mass_kg * world.rover.gravity_m_s2;
+    let soil = world.soils.at(0.0);
+    let sinkage_m = sinkage_for_load(&world.rover.wheel, &soil, 0.0, weight_n / 6.0).ok()?;
+    let rear = suspension.bogie_pivot + suspension.rear_hub;
+    let height = |side, axle, x| world.terrain.at(side, axle, x).height_m;
+    let front = Side::ALL.map(|side| height(side, Axle::Front, suspension.front_hub.x));
+    let back = Side::ALL.map(|side| height(side, Axle::Rear, rear.x));
+    let rise = 0.5 * (front.left + front.right - back.left - back.right);
+    let pitch = libm::atan2(rise, suspension.front_hub.x - rear.x);
+    let lean = 0.5 * (front.left + back.left - front.right - back.right);
+    let roll = libm::atan2(lean, 2.0 * suspension.half_track_m);
+    let mean = 0.25 * (front.left + front.right + back.left + back.right);
+    let middle_x = 0.5 * (suspension.front_hub.x + rear.x);
+    let up = world.rover.wheel.radius_m - sinkage_m - 0.5 * (suspension.front_hub.z + rear.z);
+    let z = mean - middle_x * libm::tan(pitch) + up / libm::cos(pitch);
+    Some(Pose { z, pitch, roll, ..Pose::default() })
+}

@@ -1,0 +1,136 @@
+//! Uneven ground: a height over distance for each side, smooth in height and slope.
+
+use std::f64::consts::{PI, TAU};
+
+use kapvik_firmware::rover::{Axle, PerSide, Side};
+
+/// Height of the ground and its slope dz/dx at one place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ground {
+    /// Height, m.
+    pub height_m: f64,
+    /// Rise over run.
+    pub slope: f64,
+}
+
+/// A piece of relief. Pieces add up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// A sine wave between two places, fading in and out over a metre so that its ends are smooth.
+    Wave {
+        /// Where it starts and ends, m.
+        between_m: (f64, f64),
+        /// Half of its height, m.
+        amplitude_m: f64,
+        /// Its length, m.
+        wavelength_m: f64,
+        /// Its phase, rad.
+        phase_rad: f64,
+    },
+    /// A ramp of constant slope between two places, level before and behind, rounded over the given length.
+    Ramp {
+        /// Where it starts and ends, m: where half of the slope is reached.
+        between_m: (f64, f64),
+        /// Rise over run.
+        slope: f64,
+        /// Over how much the slope grows, m.
+        rounding_m: f64,
+    },
+    /// A bump, or a hole where the height is negative: one period of a raised cosine, which a wheel can follow everywhere.
+    Bump {
+        /// Where it starts, m.
+        from_m: f64,
+        /// How long it is, m.
+        length_m: f64,
+        /// How high it is, m.
+        height_m: f64,
+    },
+}
+
+impl Shape {
+    /// The ground that this piece adds at a distance.
+    pub fn at(&self, x_m: f64) -> Ground {
+        match *self {
+            Self::Wave { between_m: (start, end), amplitude_m, wavelength_m, phase_rad } => {
+                let (rise, rise_slope) = smooth_step(x_m - start);
+                let (fall, fall_slope) = smooth_step(end - x_m);
+                let (sine, cosine) = libm::sincos(TAU * x_m / wavelength_m + phase_rad);
+                let (share, share_slope) = (rise * fall, rise_slope * fall - rise * fall_slope);
+                let slope = amplitude_m * (share_slope * sine + share * cosine * TAU / wavelength_m);
+                Ground { height_m: amplitude_m * share * sine, slope }
+            }
+            Self::Ramp { between_m: (start, end), slope, rounding_m } => {
+                let (up, down) = (corner(x_m - start, rounding_m), corner(x_m - end, rounding_m));
+                Ground { height_m: slope * (up.0 - down.0), slope: slope * (up.1 - down.1) }
+            }
+            Self::Bump { from_m, length_m, height_m } => {
+                let share = (x_m - from_m) / length_m;
+                if !(0.0..=1.0).contains(&share) {
+                    return Ground::default();
+                }
+                let (sine, cosine) = libm::sincos(TAU * share);
+                Ground { height_m: 0.5 * height_m * (1.0 - cosine), slope: PI * height_m / length_m * sine }
+            }
+        }
+    }
+}
+
+/// A step from 0 to 1 over the unit interval, and its slope.
+pub(super) fn smooth_step(x: f64) -> (f64, f64) {
+    let x = x.clamp(0.0, 1.0);
+    (x * x * x * (10.0 - x * (15.0 - 6.0 * x)), 30.0 * x * x * (1.0 - x) * (1.0 - x))
+}
+
+/// max(0, x), rounded over `rounding` around zero, and its slope.
+fn corner(x: f64, rounding: f64) -> (f64, f64) {
+    let share = x / rounding + 0.5;
+    if share <= 0.0 {
+        return (0.0, 0.0);
+    }
+    if share >= 1.0 {
+        return (x, 1.0);
+    }
+    // The integral of the step 3 s² − 2 s³.
+    (rounding * share.powi(3) * (1.0 - 0.5 * share), share * share * (3.0 - 2.0 * share))
+}
+
+/// The ground under a rover that drives straight along x.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Terrain {
+    /// Relief under all wheels of a side.
+    pub sides: PerSide<Vec<Shape>>,
+    /// Ground that gives way under one wheel alone, after those before it have passed.
+    pub under_one: Option<(Side, Axle, Shape)>,
+}
+
+impl Terrain {
+    /// The ground under a wheel.
+    pub fn at(&self, side: Side, axle: Axle, x_m: f64) -> Ground {
+        let alone = self.under_one.iter().filter(|(s, a, _)| (*s, *a) == (side, axle)).map(|(_, _, shape)| shape);
+        self.sides.of(side).iter().chain(alone).map(|shape| shape.at(x_m)).fold(Ground::default(), |sum, piece| {
+            Ground { height_m: sum.height_m + piece.height_m, slope: sum.slope + piece.slope }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Shape;
+
+    #[test]
+    fn slopes_are_the_derivatives_of_the_heights() {
+        let shapes = [
+            Shape::Wave { between_m: (0.5, 4.0), amplitude_m: 0.05, wavelength_m: 1.3, phase_rad: 0.4 },
+            Shape::Ramp { between_m: (0.5, 2.0), slope: 0.2, rounding_m: 0.5 },
+            Shape::Bump { from_m: 1.0, length_m: 0.5, height_m: -0.08 },
+        ];
+        let step = 1.0e-6;
+        for shape in shapes {
+            for place in 0..1000 {
+                let x = 0.005 * f64::from(place) + 1.0e-4;
+                let expected = (shape.at(x + step).height_m - shape.at(x - step).height_m) / (2.0 * step);
+                assert!((shape.at(x).slope - expected).abs() < 1.0e-8, "{shape:?} at {x}");
+            }
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! A simulated drive, frame by frame.
+
+use std::collections::VecDeque;
+
+use kapvik_firmware::rover::{Axes, Rover};
+use kapvik_firmware::sensor_frame::SensorFrame;
+use kapvik_firmware::terramechanics::Soil;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+
+use super::audit::imbalance;
+use super::balance::{Instant, WheelInstant, World};
+use super::effects::SensorEffects;
+use super::faults::{Fault, Faults};
+use super::ground_soils::{Change, SoilsAlongTheWay};
+use super::programme::Programme;
+use super::scenario::{Draw, Scenario};
+use super::sensors::{add_noise, readings, standard_deviations};
+use super::stepper::Stepper;
+use crate::data::truth_file::{TrueSoil, Truth, WheelTruth};
+
+/// What every frame's bodies balance to, N and N·m.
+pub const BALANCE: f64 = 1.0e-6;
+/// Frames a second, unless asked otherwise.
+pub const RATE_HZ: f64 = 10.0;
+/// The longest step of the simulation, s.
+const LONGEST_STEP_S: f64 = 0.05;
+
+/// What can be asked of a drive beside its scenario.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// How long it takes, s; absent: as long as the scenario.
+    pub duration_s: Option<f64>,
+    /// Frames a second; absent: [`RATE_HZ`].
+    pub rate_hz: Option<f64>,
+    /// The soil it begins on; absent: drawn.
+    pub soil: Option<Soil<f64>>,
+    /// Changes of the soil, in place of the scenario's; absent: the scenario's.
+    pub changes: Option<Vec<Change>>,
+    /// Effects on sensors and drives.
+    pub effects: SensorEffects,
+    /// Faults of sensors, beside those of the scenario.
+    pub faults: Vec<Fault>,
+}
+
+/// Why a drive ended before its time.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SimulationError {
+    /// The prior has no soil for it.
+    #[error("no soil of the prior carries this rover through this scenario: give one with --soil")]
+    NoSoil,
+    /// The rover cannot stand where it should start.
+    #[error("the rover does not stand: the soil is too weak for its weight")]
+    Standing,
+    /// No motion balances the forces.
+    #[error(
+        "at {time_s} s, {x_m:.2} m from the start, no motion balances the forces: the soil is too weak or the ground too \
+         steep for this rover"
+    )]
+    Stuck {
+        /// When, s.
+        time_s: f64,
+        /// Where, m.
+        x_m: f64,
+    },
+    /// A frame failed the independent check of its balance.
+    #[error("at {time_s} s a body is out of balance by {worst} N or N·m: expected at most {BALANCE}")]
+    Unbalanced {
+        /// When, s.
+        time_s: f64,
+        /// By how much, N or N·m.
+        worst: f64,
+    },
+}
+
+/// A drive: an iterator over its frames, each with what was true. It ends at the first error.
+#[derive(Debug, Clone)]
+pub struct Traverse {
+    world: World,
+    programme: Programme,
+    effects: SensorEffects,
+    faults: Faults,
+    stepper: Stepper,
+    instant: Instant,
+    noise: SensorFrame,
+    random: ChaCha8Rng,
+    /// What the velocimeter would have said at the last instants, with their times in s.
+    velocities: VecDeque<(f64, Axes<Option<f32>>)>,
+    rate_hz: f64,
+    frames: u64,
+    next: u64,
+}
+
+impl Traverse {
+    /// A drive of a scenario. The same arguments give the same frames, to the bit.
+    ///
+    /// # Errors
+    /// Where no soil allows it, or the rover does not stand at its start.
+    pub fn new(
+        scenario: Scenario,
+        seed: u64,
+        rover: &Rover<f64>,
+        options: &Options,
+    ) -> Result<Self, SimulationError> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut draw = Draw { random: &mut random, rover, soil: options.soil };
+        let course = scenario.draw(&mut draw).ok_or(SimulationError::NoSoil)?;
+        let mut truly = *rover;
+        truly.wheel.radius_m += options.effects.rolling_radius_m;
+        let changes = options.changes.clone().unwrap_or(course.changes);
+        let world = World {
+            rover: truly,
+            terrain: course.terrain,
+            soils: SoilsAlongTheWay::new(course.soil, &changes),
+            bogie_stop_rad: course.bogie_stop_rad,
+        };
+        let (stepper, instant) = Stepper::at_rest(&world).ok_or(SimulationError::Standing)?;
+        let rate_hz = options.rate_hz.unwrap_or(RATE_HZ);
+        // A stream of its own: what is drawn for the course does not move the noise.
+        random.set_stream(1);
+        random.set_word_pos(0);
+        Ok(Self {
+            world,
+            programme: course.programme,
+            effects: options.effects,
+            faults: Faults::new([course.faults, options.faults.clone()].concat()),
+            stepper,
+            instant,
+            noise: standard_deviations(&rover.noise),
+            random,
+            velocities: VecDeque::new(),
+            rate_hz,
+            frames: 1 + (options.duration_s.unwrap_or(course.duration_s) * rate_hz) as u64,
+            next: 0,
+        })
+    }
+
+    /// How many frames it has, those that a fault loses among them.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// The soils, ground and rover that it goes over.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The rover at the frame that was given last.
+    pub fn instant(&self) -> &Instant {
+        &self.instant
+    }
+
+    /// All frames.
+    ///
+    /// # Errors
+    /// The first.
+    pub fn run(self) -> Result<Vec<(SensorFrame, Truth)>, SimulationError> {
+        self.collect()
+    }
+
+    /// Time of a frame, µs.
+    fn time_us(&self, frame: u64) -> u64 {
+        libm::round(frame as f64 * 1.0e6 / self.rate_hz) as u64
+    }
+
+    fn advance(&mut self) -> Result<(), SimulationError> {
+        let (from_us, to_us) = (self.time_us(self.next - 1), self.time_us(self.next));
+        let steps = libm::ceil(1.0 / self.rate_hz / LONGEST_STEP_S - 1.0e-9).max(1.0);
+        let step_s = 1.0 / self.rate_hz / steps;
+        for step in 1..=steps as u32 {
+            let time_s = 1.0e-6 * (from_us as f64 + (to_us - from_us) as f64 * f64::from(step) / steps);
+            let rim_speeds = self.programme.at(time_s).map_wheels(|turn| turn.rim_speed_m_s);
+            let stuck = || SimulationError::Stuck { time_s, x_m: self.instant.motion.pose.x };
+            self.instant = self.stepper.advance(&self.world, step_s, &rim_speeds).ok_or_else(stuck)?;
+        }
+        Ok(())
+    }
+
+    /// The frame of the present instant; `None` where a fault loses it.
+    fn frame(&mut self) -> Result<Option<(SensorFrame, Truth)>, SimulationError> {
+        let time_us = self.time_us(self.next);
+        let time_s = 1.0e-6 * time_us as f64;
+        let worst = imbalance(&self.world, &self.instant).worst();
+        if !(worst <= BALANCE) {
+            return Err(SimulationError::Unbalanced { time_s, worst });
+        }
+        let Rover { wheel, drive, .. } = self.world.rover;
+        let turns = self.programme.at(time_s);
+        let mut frame =
+            readings(&self.instant, &turns, wheel.radius_m, drive.reflected_inertia_kg_m2, &self.effects);
+        frame.time_us = time_us;
+        frame.velocity_m_s = self.late_velocity(time_s, frame.velocity_m_s);
+        let drift_n = (self.effects.force_drift_n_h * time_s / 3600.0) as f32;
+        frame.wheels.iter_wheels_mut().for_each(|wheel| wheel.load_cell_n = wheel.load_cell_n.map(|n| n + drift_n));
+        add_noise(&mut frame, &self.noise, &mut self.random);
+        let truth = self.truth(time_us);
+        Ok(self.faults.applied(&frame).map(|frame| (frame, truth)))
+    }
+
+    /// What the velocimeter says, as late as it is: between the two frames around that time.
+    fn late_velocity(&mut self, time_s: f64, now: Axes<Option<f32>>) -> Axes<Option<f32>> {
+        let seen_s = time_s - self.effects.latency_s;
+        self.velocities.push_back((time_s, now));
+        while self.velocities.get(1).is_some_and(|(after_s, _)| *after_s <= seen_s) {
+            self.velocities.pop_front();
+        }
+        let Some(&(before_s, before)) = self.velocities.front() else { return now };
+        let Some(&(after_s, after)) = self.velocities.get(1) else { return before };
+        let share = ((seen_s - before_s) / (after_s - before_s)).clamp(0.0, 1.0) as f32;
+        let mix = |before: Option<f32>, after: Option<f32>| Some(before? + share * (after? - before?));
+        Axes { x: mix(before.x, after.x), y: mix(before.y, after.y), z: mix(before.z, after.z) }
+    }
+
+    fn truth(&self, time_us: u64) -> Truth {
+        let pose = self.instant.motion.pose;
+        let soil = |x_m: f64| true_soil(&self.world.soils.at(x_m), self.world.rover.wheel.width_m);
+        let wheel = |wheel: &WheelInstant| WheelTruth {
+            slip: wheel.motion.slip(),
+            resistive_torque_nm: wheel.forces.torque_nm,
+            contact_angle_rad: wheel.contact_angle_rad,
+            normal_load_n: wheel.forces.load_n,
+            drawbar_pull_n: wheel.forces.drawbar_pull_n,
+            sinkage_m: wheel.motion.sinkage_m.max(0.0),
+            side_force_n: wheel.side_force_n,
+            soil: soil(pose.x + pose.into_world(wheel.hub_m).x),
+        };
+        Truth {
+            time_us,
+            wheels: self.instant.wheels.map_wheels(|instant| wheel(&instant)),
+            soil: soil(pose.x),
+            x_m: pose.x,
+            z_m: pose.z,
+            pitch_rad: pose.pitch,
+            roll_rad: pose.roll,
+        }
+    }
+}
+
+impl Iterator for Traverse {
+    type Item = Result<(SensorFrame, Truth), SimulationError>;
+    fn next(&mut self) -> Option<Self::Item> {
+        while self.next < self.frames {
+            let advanced = if self.next > 0 { self.advance() } else { Ok(()) };
+            let frame = advanced.and_then(|()| self.frame());
+            self.next = if frame.is_err() { self.frames } else { self.next + 1 };
+            if let Some(frame) = frame.transpose() {
+                return Some(frame);
+            }
+        }
+        None
+    }
+}
+
+fn true_soil(soil: &Soil<f64>, width_m: f64) -> TrueSoil {
+    TrueSoil {
+        cohesion_pa: soil.cohesion_pa,
+        friction_angle_rad: soil.friction_angle_rad,
+        shear_modulus_m: soil.shear_modulus_m,
+        stiffness_pa_m_n: soil.stiffness(width_m),
+        sinkage_exponent: soil.sinkage_exponent,
+    }
+}

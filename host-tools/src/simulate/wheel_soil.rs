@@ -1,0 +1,71 @@
+//! What the soil does to a wheel that may drive forward, stand or back up.
+
+use kapvik_firmware::terramechanics::{ForceError, Soil, Wheel, WheelForces, deepest_sinkage, wheel_forces};
+
+/// Speed below which a wheel counts as standing, m/s: a tenth of a millimetre a second.
+///
+/// Equations 1–11 know only the ratio of two speeds, and only one direction of travel. Around standstill slip is measured
+/// against this speed, and the forces of both directions are blended; a wheel ten times as fast is out of its reach.
+pub const STANDING_M_S: f64 = 1.0e-4;
+
+/// How a wheel moves on the soil.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WheelMotion {
+    /// Rim speed rω of the absolute wheel rate, m/s.
+    pub rim_speed_m_s: f64,
+    /// Speed of the hub along the terrain, m/s.
+    pub hub_speed_m_s: f64,
+    /// Sinkage, m; below zero the wheel is in the air.
+    pub sinkage_m: f64,
+    /// Speed of the hub into the terrain, m/s.
+    pub sinking_m_s: f64,
+}
+
+impl WheelMotion {
+    /// Slip of the direction of travel, −1 … 1; none where the wheel stands.
+    ///
+    /// Of a wheel that backs up it is that of the mirrored wheel, so that driving is positive in both directions.
+    pub fn slip(&self) -> Option<f64> {
+        let fastest = self.rim_speed_m_s.abs().max(self.hub_speed_m_s.abs());
+        let forward = self.rim_speed_m_s + self.hub_speed_m_s >= 0.0;
+        (fastest > STANDING_M_S).then(|| if forward { self.forward_slip() } else { -self.forward_slip() })
+    }
+
+    /// (rω − v) over the faster of both, at least over [`STANDING_M_S`]; at most 1, where rim and hub move oppositely.
+    fn forward_slip(&self) -> f64 {
+        let fastest = self.rim_speed_m_s.abs().max(self.hub_speed_m_s.abs()).max(STANDING_M_S);
+        ((self.rim_speed_m_s - self.hub_speed_m_s) / fastest).clamp(-1.0, 1.0)
+    }
+
+    /// The forces of the soil; none of a wheel in the air. The load contains the damping of the sinking motion: the soil's
+    /// load times 1 + ż / `damping_speed_m_s`. Without it a rover of massless links is unstable on such a soil.
+    ///
+    /// # Errors
+    /// Where the wheel has sunk too deep for the equations, or a force overflows.
+    pub fn forces(
+        &self,
+        wheel: &Wheel<f64>,
+        soil: &Soil<f64>,
+        damping_speed_m_s: f64,
+    ) -> Result<WheelForces<f64>, ForceError> {
+        if self.sinkage_m <= 0.0 {
+            return Ok(WheelForces { drawbar_pull_n: 0.0, load_n: 0.0, torque_nm: 0.0 });
+        }
+        if self.sinkage_m > deepest_sinkage(wheel) {
+            return Err(ForceError::Sinkage);
+        }
+        let slip = self.forward_slip();
+        let share = 0.5 + 0.5 * libm::tanh((self.rim_speed_m_s + self.hub_speed_m_s) / STANDING_M_S);
+        let mut sum = WheelForces { drawbar_pull_n: 0.0, load_n: 0.0, torque_nm: 0.0 };
+        for (share, sign) in [(share, 1.0), (1.0 - share, -1.0)] {
+            if share > 0.0 {
+                let forces = wheel_forces(wheel, soil, sign * slip, self.sinkage_m)?;
+                sum.drawbar_pull_n += share * sign * forces.drawbar_pull_n;
+                sum.load_n += share * forces.load_n;
+                sum.torque_nm += share * sign * forces.torque_nm;
+            }
+        }
+        sum.load_n *= 1.0 + self.sinking_m_s / damping_speed_m_s;
+        Ok(sum)
+    }
+}
