@@ -69,16 +69,19 @@ pub(super) struct SideReadings<S> {
     pub bogie_angle_rad: Option<S>,
 }
 
-/// One standard deviation of a ratio and of an angle that is not known at all.
-const UNKNOWN_RATIO: f64 = 0.5;
-const UNKNOWN_ANGLE: f64 = 0.5;
+/// One standard deviation of a ratio that is not known at all, and of contact angles about the pitch of their link, rad:
+/// wider, and the filter might take a wheel that rolls forward for one that hangs from a ceiling and rolls back.
+const UNKNOWN_RATIO: f64 = 0.3;
+const UNKNOWN_ANGLE: f64 = 0.2;
+/// A contact angle farther from the pitch of its link is given up, rad.
+const IMPOSSIBLE_ANGLE: f64 = 1.2;
 /// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
 const RATIO_DRIFT: f64 = 0.2;
 const ANGLE_DRIFT: f64 = 0.32;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
-/// Least speed that a ratio refers to, m/s, so that a rover that slides on stopped wheels still has one.
-const LEAST_SPEED: f64 = 1.0e-3;
+/// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
+const STANDING: f64 = 1.5e-3;
 
 /// The filter of one side.
 #[derive(Debug, Clone)]
@@ -88,6 +91,7 @@ pub(super) struct ContactAngleFilter<S> {
     ratio_rate: WalkRate<S>,
     angle_rate: WalkRate<S>,
     watch: Watch,
+    begun: bool,
 }
 
 impl<S: Scalar> ContactAngleFilter<S> {
@@ -95,18 +99,15 @@ impl<S: Scalar> ContactAngleFilter<S> {
     pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
         let side = RollingSide::new(rover);
         let (zero, one) = (S::zero(), S::one());
-        let model = ContactAngleModel {
-            side,
-            rim_speed_m_s: S::constant(LEAST_SPEED),
-            body_pitch: (zero, one),
-            body_pitch_rad: zero,
-        };
+        let model = ContactAngleModel { side, rim_speed_m_s: zero, body_pitch: (zero, one), body_pitch_rad: zero };
+        let level = Gaussian::independent([one, zero, zero, zero, zero, zero], Self::unknown_std())?;
         Ok(Self {
-            filter: SigmaPointFilter::new(Self::unknown([one, zero, zero, zero, zero, zero])?, Self::unknown_std())?,
+            filter: SigmaPointFilter::new(level, Self::unknown_std())?,
             model,
             ratio_rate: WalkRate::new(phase),
             angle_rate: WalkRate::new(phase + 1),
             watch: Watch::default(),
+            begun: false,
         })
     }
 
@@ -115,8 +116,26 @@ impl<S: Scalar> ContactAngleFilter<S> {
         [S::constant(UNKNOWN_RATIO), angle, angle, angle, angle, angle]
     }
 
-    fn unknown(mean: [S; STATES]) -> Result<Gaussian<S, STATES>, InvalidNumber> {
-        Gaussian::independent(mean, Self::unknown_std())
+    /// Starts from the pitches that the first joint angles tell: the terrain is about as steep as the links.
+    fn begin(&mut self, body_pitch_rad: S, readings: &SideReadings<S>) {
+        let (Some(rocker), Some(bogie)) = (readings.rocker_angle_rad, readings.bogie_angle_rad) else { return };
+        let rocker = body_pitch_rad + rocker;
+        let bogie = rocker + bogie;
+        if let Ok(start) = Gaussian::independent([S::one(), rocker, bogie, bogie, rocker, bogie], Self::unknown_std()) {
+            self.filter.restart(start);
+            self.begun = true;
+        }
+    }
+
+    /// Gives up contact angles that no wheel on the ground has.
+    fn give_up_impossible(&mut self) {
+        let [_, front, middle, rear, rocker, bogie] = *self.filter.estimate().mean();
+        let places = [(1, front, rocker), (2, middle, bogie), (3, rear, bogie)];
+        for (index, angle, link) in places {
+            if (angle - link).abs() > S::constant(IMPOSSIBLE_ANGLE) {
+                let _ = self.filter.forget(index, link, S::constant(UNKNOWN_ANGLE));
+            }
+        }
     }
 
     /// What is known of the state.
@@ -149,7 +168,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         noise: &SensorNoise<S>,
     ) -> Innovation<S, MEASUREMENTS> {
         let (body_pitch_rad, pitch_variance) = body_pitch;
-        self.refer_to(rim_speed_m_s);
+        let stands = rim_speed_m_s.abs() < S::constant(STANDING);
+        self.model.rim_speed_m_s = if stands { S::zero() } else { rim_speed_m_s };
+        if !self.begun {
+            self.begin(body_pitch.0, readings);
+        }
         self.predict(step_s);
         self.model.body_pitch_rad = body_pitch_rad;
         self.model.body_pitch = body_pitch_rad.sin_cos();
@@ -168,19 +191,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         if self.watch.contradicted(&told) {
             let _ = self.filter.random_walk(&Self::unknown_std());
         }
+        self.give_up_impossible();
         told
-    }
-
-    /// The speed that the ratio refers to. While the rims stand, it keeps the least speed in the direction of before.
-    fn refer_to(&mut self, rim_speed_m_s: S) {
-        let least = S::constant(LEAST_SPEED);
-        self.model.rim_speed_m_s = if rim_speed_m_s.abs() >= least {
-            rim_speed_m_s
-        } else if self.model.rim_speed_m_s < S::zero() {
-            -least
-        } else {
-            least
-        };
     }
 
     fn predict(&mut self, step_s: S) {
@@ -200,9 +212,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// Learns how fast the ratio and the direction of travel wander, from the velocity alone.
     fn learn_rates(&mut self, step_s: S, readings: &SideReadings<S>) {
         let speed = self.model.rim_speed_m_s;
-        let moves = speed.abs() > S::constant(2.0 * LEAST_SPEED);
         let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s else { return };
-        if !moves {
+        if speed == S::zero() {
             return;
         }
         let velocity = Planar { x, z }.turned(self.model.body_pitch);

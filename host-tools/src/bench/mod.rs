@@ -1,5 +1,6 @@
 //! Measurements, one subject a file.
 
+pub mod estimators;
 pub mod forward;
 pub mod limit;
 pub mod network;

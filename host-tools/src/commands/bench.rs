@@ -4,6 +4,7 @@ mod target;
 
 use clap::{Args, Subcommand};
 
+use crate::bench::estimators::{self, EstimatorArguments};
 use crate::bench::limit::{self, LimitArguments};
 use crate::bench::{forward, network, training};
 use crate::error::HostError;
@@ -11,6 +12,8 @@ use crate::error::HostError;
 /// What to measure.
 #[derive(Subcommand)]
 pub enum Subject {
+    /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
+    Estimators(EstimatorArguments),
     /// Evaluations of equations 1–11 per second, beside a Simpson loop and SciPy's quad
     Forward,
     /// The accuracy that no estimator of the soil can beat: the mean of the exact posterior
@@ -41,6 +44,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Estimators(arguments) => estimators::run(&arguments)?,
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),

@@ -235,10 +235,7 @@ impl WheelInstant {
 /// and is level across; the tangent is where that surface cuts the wheel's plane.
 fn contact_in_wheel_plane(pose: &Pose, ground: &Ground) -> Contact<f64> {
     let (sine, cosine) = libm::sincos(pose.pitch);
-    let along = Planar {
-        x: libm::cos(pose.roll) * (cosine + ground.slope * sine),
-        z: ground.slope * cosine - sine,
-    };
+    let along = Planar { x: libm::cos(pose.roll) * (cosine + ground.slope * sine), z: ground.slope * cosine - sine };
     let tangent = along.scaled(1.0 / along.length());
     Contact { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
 }

@@ -1,0 +1,75 @@
+//! How good the estimators of wheel forces are on simulated drives.
+
+use clap::Args;
+use kapvik_firmware::rover::Rover;
+
+use crate::error::HostError;
+use crate::simulate::Scenario;
+use crate::trial::tally::Tally;
+use crate::trial::{Quantity, Trial, trial};
+
+/// Which drives.
+#[derive(Args)]
+pub struct EstimatorArguments {
+    /// Drives of each scenario
+    #[arg(long, default_value_t = 20)]
+    drives: u64,
+    /// Seed of the first drive; development has used those below 1000
+    #[arg(long, default_value_t = 1000)]
+    seed: u64,
+    /// Scenarios; without: those that the README reports
+    #[arg(long, value_enum)]
+    scenario: Vec<Scenario>,
+}
+
+/// The scenarios that are reported.
+pub const REPORTED: [Scenario; 6] =
+    [Scenario::Level, Scenario::Hills, Scenario::Spread, Scenario::Slope, Scenario::Rock, Scenario::Dropout];
+
+/// Drives and prints.
+///
+/// # Errors
+/// Where a simulation fails.
+pub fn run(arguments: &EstimatorArguments) -> Result<(), HostError> {
+    let scenarios = if arguments.scenario.is_empty() { REPORTED.to_vec() } else { arguments.scenario.clone() };
+    for scenario in scenarios {
+        let trial = trial(scenario, arguments.seed..arguments.seed + arguments.drives, &Rover::assumed())?;
+        print(&trial);
+    }
+    Ok(())
+}
+
+fn print(trial: &Trial) {
+    println!("\n{:?}, {} drives", trial.scenario, trial.drives.len());
+    println!("  {:16} {:>9} {:>9} {:>6}   within 1 σ, 2 σ", "", "RMSE", "raw", "ratio");
+    for (quantity, tally) in Quantity::ALL.into_iter().zip(trial.tallies()) {
+        print_tally(quantity, &tally);
+    }
+    let names = ["NEES filter 1", "NEES filter 2", "NIS filter 1", "NIS angles", "NIS forces"];
+    for (name, squares) in names.into_iter().zip(trial.squares()) {
+        println!(
+            "  {name:16} {:9.3} of 1, inside 95 % bounds {:5.1} %",
+            squares.mean(),
+            100.0 * squares.share_inside()
+        );
+    }
+    let white = trial.share_white().map(|share| format!("{:.0}", 100.0 * share)).join(" ");
+    println!("  white at 5 %: share of drives, % (rate hub | vx vz rocker bogie | cells moments): {white}");
+}
+
+fn print_tally(quantity: Quantity, tally: &Tally) {
+    let (name, unit) = match quantity {
+        Quantity::Slip => ("slip", 1.0),
+        Quantity::Torque => ("torque, N·m", 1.0),
+        Quantity::ContactAngle => ("contact angle, °", 1.0_f64.to_degrees()),
+        Quantity::Load => ("load, N", 1.0),
+        Quantity::FrontPull => ("front pull, N", 1.0),
+        Quantity::BogiePull => ("bogie pull, N", 1.0),
+        Quantity::SplitPull => ("split by torque", 1.0),
+        Quantity::LoadSplitPull => ("split by load", 1.0),
+    };
+    let [one, two] = tally.coverage();
+    let ratio = tally.rmse() / tally.naive_rmse();
+    let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
+    println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.2}   {:5.1} {:5.1}", 100.0 * one, 100.0 * two);
+}

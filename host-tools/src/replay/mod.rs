@@ -1,0 +1,3 @@
+//! Recorded frames through the estimators.
+
+pub mod naive;

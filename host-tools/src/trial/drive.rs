@@ -1,0 +1,220 @@
+//! One simulated drive through the estimators.
+
+use kapvik_firmware::estimator::{Estimate, WheelEstimate};
+use kapvik_firmware::filter::{Fate, Innovation};
+use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
+use kapvik_firmware::rover::{PerSide, PerWheel, Rover};
+
+use super::consistency::{NormalisedSquares, normalised_square};
+use super::tally::Tally;
+use crate::data::truth_file::Truth;
+use crate::error::HostError;
+use crate::replay::naive::{NaiveWheel, TrailingMean, naive};
+use crate::simulate::{Options, Scenario, Traverse};
+
+/// What is compared with the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Slip.
+    Slip,
+    /// Resistive torque, N·m.
+    Torque,
+    /// Contact angle, rad.
+    ContactAngle,
+    /// Normal load, N.
+    Load,
+    /// Drawbar pull of a front wheel, N.
+    FrontPull,
+    /// Drawbar pull of a bogie's two wheels together, N.
+    BogiePull,
+    /// Drawbar pull of one wheel of a bogie, split by torque, N.
+    SplitPull,
+    /// The same by the seed's rule, in proportion to load, N; it states no standard deviation.
+    LoadSplitPull,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Slip,
+        Self::Torque,
+        Self::ContactAngle,
+        Self::Load,
+        Self::FrontPull,
+        Self::BogiePull,
+        Self::SplitPull,
+        Self::LoadSplitPull,
+    ];
+}
+
+/// What a drive came to.
+#[derive(Debug, Clone, Default)]
+pub struct Drive {
+    /// Errors, in the order of [`Quantity::ALL`].
+    pub tallies: [Tally; 8],
+    /// Squared errors of filter 1: torque and slip of each wheel.
+    pub filter_1: NormalisedSquares,
+    /// Squared errors of filter 2: contact angle, load and drawbar pull of each front wheel.
+    pub filter_2: NormalisedSquares,
+    /// Squared innovations of filter 1, of the two halves of filter 2.
+    pub innovations: [NormalisedSquares; 3],
+    /// Normalised innovations of each measurement, a series each: filter 1 of one wheel, then both halves of filter 2 of one
+    /// side.
+    pub series: [Vec<f64>; 11],
+    /// The last estimate.
+    pub last: Option<FrameEstimate>,
+    /// The last truth.
+    pub last_truth: Truth,
+}
+
+/// Seconds at the start that are not counted: the estimators know nothing yet, and the rover stands.
+const WARM_UP_S: f64 = 5.0;
+
+impl Drive {
+    /// Drives a scenario.
+    ///
+    /// # Errors
+    /// Where the simulation fails.
+    pub fn run(scenario: Scenario, seed: u64, rover: &Rover<f64>, options: &Options) -> Result<Self, HostError> {
+        let failed = |what: String| HostError::Failed(format!("{scenario:?}, seed {seed}: {what}"));
+        let traverse = Traverse::new(scenario, seed, rover, options).map_err(|error| failed(error.to_string()))?;
+        let flight = rover.map(|value| value as f32);
+        let mut pipeline = Pipeline::new(&flight).map_err(|error| failed(format!("{error:?}")))?;
+        let (mut drive, mut trailing) = (Self::default(), TrailingMean::default());
+        for (index, step) in traverse.enumerate() {
+            let (frame, truth) = step.map_err(|error| failed(error.to_string()))?;
+            let estimate = pipeline.tick(&frame);
+            let now = naive(rover, &frame);
+            let second = trailing.push(frame.time_us, now);
+            (drive.last, drive.last_truth) = (Some(estimate), truth);
+            if std::env::var("KDBG").is_ok()
+                && (index % 5 == 0 || std::env::var("KALL").is_ok())
+                && (truth.time_us as f64) * 1e-6
+                    > std::env::var("KDBG").unwrap_or_default().parse::<f64>().unwrap_or(0.0)
+            {
+                let w = estimate.wheels.left;
+                let t = truth.wheels.left;
+                eprintln!(
+                    "{seed} {:.1} x={:.3} | slip {:?} {:.3} | g {:.3}±{:.3} {:.3} m {:.3} {:.3} r {:.3} {:.3} | W {:.1} {:.1} DP {:.2}±{:.2} {:.2} T {:.2} {:.2} {:?}",
+                    frame.time_us as f64 * 1e-6,
+                    truth.x_m,
+                    w.front.slip.map(|s| s.value),
+                    t.front.slip.unwrap_or(9.0),
+                    w.front.contact_angle_rad.value,
+                    w.front.contact_angle_rad.std,
+                    t.front.contact_angle_rad,
+                    w.middle.contact_angle_rad.value,
+                    t.middle.contact_angle_rad,
+                    w.rear.contact_angle_rad.value,
+                    t.rear.contact_angle_rad,
+                    w.front.normal_load_n.value,
+                    t.front.normal_load_n,
+                    w.front.drawbar_pull_n.value,
+                    w.front.drawbar_pull_n.std,
+                    t.front.drawbar_pull_n,
+                    w.front.resistive_torque_nm.value,
+                    t.front.resistive_torque_nm,
+                    w.front.activity
+                );
+            }
+            if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
+                drive.take_errors(&estimate, &now, &second, &truth);
+                drive.take_squares(index, &pipeline, &estimate, &truth);
+            }
+        }
+        Ok(drive)
+    }
+
+    fn tally(&mut self, quantity: Quantity) -> &mut Tally {
+        &mut self.tallies[quantity as usize]
+    }
+
+    fn take_errors(
+        &mut self,
+        estimate: &FrameEstimate,
+        now: &PerWheel<NaiveWheel>,
+        second: &PerWheel<NaiveWheel>,
+        truth: &Truth,
+    ) {
+        for (place, wheel) in estimate.wheels.iter_wheels().enumerate() {
+            let nth = |wheels: &PerWheel<NaiveWheel>| wheels.iter_wheels().nth(place).copied().unwrap_or_default();
+            let (now, second) = (nth(now), nth(second));
+            let Some(truth) = truth.wheels.iter_wheels().nth(place) else { continue };
+            if let (Some(slip), Some(true_slip)) = (wheel.slip, truth.slip) {
+                self.tally(Quantity::Slip).take(slip, now.slip, second.slip, true_slip);
+            }
+            let both = |value: fn(&NaiveWheel) -> Option<f64>| (value(&now), value(&second));
+            let mut take = |quantity, estimate, (now, second), truth| {
+                self.tally(quantity).take(estimate, now, second, truth);
+            };
+            let torque = both(|wheel| wheel.resistive_torque_nm);
+            take(Quantity::Torque, wheel.resistive_torque_nm, torque, truth.resistive_torque_nm);
+            let angle = both(|wheel| wheel.contact_angle_rad);
+            take(Quantity::ContactAngle, wheel.contact_angle_rad, angle, truth.contact_angle_rad);
+            let load = both(|wheel| wheel.normal_load_n);
+            take(Quantity::Load, wheel.normal_load_n, load, truth.normal_load_n);
+            let pull = both(|wheel| wheel.drawbar_pull_n);
+            let by_load = Estimate { value: wheel.drawbar_pull_by_load_n, std: 0.0 };
+            if place % 3 == 0 {
+                take(Quantity::FrontPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
+            } else {
+                take(Quantity::SplitPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
+                take(Quantity::LoadSplitPull, by_load, pull, truth.drawbar_pull_n);
+            }
+        }
+        let sums = |pulls: PerWheel<Option<f64>>| pulls.map(|side| Some(side.middle? + side.rear?));
+        let (now, second) = (sums(now.map_wheels(|w| w.drawbar_pull_n)), sums(second.map_wheels(|w| w.drawbar_pull_n)));
+        let truth = truth.wheels.map(|side| side.middle.drawbar_pull_n + side.rear.drawbar_pull_n);
+        let PerSide { left, right } = estimate.bogie_drawbar_pull_n.zip(now.zip(second)).zip(truth);
+        for ((estimate, (now, second)), truth) in [left, right] {
+            self.tally(Quantity::BogiePull).take(estimate, now, second, truth);
+        }
+    }
+
+    fn take_squares(&mut self, index: usize, pipeline: &Pipeline, estimate: &FrameEstimate, truth: &Truth) {
+        let covariances = pipeline.estimator().covariances();
+        let wheels = estimate.wheels.zip_wheels(covariances).zip_wheels(truth.wheels);
+        for (place, ((wheel, covariance), truth)) in wheels.iter_wheels().enumerate() {
+            if let (Some(slip), Some(true_slip)) = (wheel.slip, truth.slip) {
+                let torque = f64::from(wheel.resistive_torque_nm.value) - truth.resistive_torque_nm;
+                let error = [torque, f64::from(slip.value) - true_slip];
+                if let Some(square) = normalised_square(error, &covariance.torque_slip) {
+                    self.filter_1.add(index, square, 2.0);
+                }
+            }
+            if place % 3 == 0 {
+                let error = errors_of_contact(wheel, truth);
+                if let Some(square) = normalised_square(error, &covariance.contact) {
+                    self.filter_2.add(index, square, 3.0);
+                }
+            }
+        }
+        let innovations = pipeline.estimator().innovations();
+        for side in innovations.as_array() {
+            for wheel in side.wheels.as_array() {
+                add_innovation(&mut self.innovations[0], index, wheel);
+            }
+            add_innovation(&mut self.innovations[1], index, &side.angles);
+            add_innovation(&mut self.innovations[2], index, &side.forces);
+        }
+        let side = innovations.left;
+        let residuals = side.wheels.front.residuals.iter().chain(&side.angles.residuals).chain(&side.forces.residuals);
+        for (series, residual) in self.series.iter_mut().zip(residuals) {
+            series.extend(residual.normalised().map(f64::from));
+        }
+    }
+}
+
+fn errors_of_contact(wheel: &WheelEstimate, truth: &crate::data::truth_file::WheelTruth) -> [f64; 3] {
+    [
+        f64::from(wheel.contact_angle_rad.value) - truth.contact_angle_rad,
+        f64::from(wheel.normal_load_n.value) - truth.normal_load_n,
+        f64::from(wheel.drawbar_pull_n.value) - truth.drawbar_pull_n,
+    ]
+}
+
+fn add_innovation<const M: usize>(squares: &mut NormalisedSquares, index: usize, told: &Innovation<f32, M>) {
+    if told.residuals.iter().any(|residual| residual.fate == Fate::Used) {
+        squares.add(index, f64::from(told.normalised_square), told.degrees_of_freedom as f64);
+    }
+}

@@ -1,0 +1,11 @@
+//! How well the estimators do on simulated drives: errors beside those of the raw sensors, coverage, consistency,
+//! whiteness.
+
+pub mod consistency;
+mod drive;
+mod report;
+pub mod tally;
+pub mod whiteness;
+
+pub use drive::{Drive, Quantity};
+pub use report::{Trial, trial};

@@ -1,0 +1,69 @@
+//! Many drives of a scenario, and what they came to.
+
+use indicatif::ParallelProgressIterator;
+use kapvik_firmware::rover::Rover;
+use rayon::prelude::*;
+
+use super::consistency::NormalisedSquares;
+use super::drive::Drive;
+use super::tally::Tally;
+use super::whiteness::ljung_box;
+use crate::error::HostError;
+use crate::simulate::{Options, Scenario};
+
+/// Drives of one scenario.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// What was driven.
+    pub scenario: Scenario,
+    /// The drives.
+    pub drives: Vec<Drive>,
+}
+
+/// Drives a scenario once for each seed.
+///
+/// # Errors
+/// Where a simulation fails.
+pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>) -> Result<Trial, HostError> {
+    let options = Options::default();
+    let progress = indicatif::ProgressBar::new(seeds.end - seeds.start).with_message(format!("{scenario:?}"));
+    let drives: Vec<Result<Drive, HostError>> =
+        seeds.into_par_iter().progress_with(progress).map(|seed| Drive::run(scenario, seed, rover, &options)).collect();
+    for e in drives.iter().filter_map(|d| d.as_ref().err()) {
+        eprintln!("{e}");
+    }
+    Ok(Trial { scenario, drives: drives.into_iter().flatten().collect() })
+}
+
+impl Trial {
+    /// Errors of all drives, in the order of [`super::Quantity::ALL`].
+    pub fn tallies(&self) -> [Tally; 8] {
+        let mut sums = [Tally::default(); 8];
+        for drive in &self.drives {
+            sums.iter_mut().zip(&drive.tallies).for_each(|(sum, part)| sum.add(part));
+        }
+        sums
+    }
+
+    /// Squares of all drives, frame by frame: errors of filters 1 and 2, then innovations of filter 1 and of both halves
+    /// of filter 2.
+    pub fn squares(&self) -> [NormalisedSquares; 5] {
+        let mut sums: [NormalisedSquares; 5] = Default::default();
+        for drive in &self.drives {
+            let [first, second, third] = &drive.innovations;
+            let parts = [&drive.filter_1, &drive.filter_2, first, second, third];
+            sums.iter_mut().zip(parts).for_each(|(sum, part)| sum.add_run(part));
+        }
+        sums
+    }
+
+    /// For each series of innovations the share of the drives in which it passes as white at 5 %.
+    pub fn share_white(&self) -> [f64; 11] {
+        let mut shares = [0.0; 11];
+        for (place, share) in shares.iter_mut().enumerate() {
+            let chances: Vec<f64> = self.drives.iter().filter_map(|drive| ljung_box(&drive.series[place])).collect();
+            *share = chances.iter().filter(|chance| **chance > 0.05).count() as f64 / chances.len().max(1) as f64;
+        }
+        shares
+    }
+}
