@@ -173,9 +173,10 @@ impl RoverTable {
             GeometryError::Weight => numbers(&[&self.mass_kg, &self.gravity_m_s2]),
             GeometryError::Wheel => numbers(&[&wheel.radius_m, &wheel.width_m]),
             GeometryError::Coordinate => {
-                let bad_centre = suspension.centre_of_mass.as_ref().filter(|centre| {
-                    centre.get_ref().iter().any(|coordinate| !coordinate.is_finite())
-                });
+                let bad_centre = suspension
+                    .centre_of_mass
+                    .as_ref()
+                    .filter(|centre| centre.get_ref().iter().any(|coordinate| !coordinate.is_finite()));
                 let bad_track = half_track.as_ref().filter(|track| !(*track.get_ref() > 0.0));
                 let single = bad_track.map(Spanned::span).or(bad_centre.map(Spanned::span));
                 single.or_else(|| points(&[front_hub, bogie_pivot, middle_hub, rear_hub]))
@@ -207,8 +208,12 @@ fn in_words(error: GeometryError) -> &'static str {
     match error {
         GeometryError::Weight => "no rover weighs this: expected a mass and a gravity above 0",
         GeometryError::Wheel => "no wheel has this size: expected a radius and a width above 0 m",
-        GeometryError::Coordinate => "the suspension is nowhere: expected finite coordinates and a half_track above 0 m",
-        GeometryError::HubOrder => "the hubs are out of order: expected front_hub, middle_hub, rear_hub from front to rear",
+        GeometryError::Coordinate => {
+            "the suspension is nowhere: expected finite coordinates and a half_track above 0 m"
+        }
+        GeometryError::HubOrder => {
+            "the hubs are out of order: expected front_hub, middle_hub, rear_hub from front to rear"
+        }
         GeometryError::BogiePivot => {
             "the bogie would not stand: expected bogie_pivot behind front_hub, middle_hub ahead of it and rear_hub behind"
         }

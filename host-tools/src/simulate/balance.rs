@@ -131,14 +131,17 @@ impl World {
         let ground = self.terrain.at(side, axle, pose.x + from_axis.x);
         let contact = contact_in_wheel_plane(pose, &ground);
         let in_world = |v: Planar<f64>| pose.into_world(Axes { x: v.x, y: 0.0, z: v.z });
-        let normal = in_world(contact.normal);
+        let (normal, velocity) = (in_world(contact.normal), in_world(velocity_m_s));
         // The hub's distance from the terrain's tangent, measured along the normal that lies in the wheel's plane.
-        let distance_m = (pose.z + from_axis.z - ground.height_m) / (normal.z - ground.slope * normal.x);
+        let above_m = pose.z + from_axis.z - ground.height_m;
+        let distance_m = above_m / (normal.z - ground.slope * normal.x);
+        // On ground that curves the tangent turns under the hub, which is no sinking.
+        let turned_m_s = above_m * normal.x * normal.z * normal.z * ground.slope_change_1_m * velocity.x;
         let motion = WheelMotion {
             rim_speed_m_s,
             hub_speed_m_s: velocity_m_s.dot(contact.tangent),
             sinkage_m: self.rover.wheel.radius_m - distance_m,
-            sinking_m_s: -velocity_m_s.dot(contact.normal),
+            sinking_m_s: -velocity_m_s.dot(contact.normal) - turned_m_s,
         };
         let soil = self.soils.at(pose.x + from_axis.x);
         let forces = motion.forces(&self.rover.wheel, &soil)?;
@@ -227,10 +230,7 @@ impl WheelInstant {
 /// and is level across; the tangent is where that surface cuts the wheel's plane.
 fn contact_in_wheel_plane(pose: &Pose, ground: &Ground) -> Contact<f64> {
     let (sine, cosine) = libm::sincos(pose.pitch);
-    let along = Planar {
-        x: libm::cos(pose.roll) * (cosine + ground.slope * sine),
-        z: ground.slope * cosine - sine,
-    };
+    let along = Planar { x: libm::cos(pose.roll) * (cosine + ground.slope * sine), z: ground.slope * cosine - sine };
     let tangent = along.scaled(1.0 / along.length());
     Contact { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
 }

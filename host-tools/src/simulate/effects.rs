@@ -36,7 +36,11 @@ pub struct KnownEffect {
 
 /// Every effect that can be asked for. Effects of the soil are not among them: they belong to the wheel–soil equations.
 pub const KNOWN: [KnownEffect; 10] = [
-    KnownEffect { id: "drive-friction", value: "Coulomb friction at the wheel, N·m", place: |e| &mut e.drive_friction_nm },
+    KnownEffect {
+        id: "drive-friction",
+        value: "Coulomb friction at the wheel, N·m",
+        place: |e| &mut e.drive_friction_nm,
+    },
     KnownEffect {
         id: "drive-viscosity",
         value: "viscous friction at the wheel, N·m·s/rad",

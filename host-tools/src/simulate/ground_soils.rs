@@ -66,7 +66,7 @@ impl SoilsAlongTheWay {
     /// The soil under a hub at a distance.
     pub fn at(&self, x_m: f64) -> Soil<f64> {
         self.then.iter().fold(self.first, |before, (from_m, after)| {
-            mixed(&before, after, smooth_step((x_m - from_m) / BORDER_M).0)
+            mixed(&before, after, smooth_step((x_m - from_m) / BORDER_M).value)
         })
     }
 

@@ -141,10 +141,13 @@ impl Draw<'_> {
         let mut course = self.course(0.20, 100.0)?;
         let first_m = self.uniform(0.5, 0.7);
         let first = self.rock_at(first_m);
-        let sides = [Some(first), (self.random.random::<f64>() < 0.5).then(|| {
-            let second_m = first_m + self.uniform(0.2, 0.6);
-            self.rock_at(second_m)
-        })]
+        let sides = [
+            Some(first),
+            (self.random.random::<f64>() < 0.5).then(|| {
+                let second_m = first_m + self.uniform(0.2, 0.6);
+                self.rock_at(second_m)
+            }),
+        ]
         .map(|rock| rock.into_iter().collect::<Vec<_>>());
         let [left, right] = sides;
         let mirrored = self.random.random::<f64>() < 0.5;
@@ -159,7 +162,13 @@ impl Draw<'_> {
     fn dropout(&mut self) -> Option<Course> {
         let mut course = self.hills()?;
         const PATTERNS: [&str; 8] = [
-            "velocity_*", "load_cell_*", "motor_torque_*", "wheel_rate_*", "bogie_angle_*", "rocker_*", "gyro_*",
+            "velocity_*",
+            "load_cell_*",
+            "motor_torque_*",
+            "wheel_rate_*",
+            "bogie_angle_*",
+            "rocker_*",
+            "gyro_*",
             "accel_*",
         ];
         let mut time_s = 10.0;
@@ -199,11 +208,7 @@ impl Draw<'_> {
         let mut course = self.course(0.15, 70.0)?;
         let side = self.side();
         let from_m = self.uniform(-0.20, -0.10);
-        let hole = Shape::Bump {
-            from_m,
-            length_m: self.uniform(0.75, 0.9),
-            height_m: -self.uniform(0.09, 0.11),
-        };
+        let hole = Shape::Bump { from_m, length_m: self.uniform(0.75, 0.9), height_m: -self.uniform(0.09, 0.11) };
         course.terrain.under_one = Some((side, Axle::Rear, hole));
         course.bogie_stop_rad = self.uniform(8.0, 10.0).to_radians();
         Some(course)

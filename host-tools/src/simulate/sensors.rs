@@ -25,7 +25,8 @@ pub fn readings(
         let (wheel, turn) = (instant.wheels.of_wheel(side, axle), turns.of_wheel(side, axle));
         let rate_rad_s = turn.rim_speed_m_s / radius_m;
         let soil_nm = wheel.forces.torque_nm;
-        let drive_nm = soil_nm + inertia_kg_m2 * turn.rim_acceleration_m_s2 / radius_m + effects.friction_nm(rate_rad_s);
+        let drive_nm =
+            soil_nm + inertia_kg_m2 * turn.rim_acceleration_m_s2 / radius_m + effects.friction_nm(rate_rad_s);
         let up = *brackets.of_wheel(side, axle);
         let ahead = Planar { x: up.z, z: -up.x };
         let force = wheel.hub_force_n();

@@ -95,12 +95,7 @@ impl Traverse {
     ///
     /// # Errors
     /// Where no soil allows it, or the rover does not stand at its start.
-    pub fn new(
-        scenario: Scenario,
-        seed: u64,
-        rover: &Rover<f64>,
-        options: &Options,
-    ) -> Result<Self, SimulationError> {
+    pub fn new(scenario: Scenario, seed: u64, rover: &Rover<f64>, options: &Options) -> Result<Self, SimulationError> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut draw = Draw { random: &mut random, rover, soil: options.soil };
         let course = scenario.draw(&mut draw).ok_or(SimulationError::NoSoil)?;
@@ -182,8 +177,7 @@ impl Traverse {
         }
         let Rover { wheel, drive, .. } = self.world.rover;
         let turns = self.programme.at(time_s);
-        let mut frame =
-            readings(&self.instant, &turns, wheel.radius_m, drive.reflected_inertia_kg_m2, &self.effects);
+        let mut frame = readings(&self.instant, &turns, wheel.radius_m, drive.reflected_inertia_kg_m2, &self.effects);
         frame.time_us = time_us;
         frame.velocity_m_s = self.late_velocity(time_s, frame.velocity_m_s);
         let drift_n = (self.effects.force_drift_n_h * time_s / 3600.0) as f32;
