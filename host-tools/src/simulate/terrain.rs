@@ -15,10 +15,13 @@ pub struct Ground {
     pub slope_change_1_m: f64,
 }
 
+/// Over how much of the way waves grow and fade, m.
+const FADE_M: f64 = 0.5;
+
 /// A piece of relief. Pieces add up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// A sine wave between two places, fading in and out over a metre so that its ends are smooth.
+    /// A sine wave between two places, fading in and out over half a metre so that its ends are smooth.
     Wave {
         /// Where it starts and ends, m.
         between_m: (f64, f64),
@@ -54,9 +57,7 @@ impl Shape {
     pub fn at(&self, x_m: f64) -> Ground {
         match *self {
             Self::Wave { between_m: (start, end), amplitude_m, wavelength_m, phase_rad } => {
-                let (rise, fall) = (smooth_step(x_m - start), smooth_step(end - x_m));
-                let fall = Step { slope: -fall.slope, ..fall };
-                let share = rise.times(fall);
+                let share = faded_in(x_m, start, 1.0).times(faded_in(x_m, end, -1.0));
                 let number_1_m = TAU / wavelength_m;
                 let (sine, cosine) = libm::sincos(number_1_m * x_m + phase_rad);
                 let wave =
@@ -118,6 +119,16 @@ pub(super) fn smooth_step(x: f64) -> Step {
         value: x * x * x * (10.0 - x * (15.0 - 6.0 * x)),
         slope: 30.0 * x * x * (1.0 - x) * (1.0 - x),
         slope_change: 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x),
+    }
+}
+
+/// Grows from 0 to 1 over [`FADE_M`] from `from_m` on in one direction of x.
+fn faded_in(x_m: f64, from_m: f64, direction: f64) -> Step {
+    let step = smooth_step(direction * (x_m - from_m) / FADE_M);
+    Step {
+        value: step.value,
+        slope: direction / FADE_M * step.slope,
+        slope_change: step.slope_change / (FADE_M * FADE_M),
     }
 }
 
