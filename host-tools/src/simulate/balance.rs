@@ -11,8 +11,6 @@ use super::pose::{Coordinates, Pose};
 use super::terrain::{Ground, Terrain};
 use super::wheel_soil::WheelMotion;
 
-/// Damping of the sinking motion at a wheel that carries its share of the weight, N·s/m.
-const SINKING_DAMPING_N_S_M: f64 = 500.0;
 /// Stiffness of a bogie's stop, N·m/rad.
 const STOP_STIFFNESS_NM_RAD: f64 = 2000.0;
 
@@ -133,25 +131,22 @@ impl World {
         let ground = self.terrain.at(side, axle, pose.x + from_axis.x);
         let contact = contact_in_wheel_plane(pose, &ground);
         let in_world = |v: Planar<f64>| pose.into_world(Axes { x: v.x, y: 0.0, z: v.z });
-        let normal = in_world(contact.normal);
+        let (normal, velocity) = (in_world(contact.normal), in_world(velocity_m_s));
         // The hub's distance from the terrain's tangent, measured along the normal that lies in the wheel's plane.
-        let distance_m = (pose.z + from_axis.z - ground.height_m) / (normal.z - ground.slope * normal.x);
+        let above_m = pose.z + from_axis.z - ground.height_m;
+        let distance_m = above_m / (normal.z - ground.slope * normal.x);
+        // On ground that curves the tangent turns under the hub, which is no sinking.
+        let turned_m_s = above_m * normal.x * normal.z * normal.z * ground.slope_change_1_m * velocity.x;
         let motion = WheelMotion {
             rim_speed_m_s,
             hub_speed_m_s: velocity_m_s.dot(contact.tangent),
             sinkage_m: self.rover.wheel.radius_m - distance_m,
-            sinking_m_s: -velocity_m_s.dot(contact.normal),
+            sinking_m_s: -velocity_m_s.dot(contact.normal) - turned_m_s,
         };
-        let damping_speed = self.wheel_weight_n() / SINKING_DAMPING_N_S_M;
         let soil = self.soils.at(pose.x + from_axis.x);
-        let forces = motion.forces(&self.rover.wheel, &soil, damping_speed)?;
+        let forces = motion.forces(&self.rover.wheel, &soil)?;
         let contact_angle_rad = libm::asin(in_world(contact.tangent).z.clamp(-1.0, 1.0));
         Ok(WheelInstant { hub_m, contact, contact_angle_rad, motion, forces, side_force_n: 0.0 })
-    }
-
-    /// A wheel's share of the weight, N.
-    fn wheel_weight_n(&self) -> f64 {
-        self.rover.mass_kg * self.rover.gravity_m_s2 / 6.0
     }
 
     /// Heading and sideways motion are held by side forces. Each wheel takes a share in proportion to its load times a

@@ -65,9 +65,9 @@ impl SoilsAlongTheWay {
 
     /// The soil under a hub at a distance.
     pub fn at(&self, x_m: f64) -> Soil<f64> {
-        self.then
-            .iter()
-            .fold(self.first, |before, (from_m, after)| mixed(&before, after, smooth_step((x_m - from_m) / BORDER_M).0))
+        self.then.iter().fold(self.first, |before, (from_m, after)| {
+            mixed(&before, after, smooth_step((x_m - from_m) / BORDER_M).value)
+        })
     }
 
     /// Every soil of the way, first to last.

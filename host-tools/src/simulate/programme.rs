@@ -51,12 +51,12 @@ impl Programme {
         let mut turns = PerWheel::<WheelTurn>::default();
         let mut before = PerWheel::<f64>::default();
         for command in &self.commands {
-            let (share, rate) = smooth_step((time_s - command.from_s) / RAMP_S);
+            let step = smooth_step((time_s - command.from_s) / RAMP_S);
             for ((turn, from), to) in
                 turns.iter_wheels_mut().zip(before.iter_wheels()).zip(command.rim_speed_m_s.iter_wheels())
             {
-                turn.rim_speed_m_s += share * (to - from);
-                turn.rim_acceleration_m_s2 += rate / RAMP_S * (to - from);
+                turn.rim_speed_m_s += step.value * (to - from);
+                turn.rim_acceleration_m_s2 += step.slope / RAMP_S * (to - from);
             }
             before = command.rim_speed_m_s;
         }

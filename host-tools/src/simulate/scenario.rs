@@ -118,7 +118,7 @@ impl Draw<'_> {
 
     fn hills(&mut self) -> Option<Course> {
         let mut course = self.course(0.20, 90.0)?;
-        course.terrain.sides = self.hills_between((0.5, 1.0e3));
+        course.terrain.sides = self.hills_between((0.36, 1.0e3));
         Some(course)
     }
 

@@ -7,14 +7,51 @@ use super::balance::{Instant, Motion, World};
 use super::newton::{Newton, Residual};
 use super::pose::{Coordinates, Pose};
 
-/// The last two instants, which the next follows from by the backward differentiation formula of second order:
-/// q̇ = (3 q − 4 q₋₁ + q₋₂) / 2h, the same for the velocity of the centre of mass.
+/// The longest step, s.
+const LONGEST_STEP_S: f64 = 0.05;
+/// The shortest, s: where not even it finds a balance there is none.
+const SHORTEST_STEP_S: f64 = 1.0e-5;
+
+/// The last two instants, which the next follows from by the backward differentiation formula of second order. Where a
+/// step finds no balance (wheels that start, stop or touch down), a shorter one is tried.
 #[derive(Debug, Clone)]
 pub struct Stepper {
     newton: Newton,
+    time_s: f64,
+    step_s: f64,
     last: Past,
     before: Past,
+    /// Time between the last two instants, s.
+    between_s: f64,
     rates: Coordinates,
+}
+
+/// The backward differentiation formula of second order for steps of unequal length:
+/// h ẋ = a x − b x₋₁ + c x₋₂ with w = h/h₋₁, a = (1 + 2w)/(1 + w), b = 1 + w, c = w²/(1 + w).
+#[derive(Debug, Clone, Copy)]
+struct BackwardDifference {
+    step_s: f64,
+    now: f64,
+    last: f64,
+    before: f64,
+}
+
+impl BackwardDifference {
+    fn new(step_s: f64, step_before_s: f64) -> Self {
+        let ratio = step_s / step_before_s;
+        let sum = 1.0 + ratio;
+        Self { step_s, now: (sum + ratio) / sum, last: sum, before: ratio * ratio / sum }
+    }
+
+    /// The rate of a value.
+    fn rate(&self, now: f64, last: f64, before: f64) -> f64 {
+        (self.now * now - self.last * last + self.before * before) / self.step_s
+    }
+
+    /// The value that has these rates.
+    fn value(&self, rate: &Coordinates, last: &Coordinates, before: &Coordinates) -> Coordinates {
+        (rate * self.step_s + last * self.last - before * self.before) / self.now
+    }
 }
 
 /// What is kept of an instant.
@@ -48,25 +85,24 @@ impl Residual for AtRest<'_> {
 struct Step<'a> {
     world: &'a World,
     stepper: &'a Stepper,
-    step_s: f64,
-    rim_speed_m_s: &'a PerWheel<f64>,
+    difference: BackwardDifference,
+    rim_speed_m_s: PerWheel<f64>,
 }
 
 impl Residual for Step<'_> {
     type State = Instant;
     fn at(&self, rates: &Coordinates) -> Option<(Coordinates, Instant)> {
         let Stepper { last, before, .. } = self.stepper;
-        let pose = Pose::from((last.pose * 4.0 - before.pose + rates * (2.0 * self.step_s)) / 3.0);
+        let pose = Pose::from(self.difference.value(rates, &last.pose, &before.pose));
         let rates = Pose::from(*rates);
         let velocity = centre_velocity_m_s(self.world, &pose, &rates);
-        let difference = |now: f64, last: f64, before: f64| (3.0 * now - 4.0 * last + before) / (2.0 * self.step_s);
         let (last, before) = (last.centre_velocity_m_s, before.centre_velocity_m_s);
         let acceleration_m_s2 = Axes {
-            x: difference(velocity.x, last.x, before.x),
-            y: difference(velocity.y, last.y, before.y),
-            z: difference(velocity.z, last.z, before.z),
+            x: self.difference.rate(velocity.x, last.x, before.x),
+            y: self.difference.rate(velocity.y, last.y, before.y),
+            z: self.difference.rate(velocity.z, last.z, before.z),
         };
-        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s: *self.rim_speed_m_s };
+        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s: self.rim_speed_m_s };
         let instant = self.world.instant(&motion).ok()?;
         Some((instant.residual, instant))
     }
@@ -79,17 +115,56 @@ impl Stepper {
         let solved = Newton::default().solve(&AtRest { world, x_m: 0.0 }, start)?;
         let instant = solved.state;
         let past = Past { pose: instant.motion.pose.into(), centre_velocity_m_s: Axes::default() };
-        let stepper = Self { newton: Newton::default(), last: past, before: past, rates: Coordinates::zeros() };
+        let stepper = Self {
+            newton: Newton::default(),
+            time_s: 0.0,
+            step_s: LONGEST_STEP_S,
+            last: past,
+            before: past,
+            between_s: LONGEST_STEP_S,
+            rates: Coordinates::zeros(),
+        };
         Some((stepper, instant))
     }
 
-    /// The next instant, with the wheels at the given rim speeds; `None` where no balance is found.
-    pub fn advance(&mut self, world: &World, step_s: f64, rim_speed_m_s: &PerWheel<f64>) -> Option<Instant> {
+    /// The instant at a later time, with the wheels at the rim speeds that are told of each time.
+    ///
+    /// # Errors
+    /// The time, s, after which no balance is found.
+    pub fn advance(
+        &mut self,
+        world: &World,
+        to_s: f64,
+        rim_speeds_m_s: impl Fn(f64) -> PerWheel<f64>,
+    ) -> Result<Option<Instant>, f64> {
+        let mut reached = None;
+        while self.time_s < to_s {
+            let steps = libm::ceil((to_s - self.time_s) / self.step_s - 1.0e-6).max(1.0);
+            let step_s = (to_s - self.time_s) / steps;
+            let time_s = if steps > 1.0 { self.time_s + step_s } else { to_s };
+            reached = self.step(world, step_s, rim_speeds_m_s(time_s));
+            if reached.is_some() {
+                self.time_s = time_s;
+                self.step_s = (2.0 * step_s).min(LONGEST_STEP_S);
+            } else {
+                self.step_s = 0.5 * step_s;
+            }
+            if self.step_s < SHORTEST_STEP_S {
+                return Err(self.time_s);
+            }
+        }
+        Ok(reached)
+    }
+
+    /// One step; `None` where no balance is found.
+    fn step(&mut self, world: &World, step_s: f64, rim_speed_m_s: PerWheel<f64>) -> Option<Instant> {
+        let difference = BackwardDifference::new(step_s, self.between_s);
         let mut newton = std::mem::take(&mut self.newton);
-        let solved = newton.solve(&Step { world, stepper: self, step_s, rim_speed_m_s }, self.rates)?;
+        let solved = newton.solve(&Step { world, stepper: self, difference, rim_speed_m_s }, self.rates)?;
         let Motion { pose, rates, .. } = solved.state.motion;
         self.newton = newton;
         self.before = self.last;
+        self.between_s = step_s;
         self.last = Past { pose: pose.into(), centre_velocity_m_s: centre_velocity_m_s(world, &pose, &rates) };
         self.rates = solved.unknowns;
         Some(solved.state)

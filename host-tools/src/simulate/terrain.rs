@@ -1,22 +1,27 @@
 //! Uneven ground: a height over distance for each side, smooth in height and slope.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use kapvik_firmware::rover::{Axle, PerSide, Side};
 
-/// Height of the ground and its slope dz/dx at one place.
+/// Height of the ground and its derivatives by x at one place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ground {
     /// Height, m.
     pub height_m: f64,
     /// Rise over run.
     pub slope: f64,
+    /// Rate of change of the slope, 1/m.
+    pub slope_change_1_m: f64,
 }
+
+/// Over how much of the way waves grow and fade, m.
+const FADE_M: f64 = 0.5;
 
 /// A piece of relief. Pieces add up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// A sine wave between two places, fading in and out over a metre so that its ends are smooth.
+    /// A sine wave between two places, fading in and out over half a metre so that its ends are smooth.
     Wave {
         /// Where it starts and ends, m.
         between_m: (f64, f64),
@@ -52,46 +57,95 @@ impl Shape {
     pub fn at(&self, x_m: f64) -> Ground {
         match *self {
             Self::Wave { between_m: (start, end), amplitude_m, wavelength_m, phase_rad } => {
-                let (rise, rise_slope) = smooth_step(x_m - start);
-                let (fall, fall_slope) = smooth_step(end - x_m);
-                let (sine, cosine) = libm::sincos(TAU * x_m / wavelength_m + phase_rad);
-                let (share, share_slope) = (rise * fall, rise_slope * fall - rise * fall_slope);
-                let slope = amplitude_m * (share_slope * sine + share * cosine * TAU / wavelength_m);
-                Ground { height_m: amplitude_m * share * sine, slope }
+                let share = faded_in(x_m, start, 1.0).times(faded_in(x_m, end, -1.0));
+                let number_1_m = TAU / wavelength_m;
+                let (sine, cosine) = libm::sincos(number_1_m * x_m + phase_rad);
+                let wave =
+                    Step { value: sine, slope: number_1_m * cosine, slope_change: -number_1_m * number_1_m * sine };
+                share.times(wave).ground(amplitude_m)
             }
             Self::Ramp { between_m: (start, end), slope, rounding_m } => {
                 let (up, down) = (corner(x_m - start, rounding_m), corner(x_m - end, rounding_m));
-                Ground { height_m: slope * (up.0 - down.0), slope: slope * (up.1 - down.1) }
+                Step {
+                    value: up.value - down.value,
+                    slope: up.slope - down.slope,
+                    slope_change: up.slope_change - down.slope_change,
+                }
+                .ground(slope)
             }
             Self::Bump { from_m, length_m, height_m } => {
                 let share = (x_m - from_m) / length_m;
                 if !(0.0..=1.0).contains(&share) {
                     return Ground::default();
                 }
+                let number_1_m = TAU / length_m;
                 let (sine, cosine) = libm::sincos(TAU * share);
-                Ground { height_m: 0.5 * height_m * (1.0 - cosine), slope: PI * height_m / length_m * sine }
+                Step { value: 1.0 - cosine, slope: number_1_m * sine, slope_change: number_1_m * number_1_m * cosine }
+                    .ground(0.5 * height_m)
             }
         }
     }
 }
 
-/// A step from 0 to 1 over the unit interval, and its slope.
-pub(super) fn smooth_step(x: f64) -> (f64, f64) {
-    let x = x.clamp(0.0, 1.0);
-    (x * x * x * (10.0 - x * (15.0 - 6.0 * x)), 30.0 * x * x * (1.0 - x) * (1.0 - x))
+/// A function at one place, with its first and second derivative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Step {
+    pub value: f64,
+    pub slope: f64,
+    pub slope_change: f64,
 }
 
-/// max(0, x), rounded over `rounding` around zero, and its slope.
-fn corner(x: f64, rounding: f64) -> (f64, f64) {
+impl Step {
+    fn times(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            slope: self.slope * other.value + self.value * other.slope,
+            slope_change: self.slope_change * other.value
+                + 2.0 * self.slope * other.slope
+                + self.value * other.slope_change,
+        }
+    }
+
+    fn ground(self, factor: f64) -> Ground {
+        let Self { value, slope, slope_change } = self;
+        Ground { height_m: factor * value, slope: factor * slope, slope_change_1_m: factor * slope_change }
+    }
+}
+
+/// A step from 0 to 1 over the unit interval: 10 x³ − 15 x⁴ + 6 x⁵.
+pub(super) fn smooth_step(x: f64) -> Step {
+    let x = x.clamp(0.0, 1.0);
+    Step {
+        value: x * x * x * (10.0 - x * (15.0 - 6.0 * x)),
+        slope: 30.0 * x * x * (1.0 - x) * (1.0 - x),
+        slope_change: 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x),
+    }
+}
+
+/// Grows from 0 to 1 over [`FADE_M`] from `from_m` on in one direction of x.
+fn faded_in(x_m: f64, from_m: f64, direction: f64) -> Step {
+    let step = smooth_step(direction * (x_m - from_m) / FADE_M);
+    Step {
+        value: step.value,
+        slope: direction / FADE_M * step.slope,
+        slope_change: step.slope_change / (FADE_M * FADE_M),
+    }
+}
+
+/// max(0, x), rounded over `rounding` around zero: there the integral of the step 3 s² − 2 s³.
+fn corner(x: f64, rounding: f64) -> Step {
     let share = x / rounding + 0.5;
     if share <= 0.0 {
-        return (0.0, 0.0);
+        return Step { value: 0.0, slope: 0.0, slope_change: 0.0 };
     }
     if share >= 1.0 {
-        return (x, 1.0);
+        return Step { value: x, slope: 1.0, slope_change: 0.0 };
     }
-    // The integral of the step 3 s² − 2 s³.
-    (rounding * share.powi(3) * (1.0 - 0.5 * share), share * share * (3.0 - 2.0 * share))
+    Step {
+        value: rounding * share.powi(3) * (1.0 - 0.5 * share),
+        slope: share * share * (3.0 - 2.0 * share),
+        slope_change: 6.0 * share * (1.0 - share) / rounding,
+    }
 }
 
 /// The ground under a rover that drives straight along x.
@@ -108,7 +162,11 @@ impl Terrain {
     pub fn at(&self, side: Side, axle: Axle, x_m: f64) -> Ground {
         let alone = self.under_one.iter().filter(|(s, a, _)| (*s, *a) == (side, axle)).map(|(_, _, shape)| shape);
         self.sides.of(side).iter().chain(alone).map(|shape| shape.at(x_m)).fold(Ground::default(), |sum, piece| {
-            Ground { height_m: sum.height_m + piece.height_m, slope: sum.slope + piece.slope }
+            Ground {
+                height_m: sum.height_m + piece.height_m,
+                slope: sum.slope + piece.slope,
+                slope_change_1_m: sum.slope_change_1_m + piece.slope_change_1_m,
+            }
         })
     }
 }
@@ -118,7 +176,7 @@ mod tests {
     use super::Shape;
 
     #[test]
-    fn slopes_are_the_derivatives_of_the_heights() {
+    fn slopes_and_their_changes_are_derivatives() {
         let shapes = [
             Shape::Wave { between_m: (0.5, 4.0), amplitude_m: 0.05, wavelength_m: 1.3, phase_rad: 0.4 },
             Shape::Ramp { between_m: (0.5, 2.0), slope: 0.2, rounding_m: 0.5 },
@@ -128,8 +186,11 @@ mod tests {
         for shape in shapes {
             for place in 0..1000 {
                 let x = 0.005 * f64::from(place) + 1.0e-4;
-                let expected = (shape.at(x + step).height_m - shape.at(x - step).height_m) / (2.0 * step);
-                assert!((shape.at(x).slope - expected).abs() < 1.0e-8, "{shape:?} at {x}");
+                let (here, before, after) = (shape.at(x), shape.at(x - step), shape.at(x + step));
+                let slope = (after.height_m - before.height_m) / (2.0 * step);
+                assert!((here.slope - slope).abs() < 1.0e-8, "{shape:?} at {x}");
+                let change = (after.slope - before.slope) / (2.0 * step);
+                assert!((here.slope_change_1_m - change).abs() < 1.0e-4, "{shape:?} at {x}: {here:?} {change}");
             }
         }
     }

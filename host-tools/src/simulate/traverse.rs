@@ -24,8 +24,6 @@ use crate::data::truth_file::{TrueSoil, Truth, WheelTruth};
 pub const BALANCE: f64 = 1.0e-6;
 /// Frames a second, unless asked otherwise.
 pub const RATE_HZ: f64 = 10.0;
-/// The longest step of the simulation, s.
-const LONGEST_STEP_S: f64 = 0.05;
 
 /// What can be asked of a drive beside its scenario.
 #[derive(Debug, Clone, Default)]
@@ -55,7 +53,7 @@ pub enum SimulationError {
     Standing,
     /// No motion balances the forces.
     #[error(
-        "at {time_s} s, {x_m:.2} m from the start, no motion balances the forces: the soil is too weak or the ground too \
+        "at {time_s:.2} s, {x_m:.2} m from the start, no motion balances the forces: the soil is too weak or the ground too \
          steep for this rover"
     )]
     Stuck {
@@ -160,15 +158,12 @@ impl Traverse {
     }
 
     fn advance(&mut self) -> Result<(), SimulationError> {
-        let (from_us, to_us) = (self.time_us(self.next - 1), self.time_us(self.next));
-        let steps = libm::ceil(1.0 / self.rate_hz / LONGEST_STEP_S - 1.0e-9).max(1.0);
-        let step_s = 1.0 / self.rate_hz / steps;
-        for step in 1..=steps as u32 {
-            let time_s = 1.0e-6 * (from_us as f64 + (to_us - from_us) as f64 * f64::from(step) / steps);
-            let rim_speeds = self.programme.at(time_s).map_wheels(|turn| turn.rim_speed_m_s);
-            let stuck = || SimulationError::Stuck { time_s, x_m: self.instant.motion.pose.x };
-            self.instant = self.stepper.advance(&self.world, step_s, &rim_speeds).ok_or_else(stuck)?;
-        }
+        let to_s = 1.0e-6 * self.time_us(self.next) as f64;
+        let rim_speeds = |time_s: f64| self.programme.at(time_s).map_wheels(|turn| turn.rim_speed_m_s);
+        let reached = self.stepper.advance(&self.world, to_s, rim_speeds);
+        let x_m = self.instant.motion.pose.x;
+        let reached = reached.map_err(|time_s| SimulationError::Stuck { time_s, x_m })?;
+        self.instant = reached.unwrap_or(self.instant);
         Ok(())
     }
 
