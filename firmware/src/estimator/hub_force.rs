@@ -75,8 +75,8 @@ pub(super) struct ForceReadings<S> {
 const UNKNOWN_SHARE: f64 = 0.3;
 /// Nominal drift over a metre of travel, N: 5 N over a wheel radius.
 const FORCE_DRIFT_N: f64 = 18.0;
-/// What a wheel that starts, stops or turns back leaves unknown of the forces of its side, N.
-const FORGOTTEN_N: f64 = 5.0;
+/// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
+const UNSETTLED_N: f64 = 3.0;
 
 /// The filter of one side.
 #[derive(Debug, Clone)]
@@ -136,9 +136,9 @@ impl<S: Scalar> HubForceFilter<S> {
         self.watch.relearned()
     }
 
-    /// A wheel starts, stops or turns back: the forces are not what they were.
-    pub fn forget(&mut self) {
-        let _ = self.filter.random_walk(&[S::constant(FORGOTTEN_N); STATES]);
+    /// A wheel stands or has just started: the forces are not what they were a frame ago.
+    pub fn unsettle(&mut self) {
+        let _ = self.filter.random_walk(&[S::constant(UNSETTLED_N); STATES]);
     }
 
     /// Takes the split that the torques tell.

@@ -34,6 +34,8 @@ pub(super) struct SideFrame<S> {
 const STANDING: f64 = 1.5e-3;
 /// A wheel whose rim moves at less than this part of its hub's speed is blocked.
 pub(super) const BLOCKED: f64 = 0.08;
+/// Frames that a wheel takes to start.
+const SETTLING: u8 = 8;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// What the body may turn at while its gyro is silent, rad/s.
@@ -48,6 +50,8 @@ pub(super) struct SideEstimator<S> {
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
     pub(super) forces: HubForceFilter<S>,
     pub(super) activity: PerAxle<WheelActivity>,
+    /// Frames for which each wheel is still taken to be starting.
+    unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
     told: SideInnovations<S>,
@@ -88,6 +92,7 @@ impl<S: Scalar> SideEstimator<S> {
             wheels: PerAxle { front: wheel(0)?, middle: wheel(1)?, rear: wheel(2)? },
             forces: HubForceFilter::new(rover, phase)?,
             activity: PerAxle::default(),
+            unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
@@ -200,21 +205,25 @@ impl<S: Scalar> SideEstimator<S> {
         surprises: &mut Surprises,
     ) {
         let noise = &self.rover.noise;
-        let mut changed = false;
-        let filters = self.wheels.as_mut().zip(self.activity.as_mut());
+        let mut unsettles = false;
+        let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
-        for (((filter, activity), (told, surprise)), (wheel, (rate, torque))) in
+        for (((filter, (activity, unsettled)), (told, surprise)), (wheel, (rate, torque))) in
             filters.zip(told).zip(inputs).into_array()
         {
             let [before, _, _] = *filter.estimate().mean();
             let rim = self.rover.wheel.radius_m * before;
             let now = what_it_does(rim, wheel.hub_speed_m_s);
-            if (now == WheelActivity::Standing) != (*activity == WheelActivity::Standing) {
-                filter.forget();
-                changed = true;
+            if now != *activity {
+                filter.start();
             }
             *activity = now;
+            *unsettled = if now == WheelActivity::Standing { SETTLING } else { unsettled.saturating_sub(1) };
+            if *unsettled > 0 {
+                filter.unsettle();
+                unsettles = true;
+            }
             let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
             let rolls = now == WheelActivity::Rolling;
             let readings = WheelReadings {
@@ -229,8 +238,8 @@ impl<S: Scalar> SideEstimator<S> {
             *told = filter.tick(step_s, speed * step_s, &readings);
             surprise.of_wheel(told);
         }
-        if changed {
-            self.forces.forget();
+        if unsettles {
+            self.forces.unsettle();
         }
     }
 

@@ -71,8 +71,11 @@ const TORQUE_DRIFT_NM: f64 = 1.1;
 const SLIP_DRIFT: f64 = 0.37;
 /// What the torque of a drive may be off by when its sensor is silent, N·m.
 const UNSEEN_TORQUE_NM: f64 = 2.0;
-/// How much of torque and slip a wheel forgets when it starts, stops or turns back.
-const FORGOTTEN: [f64; STATES] = [0.0, 1.0, 0.3];
+/// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose
+/// within one frame.
+const UNSETTLED_TORQUE_NM: f64 = 1.0;
+/// The slip that a wheel starts with, and its standard deviation.
+const STARTING_SLIP: [f64; 2] = [0.2, 0.4];
 
 /// The filter of one wheel.
 #[derive(Debug, Clone)]
@@ -124,9 +127,15 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.watch.relearned()
     }
 
-    /// The wheel starts, stops or turns back: torque and slip are not what they were.
-    pub fn forget(&mut self) {
-        let _ = self.filter.random_walk(&FORGOTTEN.map(S::constant));
+    /// The wheel stands, or has just started: its torque is not what it was a frame ago.
+    pub fn unsettle(&mut self) {
+        let _ = self.filter.random_walk(&[S::zero(), S::constant(UNSETTLED_TORQUE_NM), S::zero()]);
+    }
+
+    /// The wheel starts, stops or turns back: its slip is not what it was.
+    pub fn start(&mut self) {
+        let [mean, std] = STARTING_SLIP.map(S::constant);
+        let _ = self.filter.forget(2, mean, std);
         self.shared_slip_variance = S::zero();
     }
 
