@@ -78,6 +78,9 @@ const IMPOSSIBLE_ANGLE: f64 = 1.2;
 /// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
 const RATIO_DRIFT: f64 = 0.2;
 const ANGLE_DRIFT: f64 = 0.32;
+/// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
+const ANGLE_FROM_VELOCITY: f64 = 0.3;
+const ANGLE_FROM_ROUGHNESS: f64 = 10.0;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
 /// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
@@ -89,7 +92,9 @@ pub(super) struct ContactAngleFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
     model: ContactAngleModel<S>,
     ratio_rate: WalkRate<S>,
-    angle_rate: WalkRate<S>,
+    direction_rate: WalkRate<S>,
+    rocker_rate: WalkRate<S>,
+    bogie_rate: WalkRate<S>,
     watch: Watch,
     begun: bool,
 }
@@ -105,7 +110,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
             filter: SigmaPointFilter::new(level, Self::unknown_std())?,
             model,
             ratio_rate: WalkRate::new(phase),
-            angle_rate: WalkRate::new(phase + 1),
+            direction_rate: WalkRate::new(phase + 1),
+            rocker_rate: WalkRate::new(phase + 2),
+            bogie_rate: WalkRate::new(phase + 3),
             watch: Watch::default(),
             begun: false,
         })
@@ -176,7 +183,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.predict(step_s);
         self.model.body_pitch_rad = body_pitch_rad;
         self.model.body_pitch = body_pitch_rad.sin_cos();
-        self.learn_rates(step_s, readings);
+        self.learn_rates(step_s, readings, noise);
         let angle = noise.angle_rad;
         let noise_std =
             [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, (angle * angle + pitch_variance).sqrt(), angle];
@@ -195,6 +202,19 @@ impl<S: Scalar> ContactAngleFilter<S> {
         told
     }
 
+    /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
+    /// variance.
+    pub fn roughness(&self) -> S {
+        self.rocker_rate.factor() + self.bogie_rate.factor()
+    }
+
+    /// How fast the contact angles wander. The links feel the ground a wheelbase long, and thirty times more precisely than
+    /// the velocity does; a wheel feels more of it than its link.
+    fn angle_factor(&self) -> S {
+        S::constant(ANGLE_FROM_VELOCITY) * self.direction_rate.factor()
+            + S::constant(ANGLE_FROM_ROUGHNESS) * self.roughness()
+    }
+
     fn predict(&mut self, step_s: S) {
         let model = self.model;
         let process = |state: &[S; STATES]| {
@@ -203,24 +223,31 @@ impl<S: Scalar> ContactAngleFilter<S> {
             next
         };
         let root_travel = (self.model.rim_speed_m_s.abs() * step_s).sqrt();
-        let ratio = S::constant(RATIO_DRIFT) * (self.ratio_rate.factor()).sqrt() * root_travel;
-        let angle = S::constant(ANGLE_DRIFT) * (self.angle_rate.factor()).sqrt() * root_travel;
+        let ratio = S::constant(RATIO_DRIFT) * self.ratio_rate.factor().sqrt() * root_travel;
+        let angle = S::constant(ANGLE_DRIFT) * self.angle_factor().sqrt() * root_travel;
         let pitch = S::constant(PITCH_DRIFT) * root_travel;
         let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch]);
     }
 
-    /// Learns how fast the ratio and the direction of travel wander, from the velocity alone.
-    fn learn_rates(&mut self, step_s: S, readings: &SideReadings<S>) {
+    /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.
+    fn learn_rates(&mut self, step_s: S, readings: &SideReadings<S>, noise: &SensorNoise<S>) {
         let speed = self.model.rim_speed_m_s;
-        let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s else { return };
         if speed == S::zero() {
             return;
         }
-        let velocity = Planar { x, z }.turned(self.model.body_pitch);
         let travel = speed.abs() * step_s;
-        let std = readings.velocity_std_m_s.z / speed.abs();
         let nominal = |drift: f64| S::constant(drift * drift) * travel;
-        self.ratio_rate.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
-        self.angle_rate.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
+        if let (Some(rocker), Some(bogie)) = (readings.rocker_angle_rad, readings.bogie_angle_rad) {
+            let pitch = self.model.body_pitch_rad + rocker;
+            let variance = noise.angle_rad * noise.angle_rad;
+            self.rocker_rate.see(pitch, variance + variance, nominal(ANGLE_DRIFT));
+            self.bogie_rate.see(pitch + bogie, variance + variance + variance, nominal(ANGLE_DRIFT));
+        }
+        if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
+            let velocity = Planar { x, z }.turned(self.model.body_pitch);
+            let std = readings.velocity_std_m_s.z / speed.abs();
+            self.ratio_rate.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
+            self.direction_rate.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
+        }
     }
 }

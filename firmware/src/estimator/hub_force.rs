@@ -73,8 +73,8 @@ pub(super) struct ForceReadings<S> {
 
 /// One standard deviation of a force that is not known at all, over the rover's weight.
 const UNKNOWN_SHARE: f64 = 0.3;
-/// Nominal drift over a metre of travel, N: 5 N over a wheel radius.
-const FORCE_DRIFT_N: f64 = 18.0;
+/// Nominal drift over a metre of travel, N: 6 N over a wheel radius.
+const FORCE_DRIFT_N: f64 = 21.0;
 /// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
 const UNSETTLED_N: f64 = 3.0;
 
@@ -139,6 +139,12 @@ impl<S: Scalar> HubForceFilter<S> {
     /// A wheel stands or has just started: the forces are not what they were a frame ago.
     pub fn unsettle(&mut self) {
         let _ = self.filter.random_walk(&[S::constant(UNSETTLED_N); STATES]);
+    }
+
+    /// The wheels roll as they will.
+    pub fn settle(&mut self) {
+        let rates = self.cell_rates.as_array_mut().into_iter().chain([&mut self.rocker_rate, &mut self.bogie_rate]);
+        rates.for_each(WalkRate::restart);
     }
 
     /// Takes the split that the torques tell.

@@ -36,6 +36,8 @@ const STANDING: f64 = 1.5e-3;
 pub(super) const BLOCKED: f64 = 0.08;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
+/// Frames after which its wandering is learned afresh.
+const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// What the body may turn at while its gyro is silent, rad/s.
@@ -205,7 +207,9 @@ impl<S: Scalar> SideEstimator<S> {
         surprises: &mut Surprises,
     ) {
         let noise = &self.rover.noise;
+        let roughness = self.angles.roughness();
         let mut unsettles = false;
+        let mut settles = false;
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
@@ -219,10 +223,14 @@ impl<S: Scalar> SideEstimator<S> {
                 filter.start();
             }
             *activity = now;
-            *unsettled = if now == WheelActivity::Standing { SETTLING } else { unsettled.saturating_sub(1) };
-            if *unsettled > 0 {
+            *unsettled = if now == WheelActivity::Standing { SETTLED } else { unsettled.saturating_sub(1) };
+            if *unsettled > SETTLED - SETTLING {
                 filter.unsettle();
                 unsettles = true;
+            }
+            if *unsettled == 1 {
+                filter.settle();
+                settles = true;
             }
             let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
             let rolls = now == WheelActivity::Rolling;
@@ -232,6 +240,7 @@ impl<S: Scalar> SideEstimator<S> {
                 hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| rolls),
                 hub_speed_std_m_s: wheel.hub_speed_std_m_s,
                 shared_speed_std_m_s: noise.velocity_m_s,
+                roughness,
                 motor_torque_nm: torque,
                 motor_torque_std_nm: noise.motor_torque_nm,
             };
@@ -240,6 +249,9 @@ impl<S: Scalar> SideEstimator<S> {
         }
         if unsettles {
             self.forces.unsettle();
+        }
+        if settles {
+            self.forces.settle();
         }
     }
 
@@ -250,7 +262,7 @@ impl<S: Scalar> SideEstimator<S> {
             let noise = self.rover.noise.motor_torque_nm;
             // White noise of the drive's sensor comes through the filter slower, not less: what counts over time is that
             // of the sensor. Without the sensor it is what the filter does not know.
-            (torque, if motor.is_some() { noise * noise } else { variance + noise * noise })
+            (motor.unwrap_or(torque), if motor.is_some() { noise * noise } else { variance + noise * noise })
         });
         let noise = &self.rover.noise;
         let body = body_moment_nm(&self.rover, attitude.specific_force_m_s2());

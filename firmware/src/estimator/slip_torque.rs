@@ -58,6 +58,8 @@ pub(super) struct WheelReadings<S> {
     pub hub_speed_std_m_s: S,
     /// The part of it that all wheels share: the velocimeter is one camera, m/s.
     pub shared_speed_std_m_s: S,
+    /// How rough the ground is: how fast the links' pitches wander, over the nominal drift, as a variance.
+    pub roughness: S,
     /// Torque of the drive, N·m.
     pub motor_torque_nm: Option<S>,
     /// One standard deviation of that, N·m.
@@ -69,6 +71,9 @@ const UNKNOWN: [f64; STATES] = [1.0, 5.0, 0.5];
 /// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
 const TORQUE_DRIFT_NM: f64 = 1.1;
 const SLIP_DRIFT: f64 = 0.37;
+/// How much of the ground's roughness the slip feels: rough ground drives it steadily one way for long, which a single
+/// measurement of speed hardly shows.
+const SLIP_FROM_ROUGHNESS: f64 = 3.0;
 /// What the torque of a drive may be off by when its sensor is silent, N·m.
 const UNSEEN_TORQUE_NM: f64 = 2.0;
 /// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose
@@ -132,6 +137,12 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let _ = self.filter.random_walk(&[S::zero(), S::constant(UNSETTLED_TORQUE_NM), S::zero()]);
     }
 
+    /// The wheel rolls as it will: what it was like before is of no account for how fast it wanders.
+    pub fn settle(&mut self) {
+        self.torque_rate.restart();
+        self.slip_rate.restart();
+    }
+
     /// The wheel starts, stops or turns back: its slip is not what it was.
     pub fn start(&mut self) {
         let [mean, std] = STARTING_SLIP.map(S::constant);
@@ -170,10 +181,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             Some(_) => readings.motor_torque_std_nm,
             None => S::constant(UNSEEN_TORQUE_NM),
         };
+        let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
         let noise = [
             step_s * torque_std * self.model.inverse_inertia,
             S::constant(TORQUE_DRIFT_NM) * self.torque_rate.factor().sqrt() * root_travel,
-            S::constant(SLIP_DRIFT) * self.slip_rate.factor().sqrt() * root_travel,
+            S::constant(SLIP_DRIFT) * slip_factor.sqrt() * root_travel,
         ];
         let _ = self.filter.predict(process, &noise);
     }

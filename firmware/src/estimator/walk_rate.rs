@@ -66,6 +66,12 @@ impl<S: Scalar> WalkRate<S> {
         self.factor
     }
 
+    /// Forgets what was explained so far, and where the quantity is: it jumped.
+    pub fn restart(&mut self) {
+        let frame = self.frame;
+        *self = Self { frame, ..Self::new(0) };
+    }
+
     /// The geometric mean of the candidates, weighed by their likelihood.
     fn mean_factor(&self) -> S {
         let best = self.trials.iter().fold(S::constant(1.0e30), |best, trial| best.min(trial.misfit));

@@ -44,7 +44,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
-            Self::Estimators(arguments) => estimators::run(&arguments)?,
+            Self::Estimators(arguments) => estimators::run(&arguments),
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),

@@ -87,36 +87,6 @@ impl Drive {
             let now = naive(rover, &frame);
             let second = trailing.push(frame.time_us, now);
             (drive.last, drive.last_truth) = (Some(estimate), truth);
-            if std::env::var("KDBG").is_ok()
-                && (index % 5 == 0 || std::env::var("KALL").is_ok())
-                && (truth.time_us as f64) * 1e-6
-                    > std::env::var("KDBG").unwrap_or_default().parse::<f64>().unwrap_or(0.0)
-            {
-                let w = estimate.wheels.left;
-                let t = truth.wheels.left;
-                eprintln!(
-                    "{seed} {:.1} x={:.3} | slip {:?} {:.3} | g {:.3}±{:.3} {:.3} m {:.3} {:.3} r {:.3} {:.3} | W {:.1} {:.1} DP {:.2}±{:.2} {:.2} T {:.2} {:.2} {:?}",
-                    frame.time_us as f64 * 1e-6,
-                    truth.x_m,
-                    w.front.slip.map(|s| s.value),
-                    t.front.slip.unwrap_or(9.0),
-                    w.front.contact_angle_rad.value,
-                    w.front.contact_angle_rad.std,
-                    t.front.contact_angle_rad,
-                    w.middle.contact_angle_rad.value,
-                    t.middle.contact_angle_rad,
-                    w.rear.contact_angle_rad.value,
-                    t.rear.contact_angle_rad,
-                    w.front.normal_load_n.value,
-                    t.front.normal_load_n,
-                    w.front.drawbar_pull_n.value,
-                    w.front.drawbar_pull_n.std,
-                    t.front.drawbar_pull_n,
-                    w.front.resistive_torque_nm.value,
-                    t.front.resistive_torque_nm,
-                    w.front.activity
-                );
-            }
             if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
                 drive.take_errors(&estimate, &now, &second, &truth);
                 drive.take_squares(index, &pipeline, &estimate, &truth);

@@ -1,6 +1,6 @@
 //! Many drives of a scenario, and what they came to.
 
-use indicatif::ParallelProgressIterator;
+use indicatif::{ParallelProgressIterator, ProgressBar};
 use kapvik_firmware::rover::Rover;
 use rayon::prelude::*;
 
@@ -18,21 +18,24 @@ pub struct Trial {
     pub scenario: Scenario,
     /// The drives.
     pub drives: Vec<Drive>,
+    /// Why seeds gave no drive: rovers do get stuck.
+    pub failures: Vec<String>,
 }
 
 /// Drives a scenario once for each seed.
-///
-/// # Errors
-/// Where a simulation fails.
-pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>) -> Result<Trial, HostError> {
+pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>) -> Trial {
     let options = Options::default();
-    let progress = indicatif::ProgressBar::new(seeds.end - seeds.start).with_message(format!("{scenario:?}"));
-    let drives: Vec<Result<Drive, HostError>> =
+    let progress = ProgressBar::new(seeds.end - seeds.start).with_message(format!("{scenario:?}"));
+    let results: Vec<Result<Drive, HostError>> =
         seeds.into_par_iter().progress_with(progress).map(|seed| Drive::run(scenario, seed, rover, &options)).collect();
-    for e in drives.iter().filter_map(|d| d.as_ref().err()) {
-        eprintln!("{e}");
+    let mut trial = Trial { scenario, drives: Vec::new(), failures: Vec::new() };
+    for result in results {
+        match result {
+            Ok(drive) => trial.drives.push(drive),
+            Err(error) => trial.failures.push(error.to_string()),
+        }
     }
-    Ok(Trial { scenario, drives: drives.into_iter().flatten().collect() })
+    trial
 }
 
 impl Trial {
