@@ -33,9 +33,9 @@ pub enum Scenario {
     Dropout,
     /// Start, stop, stand, back up, on level ground
     StartStop,
-    /// The ground gives way under one rear wheel, and the bogie's stop holds it in the air
+    /// A hole under one middle wheel alone, over which the bogie's stop holds it in the air
     WheelLift,
-    /// One wheel does not turn for a while
+    /// One wheel does not turn for a while: a rear one is dragged along, another may hold the rover
     WheelBlocked,
     /// Level ground, slips spread, and a soil that becomes ice-cemented or sublimated
     SoilChange,
@@ -207,9 +207,13 @@ impl Draw<'_> {
     fn wheel_lift(&mut self) -> Option<Course> {
         let mut course = self.course(0.15, 70.0)?;
         let side = self.side();
-        let from_m = self.uniform(-0.20, -0.10);
-        let hole = Shape::Bump { from_m, length_m: self.uniform(0.75, 0.9), height_m: -self.uniform(0.09, 0.11) };
-        course.terrain.under_one = Some((side, Axle::Rear, hole));
+        let hole = Shape::Bump {
+            from_m: self.uniform(0.20, 0.30),
+            length_m: self.uniform(0.7, 0.8),
+            height_m: -self.uniform(0.11, 0.12),
+        };
+        // A middle wheel alone can hang: front and rear hold its side level, where any other two would tip it.
+        course.terrain.under_one = Some((side, Axle::Middle, hole));
         course.bogie_stop_rad = self.uniform(8.0, 10.0).to_radians();
         Some(course)
     }
@@ -221,9 +225,11 @@ impl Draw<'_> {
     fn wheel_blocked(&mut self) -> Option<Course> {
         let mut course = self.course(0.20, 60.0)?;
         let free = course.programme.commands.first()?.rim_speed_m_s;
-        let place = self.random.random_range(0..6);
+        // A rear wheel is dragged along; one further ahead mostly digs in and holds the rover while the others spin.
+        let axles = [Axle::Front, Axle::Middle, Axle::Rear, Axle::Rear];
+        let axle = axles[self.random.random_range(0..axles.len())];
         let mut blocked: PerWheel<f64> = free;
-        blocked.iter_wheels_mut().skip(place).take(1).for_each(|speed| *speed = 0.0);
+        *blocked.of_mut(self.side()).of_mut(axle) = 0.0;
         let from_s = self.uniform(15.0, 20.0);
         let until_s = from_s + self.uniform(12.0, 18.0);
         course.programme.commands.push(Command { from_s, rim_speed_m_s: blocked });

@@ -153,7 +153,7 @@ fn corner(x: f64, rounding: f64) -> Step {
 pub struct Terrain {
     /// Relief under all wheels of a side.
     pub sides: PerSide<Vec<Shape>>,
-    /// Ground that gives way under one wheel alone, after those before it have passed.
+    /// Relief that one wheel alone meets, as if the others of its side stepped over it.
     pub under_one: Option<(Side, Axle, Shape)>,
 }
 
