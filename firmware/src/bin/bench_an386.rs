@@ -2,7 +2,11 @@
 #![no_std]
 #![no_main]
 
+use core::cell::RefCell;
+
 use kapvik_board_an386::{bench::Bench, entry, exit};
+use kapvik_firmware::filter::trial::{self, NOISE_STD, PROCESS_STD, START_STD, Trial};
+use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
 use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
 use kapvik_firmware::frozen::{ROVER, WHEEL as WHEEL_TABLE};
 use kapvik_firmware::math;
@@ -34,6 +38,10 @@ fn main() -> ! {
     let [first, ..] = &ROVER.golden;
     let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
     bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
+    filter_step::<6, 6>(&bench, "filter_6_6", predicted);
+    filter_step::<12, 18>(&bench, "filter_12_18", predicted);
+    filter_step::<9, 12>(&bench, "filter_9_12_random_walk", drifted);
+    filter_step::<3, 2>(&bench, "filter_3_2", predicted);
     for print in &FINGERPRINTS {
         bench.fingerprint(print.name, (print.compute)());
     }
@@ -45,4 +53,39 @@ fn rover_outputs(pair: &RoverGolden, slip: f32) -> [f32; 6] {
     let mut wheels = pair.wheels;
     wheels[0][2] = slip;
     ROVER.outputs(&pair.context, wheels)
+}
+
+/// One step of a filter of `N` states and `M` measurements that runs on, measurement after measurement.
+fn filter_step<const N: usize, const M: usize>(
+    bench: &Bench,
+    name: &str,
+    predict: fn(&mut SigmaPointFilter<f32, N>) -> Prediction,
+) {
+    const STEPS: usize = 64;
+    let mut trial = Trial::<N, M>::new(1);
+    let measured: [[Option<f32>; M]; STEPS] = [(); STEPS].map(|()| trial.measure().map(Some));
+    let started = Gaussian::independent([0.0; N], [START_STD as f32; N])
+        .and_then(|start| SigmaPointFilter::new(start, [START_STD as f32; N]));
+    let Ok(filter) = started else { return };
+    let filter = RefCell::new(filter);
+    bench.kernel(name, 0.0, (STEPS - 1) as f32, |step| {
+        let mut filter = filter.borrow_mut();
+        let prediction = predict(&mut filter);
+        (prediction, measured.get(step as usize).map(|measured| update(&mut filter, measured)))
+    });
+}
+
+fn predicted<const N: usize>(filter: &mut SigmaPointFilter<f32, N>) -> Prediction {
+    filter.predict(trial::process, &[PROCESS_STD as f32; N])
+}
+
+fn drifted<const N: usize>(filter: &mut SigmaPointFilter<f32, N>) -> Prediction {
+    filter.random_walk(&[PROCESS_STD as f32; N])
+}
+
+fn update<const N: usize, const M: usize>(
+    filter: &mut SigmaPointFilter<f32, N>,
+    measured: &[Option<f32>; M],
+) -> Innovation<f32, M> {
+    filter.update(trial::measurement, measured, &[NOISE_STD as f32; M], Gate::one_in_a_thousand())
 }

@@ -2,13 +2,15 @@
 
 use crate::scalar::Scalar;
 
+use super::vector::{all_finite, diagonal, dot};
+
 /// A normal distribution of `N` numbers.
 ///
-/// The covariance is held as a root: P = S Sᵀ with S lower triangular. Every accessor computes from S, so no variance is negative.
+/// The covariance is held as a root: P = S Sᵀ. Every accessor computes from S, so no variance is negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gaussian<T, const N: usize> {
     pub(super) mean: [T; N],
-    /// The columns of S; column `i` is zero above its entry `i`.
+    /// The columns of S, which is any square root.
     pub(super) root: [[T; N]; N],
 }
 
@@ -27,10 +29,10 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     /// # Errors
     /// Where a mean is not finite, or a standard deviation negative or not finite.
     pub fn independent(mean: [T; N], std: [T; N]) -> Result<Self, InvalidNumber> {
-        if !mean.iter().all(|value| value.is_finite()) {
+        if !all_finite(&mean) {
             return Err(InvalidNumber::Mean);
         }
-        if !std.iter().all(|value| value.is_finite() && *value >= T::zero()) {
+        if !(all_finite(&std) && std.iter().all(|value| *value >= T::zero())) {
             return Err(InvalidNumber::StandardDeviation);
         }
         Ok(Self { mean, root: diagonal(&std) })
@@ -66,26 +68,4 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
         let variance = self.root.iter().map(sum).fold(T::zero(), |total, entry| total + entry * entry);
         (sum(&self.mean), variance)
     }
-
-    /// Whether every number in it is finite.
-    pub(super) fn is_finite(&self) -> bool {
-        self.mean.iter().chain(self.root.as_flattened()).all(|value| value.is_finite())
-    }
-}
-
-/// Σ aᵢ bᵢ, in the order of the indices.
-#[inline]
-pub(super) fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::zero(), |sum, (a, b)| sum + *a * *b)
-}
-
-/// The matrix with these entries on its diagonal.
-pub(super) fn diagonal<T: Scalar, const N: usize>(entries: &[T; N]) -> [[T; N]; N] {
-    let mut matrix = [[T::zero(); N]; N];
-    for (index, (column, entry)) in matrix.iter_mut().zip(entries).enumerate() {
-        if let Some(place) = column.get_mut(index) {
-            *place = *entry;
-        }
-    }
-    matrix
 }

@@ -56,6 +56,11 @@ impl<T: Scalar> Residual<T> {
     pub fn normalised(&self) -> Option<T> {
         matches!(self.fate, Fate::Used | Fate::Rejected).then(|| self.innovation / self.std)
     }
+
+    /// The innovation where it is used, else zero.
+    pub(super) fn used(&self) -> T {
+        if self.fate == Fate::Used { self.innovation } else { T::zero() }
+    }
 }
 
 /// How fusing the measurements went.

@@ -1,0 +1,80 @@
+//! Problems that the filter is measured, fingerprinted and compared with: cheap models, so that what counts is the filter.
+//!
+//! A ring of states, each drawn to the next and back to zero by a cubic spring; each is measured, with a cubic of itself,
+//! and the measurements beyond the first `N` see the next state as well.
+
+use crate::scalar::Scalar;
+
+/// Standard deviation of the noise of a state in a step.
+pub const PROCESS_STD: f64 = 0.02;
+/// Standard deviation of the noise of a measurement.
+pub const NOISE_STD: f64 = 0.1;
+/// Standard deviation of a state at the start.
+pub const START_STD: f64 = 0.5;
+
+/// Where the states are a step later.
+#[inline]
+pub fn process<T: Scalar, const N: usize>(x: &[T; N]) -> [T; N] {
+    let mut later = *x;
+    for (place, next) in later.iter_mut().zip(x.iter().skip(1).chain(x)) {
+        let here = *place;
+        *place = here + T::constant(0.05) * (*next - here - here * here * here);
+    }
+    later
+}
+
+/// What is measured of the states, without noise.
+#[inline]
+pub fn measurement<T: Scalar, const N: usize, const M: usize>(x: &[T; N]) -> [T; M] {
+    let mut measured = [T::zero(); M];
+    let mut share = T::zero();
+    for places in measured.chunks_mut(N) {
+        for ((place, here), next) in places.iter_mut().zip(x).zip(x.iter().skip(1).chain(x)) {
+            *place = *here + share * *next + T::constant(0.1) * *here * *here * *here;
+        }
+        share += T::one();
+    }
+    measured
+}
+
+/// A run of the problem in single precision: the states as they truly are, and what is measured of them.
+#[derive(Debug, Clone)]
+pub struct Trial<const N: usize, const M: usize> {
+    truth: [f32; N],
+    random: u32,
+}
+
+impl<const N: usize, const M: usize> Trial<N, M> {
+    /// The run of a seed above zero.
+    pub fn new(seed: u32) -> Self {
+        let mut trial = Self { truth: [0.0; N], random: seed };
+        trial.truth = trial.truth.map(|zero| zero + START_STD as f32 * trial.noise());
+        trial
+    }
+
+    /// The true states, those that the last measurements were made of.
+    pub fn truth(&self) -> &[f32; N] {
+        &self.truth
+    }
+
+    /// The next step's measurements.
+    pub fn measure(&mut self) -> [f32; M] {
+        let moved: [f32; N] = process(&self.truth);
+        self.truth = moved.map(|state| state + PROCESS_STD as f32 * self.noise());
+        let exact: [f32; M] = measurement(&self.truth);
+        exact.map(|value| value + NOISE_STD as f32 * self.noise())
+    }
+
+    /// A number that is nearly normal, of mean zero and variance one: the sum of twelve uniform ones, less six.
+    fn noise(&mut self) -> f32 {
+        (0..12).fold(-6.0, |sum, _| sum + self.uniform())
+    }
+
+    /// Marsaglia's xorshift, 32 bits (2003, J. Stat. Software 8:14): 0 … 1.
+    fn uniform(&mut self) -> f32 {
+        self.random ^= self.random << 13;
+        self.random ^= self.random >> 17;
+        self.random ^= self.random << 5;
+        (self.random >> 8) as f32 * f32::from_bits(0x3380_0000)
+    }
+}
