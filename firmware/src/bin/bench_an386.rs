@@ -5,13 +5,16 @@
 use core::cell::RefCell;
 
 use kapvik_board_an386::{bench::Bench, entry, exit};
-use kapvik_firmware::filter::trial::{self, NOISE_STD, PROCESS_STD, START_STD, Trial};
+use kapvik_firmware::filter::trial::{self, Scales, Trial};
 use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
 use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
 use kapvik_firmware::frozen::{ROVER, WHEEL as WHEEL_TABLE};
 use kapvik_firmware::math;
 use kapvik_firmware::network::RoverGolden;
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
+
+/// The problem that the filter's steps are counted on.
+const SCALES: Scales = Scales::NOMINAL;
 
 const WHEEL: Wheel<f32> = Wheel { radius_m: 0.075, width_m: 0.07 };
 
@@ -62,10 +65,10 @@ fn filter_step<const N: usize, const M: usize>(
     predict: fn(&mut SigmaPointFilter<f32, N>) -> Prediction,
 ) {
     const STEPS: usize = 64;
-    let mut trial = Trial::<N, M>::new(1);
+    let mut trial = Trial::<N, M>::new(1, SCALES);
     let measured: [[Option<f32>; M]; STEPS] = [(); STEPS].map(|()| trial.measure().map(Some));
-    let started = Gaussian::independent([0.0; N], [START_STD as f32; N])
-        .and_then(|start| SigmaPointFilter::new(start, [START_STD as f32; N]));
+    let started = Gaussian::independent([0.0; N], [SCALES.start_std; N])
+        .and_then(|start| SigmaPointFilter::new(start, [SCALES.start_std; N]));
     let Ok(filter) = started else { return };
     let filter = RefCell::new(filter);
     bench.kernel(name, 0.0, (STEPS - 1) as f32, |step| {
@@ -76,16 +79,16 @@ fn filter_step<const N: usize, const M: usize>(
 }
 
 fn predicted<const N: usize>(filter: &mut SigmaPointFilter<f32, N>) -> Prediction {
-    filter.predict(trial::process, &[PROCESS_STD as f32; N])
+    filter.predict(trial::process, &[SCALES.process_std; N])
 }
 
 fn drifted<const N: usize>(filter: &mut SigmaPointFilter<f32, N>) -> Prediction {
-    filter.random_walk(&[PROCESS_STD as f32; N])
+    filter.random_walk(&[SCALES.process_std; N])
 }
 
 fn update<const N: usize, const M: usize>(
     filter: &mut SigmaPointFilter<f32, N>,
     measured: &[Option<f32>; M],
 ) -> Innovation<f32, M> {
-    filter.update(trial::measurement, measured, &[NOISE_STD as f32; M], Gate::one_in_a_thousand())
+    filter.update(trial::measurement, measured, &[SCALES.noise_std; M], Gate::one_in_a_thousand())
 }

@@ -5,12 +5,23 @@
 
 use crate::scalar::Scalar;
 
-/// Standard deviation of the noise of a state in a step.
-pub const PROCESS_STD: f64 = 0.02;
-/// Standard deviation of the noise of a measurement.
-pub const NOISE_STD: f64 = 0.1;
-/// Standard deviation of a state at the start.
-pub const START_STD: f64 = 0.5;
+/// How uncertain and how noisy, as standard deviations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Of a state at the start.
+    pub start_std: f32,
+    /// Of the noise of a state in a step.
+    pub process_std: f32,
+    /// Of the noise of a measurement.
+    pub noise_std: f32,
+}
+
+impl Scales {
+    /// A tracking problem: what is known at the start is worth a few measurements.
+    pub const NOMINAL: Self = Self { start_std: 0.5, process_std: 0.02, noise_std: 0.1 };
+    /// A start of which nothing is known, and sensors 10¹⁰ times better in variance: what costs single precision its digits.
+    pub const STIFF: Self = Self { start_std: 0.5, process_std: 1e-6, noise_std: 5e-6 };
+}
 
 /// Where the states are a step later.
 #[inline]
@@ -40,15 +51,16 @@ pub fn measurement<T: Scalar, const N: usize, const M: usize>(x: &[T; N]) -> [T;
 /// A run of the problem in single precision: the states as they truly are, and what is measured of them.
 #[derive(Debug, Clone)]
 pub struct Trial<const N: usize, const M: usize> {
+    scales: Scales,
     truth: [f32; N],
     random: u32,
 }
 
 impl<const N: usize, const M: usize> Trial<N, M> {
     /// The run of a seed above zero.
-    pub fn new(seed: u32) -> Self {
-        let mut trial = Self { truth: [0.0; N], random: seed };
-        trial.truth = trial.truth.map(|zero| zero + START_STD as f32 * trial.noise());
+    pub fn new(seed: u32, scales: Scales) -> Self {
+        let mut trial = Self { scales, truth: [0.0; N], random: seed };
+        trial.truth = [0.0; N].map(|zero| zero + scales.start_std * trial.noise());
         trial
     }
 
@@ -60,9 +72,9 @@ impl<const N: usize, const M: usize> Trial<N, M> {
     /// The next step's measurements.
     pub fn measure(&mut self) -> [f32; M] {
         let moved: [f32; N] = process(&self.truth);
-        self.truth = moved.map(|state| state + PROCESS_STD as f32 * self.noise());
+        self.truth = moved.map(|state| state + self.scales.process_std * self.noise());
         let exact: [f32; M] = measurement(&self.truth);
-        exact.map(|value| value + NOISE_STD as f32 * self.noise())
+        exact.map(|value| value + self.scales.noise_std * self.noise())
     }
 
     /// A number that is nearly normal, of mean zero and variance one: the sum of twelve uniform ones, less six.
