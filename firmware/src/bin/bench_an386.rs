@@ -2,8 +2,6 @@
 #![no_std]
 #![no_main]
 
-use core::cell::RefCell;
-
 use kapvik_board_an386::{bench::Bench, entry, exit};
 use kapvik_firmware::filter::trial::{self, Scales, Trial};
 use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
@@ -69,10 +67,8 @@ fn filter_step<const N: usize, const M: usize>(
     let measured: [[Option<f32>; M]; STEPS] = [(); STEPS].map(|()| trial.measure().map(Some));
     let started = Gaussian::independent([0.0; N], [SCALES.start_std; N])
         .and_then(|start| SigmaPointFilter::new(start, [SCALES.start_std; N]));
-    let Ok(filter) = started else { return };
-    let filter = RefCell::new(filter);
+    let Ok(mut filter) = started else { return };
     bench.kernel(name, 0.0, (STEPS - 1) as f32, |step| {
-        let mut filter = filter.borrow_mut();
         let prediction = predict(&mut filter);
         (prediction, measured.get(step as usize).map(|measured| update(&mut filter, measured)))
     });

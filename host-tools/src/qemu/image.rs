@@ -15,6 +15,8 @@ pub enum Binary {
     Flight,
     /// Counts instructions and stack, and fingerprints the numerics.
     Bench,
+    /// The filter alone.
+    Filter,
     /// Panics on purpose.
     Fault,
 }
@@ -24,6 +26,7 @@ impl Binary {
         match self {
             Self::Flight => "kapvik_an386",
             Self::Bench => "bench_an386",
+            Self::Filter => "filter_an386",
             Self::Fault => "fault_an386",
         }
     }
