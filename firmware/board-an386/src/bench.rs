@@ -9,6 +9,7 @@
 //! ```
 
 use core::arch::asm;
+use core::fmt::Display;
 use core::hint::black_box;
 
 use semihosting::println;
@@ -45,7 +46,7 @@ impl Bench {
     }
 
     /// What one call of `function` costs, the mean over inputs between `low` and `high`.
-    pub fn kernel<R>(&self, name: &str, low: f32, high: f32, mut function: impl FnMut(f32) -> R) {
+    pub fn kernel<R>(&self, name: impl Display, low: f32, high: f32, mut function: impl FnMut(f32) -> R) {
         let cost = instructions(low, high, &mut function).saturating_sub(self.loop_instructions);
         println!("kernel {name} {cost} {}", stack_bytes(low, high, &mut function).saturating_sub(self.probe_stack));
     }

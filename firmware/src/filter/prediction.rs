@@ -4,7 +4,7 @@ use crate::scalar::Scalar;
 
 use super::reflection::{Reflection, triangularise};
 use super::transform::{Output, transform};
-use super::vector::transposed;
+use super::vector::{scale, transposed};
 use super::{Gaussian, InvalidNumber, SigmaPointFilter};
 
 /// How a prediction went.
@@ -75,7 +75,7 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     /// everything stays known. Nothing happens where there is no state of that index.
     ///
     /// # Errors
-    /// Where `mean` is not finite, or `std` negative or not finite.
+    /// Where `mean` is not finite, or `std` negative or its square not finite.
     pub fn forget(&mut self, index: usize, mean: T, std: T) -> Result<Prediction, InvalidNumber> {
         Gaussian::independent([mean], [std])?;
         let mut noise_std = [T::zero(); N];
@@ -84,6 +84,13 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         }
         self.estimate.root.iter_mut().filter_map(|column| column.get_mut(index)).for_each(|entry| *entry = T::zero());
         Ok(self.random_walk(&noise_std))
+    }
+
+    /// Multiplies every standard deviation by `factor`, and leaves mean and correlations as they are: for a filter that has
+    /// turned out to be surer than it should be.
+    pub fn widen(&mut self, factor: T) -> Prediction {
+        scale(self.estimate.root.as_flattened_mut(), factor);
+        self.random_walk(&[T::zero(); N])
     }
 
     fn finish(&mut self, mean: [T; N]) -> Prediction {

@@ -19,14 +19,17 @@ impl<'a, T: Scalar> Reflection<'a, T> {
     /// The reflection for a pivot and the column below it, with the new pivot.
     ///
     /// A column whose norm, pivot included, is below 1e-18 counts as zero: the squares of its entries are lost in single
-    /// precision, and the reflection does nothing.
+    /// precision, and the reflection does nothing. Beyond 1e19 its square overflows; the new pivot is then no finite number,
+    /// so that the step is seen to have failed.
     #[inline]
     pub fn new(pivot: T, column: &'a [T]) -> (Self, T) {
         let square = pivot * pivot + dot(column, column);
         let norm = square.sqrt();
         let head = pivot + norm;
-        let factor = if square < T::constant(1e-36) { T::zero() } else { T::one() / (norm * head) };
-        (Self { column, head, factor }, norm)
+        let half_length = norm * head;
+        let factor = if square < T::constant(1e-36) { T::zero() } else { T::one() / half_length };
+        // Adds zero, or what is not a number where the length of v overflows although the norm does not.
+        (Self { column, head, factor }, norm + half_length * T::zero())
     }
 
     /// Reflects another column, whose entry in the pivot's row is zero; gives the new entry there.

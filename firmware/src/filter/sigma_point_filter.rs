@@ -24,7 +24,7 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     /// back to when a factorisation fails: large enough that it finds back from wherever its mean is then.
     ///
     /// # Errors
-    /// Where a standard deviation is negative or not finite.
+    /// Where a standard deviation is negative or its square not finite.
     pub fn new(estimate: Gaussian<T, N>, reset_std: [T; N]) -> Result<Self, InvalidNumber> {
         Self::with_spread(estimate, reset_std, Spread::unit())
     }

@@ -3,6 +3,8 @@
 //! A ring of states, each drawn to the next and back to zero by a cubic spring; each is measured, with a cubic of itself,
 //! and the measurements beyond the first `N` see the next state as well.
 
+use core::ops::{Add, Mul, Sub};
+
 use crate::scalar::Scalar;
 
 /// How uncertain and how noisy, as standard deviations.
@@ -26,10 +28,16 @@ impl Scales {
 /// Where the states are a step later.
 #[inline]
 pub fn process<T: Scalar, const N: usize>(x: &[T; N]) -> [T; N] {
+    process_in(T::constant, x)
+}
+
+/// [`process`], in any arithmetic that has the four operators; `constant` gives its nearest number to one of the equations.
+#[inline]
+pub fn process_in<T: Arithmetic, const N: usize>(constant: impl Fn(f64) -> T, x: &[T; N]) -> [T; N] {
     let mut later = *x;
     for (place, next) in later.iter_mut().zip(x.iter().skip(1).chain(x)) {
         let here = *place;
-        *place = here + T::constant(0.05) * (*next - here - here * here * here);
+        *place = here + constant(0.05) * (*next - here - here * here * here);
     }
     later
 }
@@ -37,16 +45,30 @@ pub fn process<T: Scalar, const N: usize>(x: &[T; N]) -> [T; N] {
 /// What is measured of the states, without noise.
 #[inline]
 pub fn measurement<T: Scalar, const N: usize, const M: usize>(x: &[T; N]) -> [T; M] {
-    let mut measured = [T::zero(); M];
-    let mut share = T::zero();
+    measurement_in(T::constant, x)
+}
+
+/// [`measurement`], in any arithmetic, as [`process_in`].
+#[inline]
+pub fn measurement_in<T: Arithmetic, const N: usize, const M: usize>(
+    constant: impl Fn(f64) -> T,
+    x: &[T; N],
+) -> [T; M] {
+    let mut measured = [constant(0.0); M];
+    let mut share = constant(0.0);
     for places in measured.chunks_mut(N) {
         for ((place, here), next) in places.iter_mut().zip(x).zip(x.iter().skip(1).chain(x)) {
-            *place = *here + share * *next + T::constant(0.1) * *here * *here * *here;
+            *place = *here + share * *next + constant(0.1) * *here * *here * *here;
         }
-        share += T::one();
+        share = share + constant(1.0);
     }
     measured
 }
+
+/// What the models compute with: the filters that we compare with have numbers of their own.
+pub trait Arithmetic: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Arithmetic for T {}
 
 /// A run of the problem in single precision: the states as they truly are, and what is measured of them.
 #[derive(Debug, Clone)]

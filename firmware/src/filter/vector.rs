@@ -10,10 +10,10 @@ pub(super) fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::zero(), |sum, (a, b)| sum + *a * *b)
 }
 
-/// Whether every number is finite: the difference of a finite number to itself is zero, that of any other is not a number.
+/// Whether every number is finite: nought times a finite number is zero, nought times any other is not a number.
 #[inline]
 pub(super) fn all_finite<T: Scalar>(numbers: &[T]) -> bool {
-    numbers.iter().fold(T::zero(), |sum, number| sum + (*number - *number)) == T::zero()
+    numbers.iter().fold(T::zero(), |sum, number| sum + *number * T::zero()) == T::zero()
 }
 
 /// The matrix with these entries on its diagonal.

@@ -54,3 +54,31 @@ fn an_open_gate_takes_what_it_gets() {
     assert_eq!((told.fusion, told.degrees_of_freedom), (Fusion::Done, 6));
     assert!(told.normalised_square > 6.0 * 10.8);
 }
+
+#[test]
+fn a_filter_that_shuts_everything_out_finds_back_once_it_is_widened() {
+    let mut trial = Trial::<6, 6>::new(4, SCALES);
+    let mut filter = start::<f32, 6>(&SCALES);
+    for _ in 0..50 {
+        assert_eq!(predict(&mut filter, &SCALES), Prediction::Done);
+        let _ = update(&mut filter, &SCALES, &trial.measure().map(Some), Gate::one_in_a_thousand());
+    }
+    let jumped = Gaussian::independent(filter.estimate().mean().map(|mean| mean + 5.0), filter.estimate().stds());
+    filter.restart(jumped.expect("numbers"));
+    for step in 0..20 {
+        assert_eq!(predict(&mut filter, &SCALES), Prediction::Done);
+        let told = update(&mut filter, &SCALES, &trial.measure().map(Some), Gate::one_in_a_thousand());
+        if step == 0 {
+            assert_eq!(told.fusion, Fusion::NothingToFuse);
+        }
+        if told.fusion == Fusion::NothingToFuse {
+            let before = filter.estimate().stds();
+            assert_eq!(filter.widen(10.0), Prediction::Done);
+            let after = filter.estimate().stds();
+            assert!(before.iter().zip(after).all(|(before, after)| (after / before - 10.0).abs() < 1e-5));
+        }
+    }
+    let stds = filter.estimate().stds();
+    let errors = filter.estimate().mean().iter().zip(trial.truth()).zip(stds);
+    assert!(errors.into_iter().all(|((mean, truth), std)| (mean - truth).abs() < 4.0 * std));
+}

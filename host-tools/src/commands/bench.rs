@@ -1,5 +1,6 @@
 //! `kapvik bench`: how good and how fast we are, beside the alternatives.
 
+mod filter;
 mod target;
 
 use clap::{Args, Subcommand};
@@ -11,6 +12,8 @@ use crate::error::HostError;
 /// What to measure.
 #[derive(Subcommand)]
 pub enum Subject {
+    /// The sigma-point filter beside kfilter, multicalc and minikalman: instructions, stack, survival of faults
+    Filter,
     /// Evaluations of equations 1–11 per second, beside a Simpson loop and SciPy's quad
     Forward,
     /// The accuracy that no estimator of the soil can beat: the mean of the exact posterior
@@ -41,6 +44,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),
