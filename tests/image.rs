@@ -83,9 +83,18 @@ fn unwanted_functions(image: &Image) -> Vec<String> {
 #[test]
 fn nothing_in_the_image_can_allocate_or_panic() {
     assert_eq!(unwanted_functions(flight_image()), Vec::<String>::new());
+    let filter = Image::build(toolchain(), Binary::Filter).expect("the image with the filter builds");
+    assert_eq!(unwanted_functions(&filter), Vec::<String>::new());
     // The search finds what it looks for.
     let panics = Image::build(toolchain(), Binary::Fault).expect("the image that panics builds");
     assert!(!unwanted_functions(&panics).is_empty());
+}
+
+#[test]
+fn every_step_of_the_filter_ends_well_on_the_target() {
+    let image = Image::build(toolchain(), Binary::Filter).expect("the image with the filter builds");
+    let machine = Machine::start(toolchain(), &image, Clock::Wall, LogView::Nothing).expect("QEMU starts");
+    assert_eq!(machine.wait(Duration::from_secs(60)).expect("it ends").code, Some(0));
 }
 
 #[test]

@@ -3,6 +3,8 @@
 //!
 //! A result that is not a number counts as one and the same, because the hardware chooses sign and payload of a NaN.
 
+use crate::filter::trial::{self, Scales, Trial};
+use crate::filter::{Gate, Gaussian, SigmaPointFilter};
 use crate::link::CHECKSUM;
 use crate::math;
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
@@ -16,7 +18,7 @@ pub struct Fingerprint {
 }
 
 /// Everything that flight computes with, from the elementary functions up.
-pub const FINGERPRINTS: [Fingerprint; 9] = [
+pub const FINGERPRINTS: [Fingerprint; 11] = [
     Fingerprint {
         name: "sin_cos",
         compute: || sweep(|x, digest| digest.add_all([math::sin_cos(x).0, math::sin_cos(x).1])),
@@ -29,6 +31,8 @@ pub const FINGERPRINTS: [Fingerprint; 9] = [
     Fingerprint { name: "tanh", compute: || sweep(|x, digest| digest.add(math::tanh(x))) },
     Fingerprint { name: "wheel_forces", compute: || grid(forces) },
     Fingerprint { name: "sinkage_for_load", compute: || grid(sinkage) },
+    Fingerprint { name: "filter_6_6", compute: filter::<6, 6> },
+    Fingerprint { name: "filter_12_18", compute: filter::<12, 18> },
 ];
 
 /// The checksum of a row of numbers.
@@ -88,6 +92,36 @@ fn forces(wheel: &Wheel<f32>, soil: &Soil<f32>, slip: f32, depth: f32, digest: &
 /// Loads from 2 N to 120 N for the depths of the grid.
 fn sinkage(wheel: &Wheel<f32>, soil: &Soil<f32>, slip: f32, depth: f32, digest: &mut Digest) {
     digest.add(sinkage_for_load(wheel, soil, slip, 200.0 * depth).unwrap_or(f32::NAN));
+}
+
+/// Means, standard deviations and squared innovations of a run of the filter, predicted by the model and by drift in turn,
+/// with a measurement missing now and then.
+fn filter<const N: usize, const M: usize>() -> u32 {
+    const STEPS: usize = 100;
+    const MISSING: usize = 7;
+    static START: crc::Crc<u32> = CHECKSUM;
+    let mut digest = Digest(START.digest());
+    let scales = Scales::NOMINAL;
+    let std = [scales.start_std; N];
+    let Ok(mut filter) = Gaussian::independent([0.0; N], std).and_then(|start| SigmaPointFilter::new(start, std))
+    else {
+        return 0;
+    };
+    let mut trial = Trial::<N, M>::new(1, scales);
+    for step in 0..STEPS {
+        let noise = [scales.process_std; N];
+        let _ = if step % 2 == 0 { filter.predict(trial::process, &noise) } else { filter.random_walk(&noise) };
+        let mut place = step;
+        let measured = trial.measure().map(|value| {
+            place += 1;
+            (place % MISSING != 0).then_some(value)
+        });
+        let told = filter.update(trial::measurement, &measured, &[scales.noise_std; M], Gate::one_in_a_thousand());
+        digest.add_all(*filter.estimate().mean());
+        digest.add_all(filter.estimate().stds());
+        digest.add(told.normalised_square);
+    }
+    digest.0.finalize()
 }
 
 /// Firm, loose and cohesive: they differ in exponent, in every modulus and in whether the soil rises behind the wheel.

@@ -9,6 +9,7 @@
 //! ```
 
 use core::arch::asm;
+use core::fmt::Display;
 use core::hint::black_box;
 
 use semihosting::println;
@@ -45,9 +46,9 @@ impl Bench {
     }
 
     /// What one call of `function` costs, the mean over inputs between `low` and `high`.
-    pub fn kernel<R>(&self, name: &str, low: f32, high: f32, function: impl Fn(f32) -> R) {
-        let cost = instructions(low, high, &function).saturating_sub(self.loop_instructions);
-        println!("kernel {name} {cost} {}", stack_bytes(low, high, &function).saturating_sub(self.probe_stack));
+    pub fn kernel<R>(&self, name: impl Display, low: f32, high: f32, mut function: impl FnMut(f32) -> R) {
+        let cost = instructions(low, high, &mut function).saturating_sub(self.loop_instructions);
+        println!("kernel {name} {cost} {}", stack_bytes(low, high, &mut function).saturating_sub(self.probe_stack));
     }
 
     /// A line with the fingerprint of some arithmetic.
@@ -58,7 +59,7 @@ impl Bench {
 
 /// Stack of a call, at both ends of the inputs.
 #[inline(never)]
-fn stack_bytes<R>(low: f32, high: f32, function: impl Fn(f32) -> R) -> u32 {
+fn stack_bytes<R>(low: f32, high: f32, mut function: impl FnMut(f32) -> R) -> u32 {
     let before = stack::repaint();
     black_box(function(black_box(low)));
     black_box(function(black_box(high)));
@@ -67,9 +68,9 @@ fn stack_bytes<R>(low: f32, high: f32, function: impl Fn(f32) -> R) -> u32 {
 
 /// Instructions of a call and the loop around it.
 #[inline(never)]
-fn instructions<R>(low: f32, high: f32, function: impl Fn(f32) -> R) -> u64 {
+fn instructions<R>(low: f32, high: f32, mut function: impl FnMut(f32) -> R) -> u64 {
     let step = (high - low) / f32::from(INPUTS - 1);
-    let turn = |rounds: u16| {
+    let mut turn = |rounds: u16| {
         let start = ticks::now();
         for _ in 0..rounds {
             for index in 0..INPUTS {

@@ -5,6 +5,8 @@
 use core::cell::{Cell, RefCell};
 
 use kapvik_board_an386::{bench::Bench, entry, exit};
+use kapvik_firmware::filter::trial::{self, Scales, Trial};
+use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
 use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
 use kapvik_firmware::frozen::{ROVER, WHEEL as WHEEL_TABLE};
 use kapvik_firmware::math;
@@ -13,6 +15,9 @@ use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::{Axes, PerAxle, PerSide, Rover};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
+
+/// The problem that the filter's steps are counted on.
+const SCALES: Scales = Scales::NOMINAL;
 
 const WHEEL: Wheel<f32> = Wheel { radius_m: 0.075, width_m: 0.07 };
 
@@ -39,6 +44,10 @@ fn main() -> ! {
     let [first, ..] = &ROVER.golden;
     let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
     bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
+    filter_step::<6, 6>(&bench, "filter_6_6", predicted);
+    filter_step::<12, 18>(&bench, "filter_12_18", predicted);
+    filter_step::<9, 12>(&bench, "filter_9_12_random_walk", drifted);
+    filter_step::<3, 2>(&bench, "filter_3_2", predicted);
     if let Ok(pipeline) = Pipeline::new(&Rover::assumed()) {
         let pipeline = RefCell::new(pipeline);
         let time_us = Cell::new(0_u64);
@@ -58,6 +67,39 @@ fn rover_outputs(pair: &RoverGolden, slip: f32) -> [f32; 6] {
     let mut wheels = pair.wheels;
     wheels[0][2] = slip;
     ROVER.outputs(&pair.context, wheels)
+}
+
+/// One step of a filter of `N` states and `M` measurements that runs on, measurement after measurement.
+fn filter_step<const N: usize, const M: usize>(
+    bench: &Bench,
+    name: &str,
+    predict: fn(&mut SigmaPointFilter<f32, N>) -> Prediction,
+) {
+    const STEPS: usize = 64;
+    let mut trial = Trial::<N, M>::new(1, SCALES);
+    let measured: [[Option<f32>; M]; STEPS] = [(); STEPS].map(|()| trial.measure().map(Some));
+    let started = Gaussian::independent([0.0; N], [SCALES.start_std; N])
+        .and_then(|start| SigmaPointFilter::new(start, [SCALES.start_std; N]));
+    let Ok(mut filter) = started else { return };
+    bench.kernel(name, 0.0, (STEPS - 1) as f32, |step| {
+        let prediction = predict(&mut filter);
+        (prediction, measured.get(step as usize).map(|measured| update(&mut filter, measured)))
+    });
+}
+
+fn predicted<const N: usize>(filter: &mut SigmaPointFilter<f32, N>) -> Prediction {
+    filter.predict(trial::process, &[SCALES.process_std; N])
+}
+
+fn drifted<const N: usize>(filter: &mut SigmaPointFilter<f32, N>) -> Prediction {
+    filter.random_walk(&[SCALES.process_std; N])
+}
+
+fn update<const N: usize, const M: usize>(
+    filter: &mut SigmaPointFilter<f32, N>,
+    measured: &[Option<f32>; M],
+) -> Innovation<f32, M> {
+    filter.update(trial::measurement, measured, &[SCALES.noise_std; M], Gate::one_in_a_thousand())
 }
 
 /// A frame of a rover that drives over level ground, no two readings alike.

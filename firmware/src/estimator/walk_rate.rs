@@ -44,7 +44,7 @@ impl<S: Scalar> WalkRate<S> {
     /// Takes a measurement with noise of this variance, where the nominal walk since the one before has `nominal_variance`.
     pub fn see(&mut self, measured: S, noise_variance: S, nominal_variance: S) {
         self.frame = self.frame.wrapping_add(1);
-        let renew = self.frame % CANDIDATES == 0;
+        let renew = self.frame.is_multiple_of(CANDIDATES);
         let mut factor = S::constant(LEAST);
         for trial in &mut self.trials {
             trial.filter.variance += factor * nominal_variance;

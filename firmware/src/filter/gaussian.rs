@@ -2,13 +2,15 @@
 
 use crate::scalar::Scalar;
 
+use super::vector::{all_finite, diagonal, dot};
+
 /// A normal distribution of `N` numbers.
 ///
-/// The covariance is held as a root: P = S Sᵀ with S lower triangular. Every accessor computes from S, so no variance is negative.
+/// The covariance is held as a root: P = S Sᵀ. Every accessor computes from S, so no variance is negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gaussian<T, const N: usize> {
     pub(super) mean: [T; N],
-    /// The columns of S; column `i` is zero above its entry `i`.
+    /// The columns of S, which is any square root.
     pub(super) root: [[T; N]; N],
 }
 
@@ -17,7 +19,7 @@ pub struct Gaussian<T, const N: usize> {
 pub enum InvalidNumber {
     /// A mean is not finite.
     Mean,
-    /// A standard deviation is negative or not finite.
+    /// A standard deviation is negative, or its square is not finite.
     StandardDeviation,
 }
 
@@ -25,12 +27,13 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     /// Independent numbers with these means and standard deviations, each in the unit of its own number.
     ///
     /// # Errors
-    /// Where a mean is not finite, or a standard deviation negative or not finite.
+    /// Where a mean is not finite, or a standard deviation negative or its square not finite.
     pub fn independent(mean: [T; N], std: [T; N]) -> Result<Self, InvalidNumber> {
-        if !mean.iter().all(|value| value.is_finite()) {
+        if !all_finite(&mean) {
             return Err(InvalidNumber::Mean);
         }
-        if !std.iter().all(|value| value.is_finite() && *value >= T::zero()) {
+        let valid = |value: &T| *value >= T::zero() && (*value * *value).is_finite();
+        if !std.iter().all(valid) {
             return Err(InvalidNumber::StandardDeviation);
         }
         Ok(Self { mean, root: diagonal(&std) })
@@ -71,26 +74,4 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     pub fn covariance_of_sums(&self, one: &[T; N], other: &[T; N]) -> T {
         self.root.iter().fold(T::zero(), |sum, column| sum + dot(one, column) * dot(other, column))
     }
-
-    /// Whether every number in it is finite.
-    pub(super) fn is_finite(&self) -> bool {
-        self.mean.iter().chain(self.root.as_flattened()).all(|value| value.is_finite())
-    }
-}
-
-/// Σ aᵢ bᵢ, in the order of the indices.
-#[inline]
-pub(super) fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::zero(), |sum, (a, b)| sum + *a * *b)
-}
-
-/// The matrix with these entries on its diagonal.
-pub(super) fn diagonal<T: Scalar, const N: usize>(entries: &[T; N]) -> [[T; N]; N] {
-    let mut matrix = [[T::zero(); N]; N];
-    for (index, (column, entry)) in matrix.iter_mut().zip(entries).enumerate() {
-        if let Some(place) = column.get_mut(index) {
-            *place = *entry;
-        }
-    }
-    matrix
 }

@@ -3,6 +3,10 @@
 use crate::scalar::Scalar;
 
 /// Which measurements are too far from what was expected to be believed.
+///
+/// A gate believes the filter's own standard deviations. A filter that is surer than it should be, after a start that is wide
+/// against the bends of its models or a jump of the state, rejects good measurements, and goes on doing so: nothing they say
+/// comes in. The caller sees it in the fates; [`SigmaPointFilter::widen`](super::SigmaPointFilter::widen) lets them in again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gate<T> {
     /// Rejects a measurement whose squared innovation is more than so many of its variances. The innovation of a good
@@ -36,7 +40,7 @@ pub enum Fate {
     Missing,
     /// The gate rejected it.
     Rejected,
-    /// It was not finite, or what the model expected was not, or its noise was not a finite number above zero.
+    /// It was not finite, or what the model expected was not, or its noise was not a finite number of 1e-18 or more.
     NotFinite,
 }
 
@@ -55,6 +59,11 @@ impl<T: Scalar> Residual<T> {
     /// The innovation in its standard deviations, where there is one.
     pub fn normalised(&self) -> Option<T> {
         matches!(self.fate, Fate::Used | Fate::Rejected).then(|| self.innovation / self.std)
+    }
+
+    /// The innovation where it is used, else zero.
+    pub(super) fn used(&self) -> T {
+        if self.fate == Fate::Used { self.innovation } else { T::zero() }
     }
 }
 

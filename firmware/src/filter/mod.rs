@@ -18,7 +18,9 @@ mod reflection;
 mod sigma_point_filter;
 mod spread;
 mod transform;
+pub mod trial;
 mod update;
+mod vector;
 
 pub use gaussian::{Gaussian, InvalidNumber};
 pub use innovation::{Fate, Fusion, Gate, Innovation, Residual};

@@ -3,7 +3,8 @@
 use crate::scalar::Scalar;
 
 use super::reflection::{Reflection, triangularise};
-use super::transform::Transformed;
+use super::transform::{Output, transform};
+use super::vector::{scale, transposed};
 use super::{Gaussian, InvalidNumber, SigmaPointFilter};
 
 /// How a prediction went.
@@ -23,49 +24,40 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     ///
     /// Cost: 2 N + 1 evaluations of the model, and about 2 N³ multiplications with addition.
     pub fn predict(&mut self, model: impl Fn(&[T; N]) -> [T; N], noise_std: &[T; N]) -> Prediction {
-        let mut transformed = Transformed::new(&self.estimate, &self.factors, &model);
-        let outputs = transformed.mean.iter().chain(transformed.deviations.as_flattened().as_flattened());
-        if !outputs.into_iter().all(|value| value.is_finite()) {
+        let mut outputs = [Output::blank(); N];
+        transform(&self.estimate, &self.factors, &model, &mut outputs);
+        if !outputs.iter().all(Output::is_finite) {
             return match self.random_walk(noise_std) {
                 Prediction::Done => Prediction::ModelNotFinite,
                 other => other,
             };
         }
-        let root = triangularise(noise_std, &mut transformed.deviations, &mut []).root;
-        self.finish(Gaussian { mean: transformed.mean, root })
+        triangularise(noise_std, &mut outputs, Output::rows, &mut self.estimate.root);
+        let mut mean = self.estimate.mean;
+        mean.iter_mut().zip(&outputs).for_each(|(place, output)| *place = output.mean);
+        self.finish(mean)
     }
 
     /// The prediction of states that only drift: adds independent noise with these standard deviations per step.
     ///
     /// Cost: no evaluation of a model, and about N³ multiplications with addition.
     pub fn random_walk(&mut self, noise_std: &[T; N]) -> Prediction {
-        let mut columns = [[[T::zero(); N]; 1]; N];
-        for (index, column) in self.estimate.root.iter().enumerate() {
-            for ([place], entry) in columns.iter_mut().zip(column) {
-                if let Some(place) = place.get_mut(index) {
-                    *place = *entry;
-                }
-            }
-        }
-        let root = triangularise(noise_std, &mut columns, &mut []).root;
-        self.finish(Gaussian { mean: self.estimate.mean, root })
+        let mut columns = transposed(&self.estimate.root);
+        triangularise(noise_std, &mut columns, <[T; N]>::as_mut_slice, &mut self.estimate.root);
+        self.finish(self.estimate.mean)
     }
 
     /// Adds noise that several states share: its covariance is G Gᵀ, with G given by its columns.
     ///
-    /// Cost: about K N² multiplications with addition.
+    /// Cost: about (N + K) N² multiplications with addition.
     pub fn add_correlated_noise<const K: usize>(&mut self, noise_columns: &[[T; N]; K]) -> Prediction {
-        let mut columns = [[T::zero(); K]; N];
-        for (index, noise) in noise_columns.iter().enumerate() {
-            for (column, entry) in columns.iter_mut().zip(noise) {
-                if let Some(place) = column.get_mut(index) {
-                    *place = *entry;
-                }
-            }
+        let triangular = self.random_walk(&[T::zero(); N]);
+        if triangular == Prediction::Reset {
+            return triangular;
         }
-        let mut root = self.estimate.root;
+        let mut columns = transposed(noise_columns);
         let mut rest = columns.as_mut_slice();
-        for (index, row) in root.iter_mut().enumerate() {
+        for (index, row) in self.estimate.root.iter_mut().enumerate() {
             let Some((column, trailing)) = rest.split_first_mut() else { break };
             let mut entries = row.iter_mut().skip(index);
             let Some(diagonal) = entries.next() else { break };
@@ -76,14 +68,14 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
             }
             rest = trailing;
         }
-        self.finish(Gaussian { mean: self.estimate.mean, root })
+        self.finish(self.estimate.mean)
     }
 
     /// Forgets one state alone: it becomes `mean` with standard deviation `std`, independent of the others, of which
     /// everything stays known. Nothing happens where there is no state of that index.
     ///
     /// # Errors
-    /// Where `mean` is not finite, or `std` negative or not finite.
+    /// Where `mean` is not finite, or `std` negative or its square not finite.
     pub fn forget(&mut self, index: usize, mean: T, std: T) -> Result<Prediction, InvalidNumber> {
         Gaussian::independent([mean], [std])?;
         let mut noise_std = [T::zero(); N];
@@ -94,7 +86,14 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         Ok(self.random_walk(&noise_std))
     }
 
-    fn finish(&mut self, estimate: Gaussian<T, N>) -> Prediction {
-        if self.accept(estimate, T::zero()) { Prediction::Done } else { Prediction::Reset }
+    /// Multiplies every standard deviation by `factor`, and leaves mean and correlations as they are: for a filter that has
+    /// turned out to be surer than it should be.
+    pub fn widen(&mut self, factor: T) -> Prediction {
+        scale(self.estimate.root.as_flattened_mut(), factor);
+        self.random_walk(&[T::zero(); N])
+    }
+
+    fn finish(&mut self, mean: [T; N]) -> Prediction {
+        if self.settle(mean, T::zero()) { Prediction::Done } else { Prediction::Reset }
     }
 }

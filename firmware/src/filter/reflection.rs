@@ -2,7 +2,7 @@
 
 use crate::scalar::Scalar;
 
-use super::gaussian::dot;
+use super::vector::{dot, subtract};
 
 /// The reflection that folds a column `a` below a pivot ρ ≥ 0 into the pivot: (ρ, a) becomes (√(ρ² + aᵀa), 0).
 ///
@@ -19,21 +19,24 @@ impl<'a, T: Scalar> Reflection<'a, T> {
     /// The reflection for a pivot and the column below it, with the new pivot.
     ///
     /// A column whose norm, pivot included, is below 1e-18 counts as zero: the squares of its entries are lost in single
-    /// precision, and the reflection does nothing.
+    /// precision, and the reflection does nothing. Beyond 1e19 its square overflows; the new pivot is then no finite number,
+    /// so that the step is seen to have failed.
     #[inline]
     pub fn new(pivot: T, column: &'a [T]) -> (Self, T) {
         let square = pivot * pivot + dot(column, column);
         let norm = square.sqrt();
         let head = pivot + norm;
-        let factor = if square < T::constant(1e-36) { T::zero() } else { T::one() / (norm * head) };
-        (Self { column, head, factor }, norm)
+        let half_length = norm * head;
+        let factor = if square < T::constant(1e-36) { T::zero() } else { T::one() / half_length };
+        // Adds zero, or what is not a number where the length of v overflows although the norm does not.
+        (Self { column, head, factor }, norm + half_length * T::zero())
     }
 
     /// Reflects another column, whose entry in the pivot's row is zero; gives the new entry there.
     #[inline]
     pub fn apply(&self, other: &mut [T]) -> T {
         let share = dot(self.column, other) * self.factor;
-        self.subtract(share, other);
+        subtract(other, share, self.column);
         share * self.head
     }
 
@@ -41,74 +44,34 @@ impl<'a, T: Scalar> Reflection<'a, T> {
     #[inline]
     pub fn apply_below(&self, entry: T, other: &mut [T]) -> T {
         let share = (entry * self.head + dot(self.column, other)) * self.factor;
-        self.subtract(share, other);
+        subtract(other, share, self.column);
         share * self.head - entry
     }
-
-    #[inline]
-    fn subtract(&self, share: T, other: &mut [T]) {
-        other.iter_mut().zip(self.column).for_each(|(place, entry)| *place -= share * *entry);
-    }
 }
 
-/// A triangular root, and what the reflections made of a column beside it.
-pub(super) struct Triangle<T, const N: usize> {
-    /// Row `k` of R is entry `k`, zero left of its place `k`.
-    pub root: [[T; N]; N],
-    /// The column beside R.
-    pub beside: [T; N],
-}
-
-/// The upper triangular R with RᵀR = diag(`pivots`)² + AᵀA, where A is given by its columns of `B` blocks of `K` rows.
+/// The upper triangular R with RᵀR = diag(`pivots`)² + AᵀA, where `rows` gives the rows of A in each of `columns`.
 ///
-/// The diagonal of R is at least |`pivots`|, whatever A is. `carried`, a column of as many rows as A, is reflected along:
-/// it keeps what lies outside the columns of A, and the rest is in [`Triangle::beside`]. A is used up.
+/// The diagonal of R is at least |`pivots`|, whatever A is. Row `k` of R is written to entry `k` of `root`. A is used up.
 ///
-/// Cost: a square root and a division a column, N² K B multiplications with addition.
+/// Cost: a square root and a division a column; N² multiplications with addition for each row of A.
 #[inline]
-pub(super) fn triangularise<T: Scalar, const K: usize, const B: usize, const N: usize>(
+pub(super) fn triangularise<T: Scalar, C, const N: usize>(
     pivots: &[T; N],
-    columns: &mut [[[T; K]; B]; N],
-    carried: &mut [T],
-) -> Triangle<T, N> {
-    let mut triangle = Triangle { root: [[T::zero(); N]; N], beside: [T::zero(); N] };
-    let mut rest = columns.as_mut_slice();
-    let rows = triangle.root.iter_mut().zip(&mut triangle.beside);
-    for (index, ((row, beside), pivot)) in rows.zip(pivots).enumerate() {
-        let Some((column, trailing)) = rest.split_first_mut() else { break };
-        let (reflection, norm) = Reflection::new(pivot.abs(), column.as_flattened());
-        let mut entries = row.iter_mut().skip(index);
-        if let Some(diagonal) = entries.next() {
-            *diagonal = norm;
-        }
-        for (entry, other) in entries.zip(trailing.iter_mut()) {
-            *entry = reflection.apply(other.as_flattened_mut());
-        }
-        *beside = reflection.apply(carried);
-        rest = trailing;
-    }
-    triangle
-}
-
-/// Solves X R = A for X, in place: `columns` are those of A, then of X; row `k` of `root` is row `k` of the upper triangular R.
-///
-/// Cost: a division a column, K N²/2 multiplications with addition.
-#[inline]
-pub(super) fn divide_by_triangle<T: Scalar, const K: usize, const N: usize>(
-    columns: &mut [[T; K]; N],
-    root: &[[T; N]; N],
+    columns: &mut [C; N],
+    rows: impl Fn(&mut C) -> &mut [T],
+    root: &mut [[T; N]; N],
 ) {
     let mut rest = columns.as_mut_slice();
-    for (index, row) in root.iter().enumerate() {
-        let Some((column, trailing)) = rest.split_first_mut() else { break };
-        let mut entries = row.iter().skip(index);
-        if let Some(diagonal) = entries.next() {
-            let inverse = T::one() / *diagonal;
-            column.iter_mut().for_each(|entry| *entry = *entry * inverse);
+    for (index, (row, pivot)) in root.iter_mut().zip(pivots).enumerate() {
+        let Some((column, later)) = rest.split_first_mut() else { break };
+        let Some((below, from_diagonal)) = row.split_at_mut_checked(index) else { break };
+        let Some((diagonal, entries)) = from_diagonal.split_first_mut() else { break };
+        let (reflection, norm) = Reflection::new(pivot.abs(), rows(column));
+        below.fill(T::zero());
+        *diagonal = norm;
+        for (entry, other) in entries.iter_mut().zip(later.iter_mut()) {
+            *entry = reflection.apply(rows(other));
         }
-        for (factor, other) in entries.zip(trailing.iter_mut()) {
-            other.iter_mut().zip(column.iter()).for_each(|(place, entry)| *place -= *factor * *entry);
-        }
-        rest = trailing;
+        rest = later;
     }
 }

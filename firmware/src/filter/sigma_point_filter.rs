@@ -2,8 +2,8 @@
 
 use crate::scalar::Scalar;
 
-use super::gaussian::diagonal;
 use super::spread::Factors;
+use super::vector::{all_finite, diagonal};
 use super::{Gaussian, InvalidNumber, Spread};
 
 /// A square-root sigma-point filter for a state of `N` numbers.
@@ -24,7 +24,7 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     /// back to when a factorisation fails: large enough that it finds back from wherever its mean is then.
     ///
     /// # Errors
-    /// Where a standard deviation is negative or not finite.
+    /// Where a standard deviation is negative or its square not finite.
     pub fn new(estimate: Gaussian<T, N>, reset_std: [T; N]) -> Result<Self, InvalidNumber> {
         Self::with_spread(estimate, reset_std, Spread::unit())
     }
@@ -53,17 +53,23 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         self.estimate = estimate;
     }
 
-    /// Takes a new estimate if it and `witness`, another result of the same computation, are finite; else falls back to the
-    /// stated diagonal. Whether it was taken.
+    /// Ends a step that has written a new root: takes the mean that belongs to it, where root, mean and `witness`, another
+    /// result of the same computation, are finite. Else the mean stays and the root falls back to the stated diagonal.
+    /// Gives whether it took the mean.
     #[must_use]
-    pub(super) fn accept(&mut self, estimate: Gaussian<T, N>, witness: T) -> bool {
-        let finite = estimate.is_finite() && witness.is_finite();
+    pub(super) fn settle(&mut self, mean: [T; N], witness: T) -> bool {
+        let finite = all_finite(self.estimate.root.as_flattened()) && all_finite(&mean) && witness.is_finite();
         if finite {
-            self.estimate = estimate;
+            self.estimate.mean = mean;
         } else {
-            self.estimate.root = diagonal(&self.reset_std);
-            self.resets = self.resets.saturating_add(1);
+            self.fall_back();
         }
         finite
+    }
+
+    #[cold]
+    fn fall_back(&mut self) {
+        self.estimate.root = diagonal(&self.reset_std);
+        self.resets = self.resets.saturating_add(1);
     }
 }

@@ -1,5 +1,6 @@
 //! `kapvik bench`: how good and how fast we are, beside the alternatives.
 
+mod filter;
 mod target;
 
 use clap::{Args, Subcommand};
@@ -14,6 +15,8 @@ use crate::error::HostError;
 pub enum Subject {
     /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
     Estimators(EstimatorArguments),
+    /// The sigma-point filter beside kfilter, multicalc and minikalman: instructions, stack, survival of faults
+    Filter,
     /// Evaluations of equations 1–11 per second, beside a Simpson loop and SciPy's quad
     Forward,
     /// The accuracy that no estimator of the soil can beat: the mean of the exact posterior
@@ -45,6 +48,7 @@ impl Subject {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Estimators(arguments) => estimators::run(&arguments),
+            Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed),

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::error::HostError;
+use crate::process::spinner;
 use crate::setup::Toolchain;
 
 use super::{Binary, Clock, Image, LogView, Machine};
@@ -18,8 +19,23 @@ pub struct KernelCost {
     pub stack_bytes: u32,
 }
 
-/// What the measuring image found.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+/// How a filter came through a fault.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Survival {
+    /// The filter.
+    pub name: String,
+    /// The fault.
+    pub fault: String,
+    /// Steps after the fault that gave finite numbers and did not fail, of so many.
+    pub good: (u64, u64),
+    /// Whether the filter said that something was wrong.
+    pub told: bool,
+    /// The greatest error after the fault and the root mean square error at the end, in standard deviations of the noise.
+    pub errors: (f64, f64),
+}
+
+/// What a measuring image found.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct TargetBench {
     /// A loop of so many instructions took so many ticks of the board's 25 MHz clock.
     pub calibration: (u64, u64),
@@ -27,6 +43,10 @@ pub struct TargetBench {
     pub kernels: Vec<KernelCost>,
     /// Name and checksum of each fingerprint of the arithmetic.
     pub fingerprints: Vec<(String, u32)>,
+    /// Name and size of objects that are compared, bytes.
+    pub objects: Vec<(String, u32)>,
+    /// How filters came through faults.
+    pub survivals: Vec<Survival>,
 }
 
 /// Instructions to a tick, as the image assumes: a nanosecond each, at 25 MHz.
@@ -40,8 +60,18 @@ impl TargetBench {
     /// # Errors
     /// Where it does not build, does not end well, or prints what is not understood.
     pub fn run(toolchain: &Toolchain, patience: Duration) -> Result<Self, HostError> {
-        let image = Image::build(toolchain, Binary::Bench)?;
+        Self::of(toolchain, Binary::Bench, patience)
+    }
+
+    /// Builds a measuring image and runs it to its end.
+    ///
+    /// # Errors
+    /// As [`TargetBench::run`].
+    pub fn of(toolchain: &Toolchain, binary: Binary, patience: Duration) -> Result<Self, HostError> {
+        let image = Image::build(toolchain, binary)?;
+        let spinner = spinner("measure in QEMU");
         let ended = Machine::start(toolchain, &image, Clock::Instructions, LogView::Warnings)?.wait(patience)?;
+        spinner.finish_and_clear();
         if ended.code != Some(0) {
             return Err(HostError::Failed(format!("the measuring image ended with {:?}: {ended:?}", ended.code)));
         }
@@ -66,6 +96,14 @@ impl TargetBench {
             ["fingerprint", name, checksum] => {
                 self.fingerprints.push(((*name).to_owned(), u32::from_str_radix(checksum, 16).ok()?));
             }
+            ["object", name, bytes] => self.objects.push(((*name).to_owned(), bytes.parse().ok()?)),
+            ["survival", name, fault, good, steps, told, peak, end] => self.survivals.push(Survival {
+                name: (*name).to_owned(),
+                fault: (*fault).to_owned(),
+                good: (good.parse().ok()?, steps.parse().ok()?),
+                told: told.parse().ok()?,
+                errors: (peak.parse().ok()?, end.parse().ok()?),
+            }),
             _ => return None,
         }
         Some(())

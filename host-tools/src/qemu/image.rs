@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::error::HostError;
-use crate::process::run_with_spinner;
+use crate::process::{run_with_spinner, workspace};
 use crate::setup::Toolchain;
 
 /// A program for the board.
@@ -15,6 +15,10 @@ pub enum Binary {
     Flight,
     /// Counts instructions and stack, and fingerprints the numerics.
     Bench,
+    /// The filter alone.
+    Filter,
+    /// The filter beside those of others: a package of its own, which only the comparison builds.
+    Contenders,
     /// Panics on purpose.
     Fault,
 }
@@ -24,6 +28,8 @@ impl Binary {
         match self {
             Self::Flight => "kapvik_an386",
             Self::Bench => "bench_an386",
+            Self::Filter => "filter_an386",
+            Self::Contenders => "contenders_an386",
             Self::Fault => "fault_an386",
         }
     }
@@ -49,7 +55,13 @@ impl Image {
     /// Where that fails; the text ends with what the compiler said.
     pub fn build(toolchain: &Toolchain, binary: Binary) -> Result<Self, HostError> {
         let mut cargo = toolchain.target.cargo_build();
-        cargo.args(["--profile", "flight", "--package", "kapvik-firmware", "--features", "board-an386"]);
+        cargo.args(["--profile", "flight"]);
+        if binary == Binary::Contenders {
+            cargo.arg("--manifest-path").arg(workspace().join("tests/contenders/Cargo.toml"));
+            cargo.env("CARGO_TARGET_DIR", workspace().join("target/contenders"));
+        } else {
+            cargo.args(["--package", "kapvik-firmware", "--features", "board-an386"]);
+        }
         cargo.args(["--bin", binary.name(), "--message-format", "json-render-diagnostics"]);
         let messages = run_with_spinner(&mut cargo, &format!("build {}", binary.name()))?;
         let elf = messages

@@ -6,7 +6,7 @@ mod log;
 mod machine;
 mod memory;
 
-pub use bench::{KernelCost, TargetBench};
+pub use bench::{KernelCost, Survival, TargetBench};
 pub use image::{Binary, Image};
 pub use log::{LogLine, LogView};
 pub use machine::{Clock, Ended, Machine};
