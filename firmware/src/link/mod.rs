@@ -26,7 +26,7 @@ pub use receiver::FrameReceiver;
 pub use transceiver::{Incoming, Link};
 
 /// The most bytes of a frame before COBS: header, body and checksum. The longest message is a frame's estimate.
-pub const PAYLOAD_CAPACITY: usize = 896;
+pub const PAYLOAD_CAPACITY: usize = 960;
 
 /// The most bytes of a frame on the wire: one byte of overhead in 254, one to start and the delimiter.
 pub const WIRE_CAPACITY: usize = PAYLOAD_CAPACITY + PAYLOAD_CAPACITY / 254 + 2;

@@ -52,7 +52,7 @@ impl Watch {
             filter_resets: health.filter_resets,
             relearned: health.relearned,
             gaps: health.gaps,
-            dropped: health.sensors.zip_map(Sensor::all(), |health, _| health.dropped),
+            dropped: health.sensors.map(|health| health.dropped),
         };
         let before = core::mem::replace(self, now);
         let changes = before.dropped.zip_map(now.dropped, |before, after| match (before, after) {

@@ -1,12 +1,11 @@
 //! The longest message of each kind: every option there, every number as long as it gets.
 
-use kapvik_firmware::estimator::{
-    Estimate, EstimatorHealth, PerSensor, Sensor, SensorHealth, WheelActivity, WheelEstimate,
-};
+use kapvik_firmware::estimator::{Estimate, EstimatorHealth, Sensor, SensorHealth, WheelActivity, WheelEstimate};
+use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::link::{
     FrameBuffer, Header, HealthReport, LinkHealth, PAYLOAD_CAPACITY, Reply, Request, WIRE_CAPACITY,
 };
-use kapvik_firmware::pipeline::{FrameEstimate, RoverSoil};
+use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::{Axes, PerAxle, PerSide, PerWheel, Rover};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::soil::{ParameterEstimate, QueryAnswer, SoilEstimate};
@@ -75,6 +74,7 @@ fn frame_estimate() -> FrameEstimate {
     let wheel = WheelEstimate {
         activity: WheelActivity::Lifted,
         slip: Some(estimate),
+        shared_slip_std: NUMBER,
         resistive_torque_nm: estimate,
         contact_angle_rad: estimate,
         normal_load_n: estimate,
@@ -85,6 +85,7 @@ fn frame_estimate() -> FrameEstimate {
     FrameEstimate {
         time_us: u64::MAX,
         wheels: on_wheels(wheel),
+        bogie_drawbar_pull_n: PerSide::both(estimate),
         wheel_soils: on_wheels(Ok(soil())),
         soil: Ok(RoverSoil { estimate: soil(), wheels: on_wheels(true), instants: NUMBER, changes: u16::MAX }),
     }
@@ -107,7 +108,7 @@ fn estimator_health() -> EstimatorHealth {
         gaps: u32::MAX,
         filter_resets: u32::MAX,
         relearned: u32::MAX,
-        sensors: PerSensor::<()>::default().zip_map(Sensor::all(), |(), _| sensor),
+        sensors: Sensor::all().map(|_| sensor),
     }
 }
 

@@ -85,8 +85,9 @@ fn nothing() -> FrameEstimate {
     FrameEstimate {
         time_us: 0,
         wheels: PerWheel::default(),
-        wheel_soils: PerSide::both(PerAxle::all(Err(Refusal::NoWheels))),
-        soil: Err(Refusal::NoWheels),
+        bogie_drawbar_pull_n: PerSide::default(),
+        wheel_soils: PerSide::both(PerAxle::all(Err(Refusal::NotRolling))),
+        soil: Err(Refusal::NotRolling),
     }
 }
 
@@ -102,8 +103,14 @@ fn fields(estimate: &FrameEstimate, mut put: impl FnMut(Arguments<'_>, Field)) {
         soil_fields(&format!("_{name}"), soil.as_ref().ok(), &mut put);
     }
     for (name, wheel) in WHEEL_NAMES.into_iter().zip(estimate.wheels.iter_wheels()) {
+        put(format_args!("slip_{name}_shared_std"), Field::Number(wheel.slip.map(|_| wheel.shared_slip_std)));
+        put(format_args!("drawbar_pull_{name}_n_split_std"), Field::Number(Some(wheel.split_std_n)));
         put(format_args!("drawbar_pull_by_load_{name}_n"), Field::Number(Some(wheel.drawbar_pull_by_load_n)));
         put(format_args!("activity_{name}"), Field::Word(activity(wheel.activity)));
+    }
+    for (name, pull) in ["l", "r"].into_iter().zip(estimate.bogie_drawbar_pull_n.as_array()) {
+        put(format_args!("drawbar_pull_bogie_{name}_n"), Field::Number(Some(pull.value)));
+        put(format_args!("drawbar_pull_bogie_{name}_n_std"), Field::Number(Some(pull.std)));
     }
     put(format_args!("soil_changes"), Field::Count(soil.map(|soil| soil.changes)));
     put(format_args!("soil_instants"), Field::Number(soil.map(|soil| soil.instants)));
@@ -175,7 +182,7 @@ mod tests {
         ] {
             assert_eq!(header.iter().filter(|column| *column == name).count(), 1, "{name}");
         }
-        assert_eq!(header.len(), 1 + 6 * 10 + 7 * 9 + 6 * 2 + 2);
+        assert_eq!(header.len(), 1 + 6 * 10 + 7 * 9 + 6 * 4 + 4 + 2);
     }
 
     #[test]

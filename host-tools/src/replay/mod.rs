@@ -9,8 +9,9 @@ mod recording;
 use std::time::{Duration, Instant};
 
 use kapvik_firmware::estimator::EstimatorHealth;
+use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::link::{BootReport, HealthReport};
-use kapvik_firmware::pipeline::{FrameEstimate, RoverSoil};
+use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_firmware::soil::Refusal;
@@ -86,7 +87,7 @@ impl Counted {
         Self {
             frames: 0,
             span_us: (time_us, time_us),
-            soil: Err(Refusal::NoWheels),
+            soil: Err(Refusal::NotRolling),
             changes: 0,
             soil_changes_us: Vec::new(),
         }

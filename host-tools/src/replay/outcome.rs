@@ -1,6 +1,6 @@
 //! What came of a replay, in lines for the terminal.
 
-use kapvik_firmware::pipeline::RoverSoil;
+use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::soil::ParameterEstimate;
 
 use super::{Outcome, troubles};

@@ -9,6 +9,7 @@ use kapvik_firmware::rover::Rover;
 
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
+use crate::data::rover_file::RoverFile;
 use crate::error::HostError;
 
 /// A recording.
@@ -26,12 +27,15 @@ impl Recording {
     /// # Errors
     /// Where a file cannot be read, the frames have no header, or there can be no such rover.
     pub fn open(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
-        let rover = rover.map_or_else(|| Ok(Rover::assumed()), read_rover)?;
+        let rover = match rover {
+            Some(path) => RoverFile::read(path)?.rover,
+            None => Rover::assumed(),
+        };
         let file = File::open(frames).map_err(HostError::file(frames))?;
         let length = file.metadata().map_err(HostError::file(frames))?.len();
         let input = BufReader::new(progress_bar(length).wrap_read(file));
         let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
-        Ok(Self { rover, frames })
+        Ok(Self { rover: rover.map(|value| value as f32), frames })
     }
 }
 
@@ -44,8 +48,4 @@ fn progress_bar(bytes: u64) -> ProgressBar {
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = if bytes == 0 { ProgressBar::new_spinner() } else { ProgressBar::new(bytes) };
     bar.with_style(style).with_finish(ProgressFinish::AndClear)
-}
-
-fn read_rover(path: &Path) -> Result<Rover<f32>, HostError> {
-    Err(HostError::Failed(format!("{}: rover files cannot be read yet", path.display())))
 }
