@@ -36,7 +36,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     };
     let findings = Findings::gather(campaign, arguments.on)?;
     println!("{}", report::terminal(&findings));
-    for line in report::flight_lines(&findings) {
+    for line in report::flight_lines(&findings.flight) {
         println!("{line}");
     }
     let path = match &arguments.report {

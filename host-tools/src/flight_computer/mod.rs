@@ -21,7 +21,7 @@ use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
-use crate::qemu::{Binary, Clock, Image, LogLine, LogView, Machine};
+use crate::qemu::{Binary, Clock, Image, LogLine, LogView, Machine, MemoryUse};
 use crate::setup::{self, Toolchain};
 
 use in_process::InProcess;
@@ -63,6 +63,7 @@ pub struct FlightComputer {
     buffer: FrameBuffer,
     last_sequence: u16,
     arrived: VecDeque<(u16, Reply)>,
+    memory: Option<MemoryUse>,
 }
 
 impl FlightComputer {
@@ -71,7 +72,7 @@ impl FlightComputer {
     /// # Errors
     /// Where it does not answer.
     pub fn in_process() -> Result<Self, HostError> {
-        Self::greet(Box::new(InProcess::boot()))
+        Self::greet(Box::new(InProcess::boot()), None)
     }
 
     /// The flight image in QEMU. Its log is shown on standard error as far as `view` says.
@@ -79,7 +80,9 @@ impl FlightComputer {
     /// # Errors
     /// Where QEMU does not start, or the image does not answer.
     pub fn in_qemu(toolchain: &Toolchain, image: &Image, view: LogView) -> Result<Self, HostError> {
-        Self::greet(Box::new(InQemu::connect(Machine::start(toolchain, image, Clock::Wall, view)?)?))
+        let memory = MemoryUse::of(image)?;
+        let machine = Machine::start(toolchain, image, Clock::Wall, view)?;
+        Self::greet(Box::new(InQemu::connect(machine)?), Some(memory))
     }
 
     /// Either of the two; the image is built first, with what [`setup::prepare`] finds or installs.
@@ -97,13 +100,14 @@ impl FlightComputer {
         }
     }
 
-    fn greet(line: Box<dyn Line>) -> Result<Self, HostError> {
+    fn greet(line: Box<dyn Line>, memory: Option<MemoryUse>) -> Result<Self, HostError> {
         let mut computer = Self {
             line: Some(line),
             receiver: FrameReceiver::new(),
             buffer: FrameBuffer::new(),
             last_sequence: NO_SEQUENCE,
             arrived: VecDeque::new(),
+            memory,
         };
         computer.boot_report()?;
         Ok(computer)
@@ -222,6 +226,27 @@ impl FlightComputer {
     /// What the computer has logged so far; nothing where it runs in this process.
     pub fn log(&self) -> Vec<LogLine> {
         self.line.as_ref().map(|line| line.log()).unwrap_or_default()
+    }
+
+    /// The log, once it has stopped growing: it comes over a line of its own, behind the answers.
+    pub fn settled_log(&self) -> Vec<LogLine> {
+        const PAUSE: Duration = Duration::from_millis(60);
+        const PAUSES: u32 = 20;
+        let mut log = self.log();
+        for _ in 0..PAUSES {
+            std::thread::sleep(PAUSE);
+            let later = self.log();
+            if later.len() == log.len() {
+                break;
+            }
+            log = later;
+        }
+        log
+    }
+
+    /// What the image takes; none where there is no image.
+    pub fn memory(&self) -> Option<MemoryUse> {
+        self.memory
     }
 
     /// Puts bytes on the line as they are: to see what the computer makes of bad ones.

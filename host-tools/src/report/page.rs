@@ -60,7 +60,7 @@ pub fn page(findings: &Findings) -> String {
                     section {
                         h2 { "From measurement to estimate" }
                         (chain(findings))
-                        (facts::table(findings))
+                        (facts::table(&findings.flight, &facts::of_campaign(findings)))
                     }
                 }
                 footer { "Written by " code { "kapvik run" } ". Answers " code { (findings.flight.fingerprint) }
