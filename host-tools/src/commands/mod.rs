@@ -18,7 +18,7 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
-    /// Soil from measured wheel states, through the flight image in QEMU, with a report to open in a browser
+    /// The main job: sensor frames through the flight image in QEMU to wheel forces and soil, with a report to open in a browser
     Run(run::Arguments),
     /// Speed and quality, side by side with the alternatives, in one run
     #[command(subcommand)]

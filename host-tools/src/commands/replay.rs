@@ -33,7 +33,7 @@ pub struct Arguments {
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
-    let rover = recording.rover;
+    let rover = recording.rover.map(|value| value as f32);
     let mut computer = FlightComputer::start(arguments.on, LogView::Nothing)?;
     let mut outcome = None;
     write_atomically(&arguments.output, |out| {

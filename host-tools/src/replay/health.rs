@@ -14,6 +14,15 @@ pub struct SensorTrouble {
     pub dropped: bool,
 }
 
+impl SensorTrouble {
+    /// What it was, in words.
+    pub fn in_words(&self) -> String {
+        let counts: Vec<String> = self.reasons.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
+        let dropped = if self.dropped { "; out of use at the end" } else { "" };
+        format!("{}{dropped}", counts.join(", "))
+    }
+}
+
 /// Every sensor that gave trouble.
 pub fn troubles(health: &EstimatorHealth) -> Vec<SensorTrouble> {
     let named = health.sensors.zip_map(Sensor::all(), |health, sensor| (sensor, health));

@@ -22,11 +22,8 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
     });
     lines.extend(outcome.soil_changes_us.iter().map(|time| format!("soil changed at {:.2} s", 1e-6 * *time as f64)));
     lines.extend(filter_lines(outcome));
-    for trouble in troubles(&outcome.estimator) {
-        let reasons: Vec<String> = trouble.reasons.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
-        let dropped = if trouble.dropped { "; out of use at the end" } else { "" };
-        lines.push(format!("sensor {}: {}{dropped}", trouble.sensor, reasons.join(", ")));
-    }
+    let troubles = troubles(&outcome.estimator);
+    lines.extend(troubles.iter().map(|trouble| format!("sensor {}: {}", trouble.sensor, trouble.in_words())));
     lines
 }
 

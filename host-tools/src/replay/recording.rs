@@ -15,7 +15,7 @@ use crate::error::HostError;
 /// A recording.
 pub struct Recording {
     /// The rover.
-    pub rover: Rover<f32>,
+    pub rover: Rover<f64>,
     /// The frames, read as they are asked for.
     pub frames: FrameReader,
 }
@@ -35,7 +35,7 @@ impl Recording {
         let length = file.metadata().map_err(HostError::file(frames))?.len();
         let input = BufReader::new(progress_bar(length).wrap_read(file));
         let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
-        Ok(Self { rover: rover.map(|value| value as f32), frames })
+        Ok(Self { rover, frames })
     }
 }
 

@@ -68,11 +68,7 @@ fn facts(flight: &FlightFacts) -> Vec<(&'static str, String)> {
 
 /// What only a campaign has to tell.
 pub fn of_campaign(findings: &Findings) -> [(&'static str, String); 3] {
-    [
-        ("Wheel", wheel(findings)),
-        ("Noise of one row", noise(findings)),
-        ("Data", findings.campaign.source.clone()),
-    ]
+    [("Wheel", wheel(findings)), ("Noise of one row", noise(findings)), ("Data", findings.campaign.source.clone())]
 }
 
 fn answers(flight: &FlightFacts) -> String {

@@ -93,20 +93,22 @@ fn residuals(model: &ModelCheck) -> Table {
     table
 }
 
-fn plain_table() -> Table {
+/// A table without lines.
+pub(super) fn plain_table() -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING);
     table
 }
 
-fn align_right(table: &mut Table) {
+/// Sets all columns but the first to the right.
+pub(super) fn align_right(table: &mut Table) {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
 }
 
 /// A paragraph with a mark before it, in lines that a terminal can show.
-fn wrapped(paragraph: &str) -> String {
+pub(super) fn wrapped(paragraph: &str) -> String {
     const WIDTH: usize = 96;
     let mut text = String::new();
     let mut line = String::from("•");
