@@ -14,12 +14,13 @@ pub struct SensorTrouble {
     pub dropped: bool,
 }
 
+/// Why a reading is not used.
+pub const REASONS: [&str; 6] = ["missing", "not finite", "out of range", "stuck", "surprising", "on probation"];
+
 impl SensorTrouble {
-    /// What it was, in words.
-    pub fn in_words(&self) -> String {
-        let counts: Vec<String> = self.reasons.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
-        let dropped = if self.dropped { "; out of use at the end" } else { "" };
-        format!("{}{dropped}", counts.join(", "))
+    /// How often that was the reason; none where it never was.
+    pub fn count(&self, reason: &str) -> Option<u16> {
+        self.reasons.iter().find(|(name, _)| *name == reason).map(|(_, count)| *count)
     }
 }
 
@@ -39,17 +40,8 @@ pub fn troubles(health: &EstimatorHealth) -> Vec<SensorTrouble> {
 
 fn reasons(health: &SensorHealth) -> Vec<(&'static str, u16)> {
     let SensorHealth { missing, not_finite, out_of_range, stuck, surprising, on_probation, dropped: _ } = *health;
-    [
-        ("missing", missing),
-        ("not finite", not_finite),
-        ("out of range", out_of_range),
-        ("stuck", stuck),
-        ("surprising", surprising),
-        ("on probation", on_probation),
-    ]
-    .into_iter()
-    .filter(|(_, count)| *count > 0)
-    .collect()
+    let counts = [missing, not_finite, out_of_range, stuck, surprising, on_probation];
+    REASONS.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect()
 }
 
 /// The column of a sensor in files of frames.

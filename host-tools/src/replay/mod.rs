@@ -20,7 +20,7 @@ use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
 
 pub use estimate_file::EstimateWriter;
-pub use health::{SensorTrouble, sensor_name, troubles};
+pub use health::{REASONS, SensorTrouble, sensor_name, troubles};
 pub use outcome::lines;
 pub use recording::Recording;
 

@@ -3,7 +3,7 @@
 use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::soil::ParameterEstimate;
 
-use super::{Outcome, troubles};
+use super::{Outcome, REASONS, troubles};
 use crate::identify::refusal_in_words;
 
 /// The outcome, line by line.
@@ -22,8 +22,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
     });
     lines.extend(outcome.soil_changes_us.iter().map(|time| format!("soil changed at {:.2} s", 1e-6 * *time as f64)));
     lines.extend(filter_lines(outcome));
-    let troubles = troubles(&outcome.estimator);
-    lines.extend(troubles.iter().map(|trouble| format!("sensor {}: {}", trouble.sensor, trouble.in_words())));
+    lines.extend(sensor_lines(outcome));
     lines
 }
 
@@ -52,4 +51,22 @@ fn filter_lines(outcome: &Outcome) -> impl Iterator<Item = String> {
         ("filters that gave up what they believed", health.relearned),
     ];
     counters.into_iter().filter(|(_, count)| *count > 0).map(|(what, count)| format!("{what}: {count}"))
+}
+
+/// For each reason the sensors whose readings were not used, with how many.
+fn sensor_lines(outcome: &Outcome) -> Vec<String> {
+    let troubles = troubles(&outcome.estimator);
+    let of_reason = |reason: &str| -> Vec<String> {
+        let counts =
+            troubles.iter().filter_map(|trouble| Some(format!("{} {}", trouble.sensor, trouble.count(reason)?)));
+        counts.collect()
+    };
+    let unused = REASONS.into_iter().map(|reason| (format!("readings not used, {reason}"), of_reason(reason)));
+    let dropped: Vec<String> =
+        troubles.iter().filter(|trouble| trouble.dropped).map(|trouble| trouble.sensor.clone()).collect();
+    unused
+        .chain([("sensors out of use at the end".to_owned(), dropped)])
+        .filter(|(_, sensors)| !sensors.is_empty())
+        .map(|(what, sensors)| format!("{what}: {}", sensors.join(", ")))
+        .collect()
 }

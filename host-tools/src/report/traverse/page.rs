@@ -10,7 +10,7 @@ use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
 use super::wheel_chart::QUANTITIES;
 use crate::identify::refusal_in_words;
-use crate::replay::troubles;
+use crate::replay::{REASONS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
@@ -166,6 +166,8 @@ fn error_table(errors: &Errors) -> Markup {
 
 fn sensors(findings: &TraverseFindings) -> Markup {
     let troubles = troubles(&findings.outcome.estimator);
+    let occurred = |reason: &&str| troubles.iter().any(|trouble| trouble.count(reason).is_some());
+    let reasons: Vec<&str> = REASONS.into_iter().filter(occurred).collect();
     html! {
         section {
             h2 { "Sensors" }
@@ -174,18 +176,22 @@ fn sensors(findings: &TraverseFindings) -> Markup {
             } @else {
                 p { "Readings that were not used, of " (findings.outcome.estimator.frames) " frames; all others were." }
                 div class="scroll" {
-                    table class="facts" {
-                        tbody {
-                            @for trouble in &troubles {
-                                tr {
-                                    th scope="row" { code { (trouble.sensor) } }
-                                    td { (trouble.in_words()) }
-                                }
-                            }
-                        }
+                    table class="numbers" {
+                        thead { tr { th {} @for reason in &reasons { th { (reason) } } th {} } }
+                        tbody { @for trouble in &troubles { (sensor_row(trouble, &reasons)) } }
                     }
                 }
             }
+        }
+    }
+}
+
+fn sensor_row(trouble: &SensorTrouble, reasons: &[&str]) -> Markup {
+    html! {
+        tr {
+            td { code { (trouble.sensor) } }
+            @for reason in reasons { td { @if let Some(count) = trouble.count(reason) { (count) } } }
+            td { @if trouble.dropped { "out of use at the end" } }
         }
     }
 }

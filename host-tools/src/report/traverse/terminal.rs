@@ -11,7 +11,7 @@ use super::caveats::caveats;
 pub fn terminal(findings: &TraverseFindings) -> String {
     let mut text = format!("{}\n\n", findings.name());
     for line in replay::lines(&findings.outcome) {
-        text += &format!("{line}\n");
+        text += &wrapped("", &line);
     }
     if let Some(errors) = &findings.errors {
         let mut table = plain_table();
@@ -25,7 +25,7 @@ pub fn terminal(findings: &TraverseFindings) -> String {
     }
     text += "\n";
     for caveat in caveats(findings) {
-        text += &wrapped(&caveat);
+        text += &wrapped("• ", &caveat);
     }
     text
 }

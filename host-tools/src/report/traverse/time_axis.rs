@@ -46,7 +46,8 @@ pub fn spreads(class: &str, time: &Scale, scale: &Scale, run: &[Spread]) -> Mark
     }
 }
 
-/// Cuts a series where `same` says that a sample does not belong to the one before, or where there is none.
+/// Cuts a series where there is no sample, and where `same` says that one is of another kind than the one before; that one
+/// then also ends the run before it, so that no gap shows.
 pub fn runs<T: Copy>(series: impl Iterator<Item = Option<T>>, same: impl Fn(&T, &T) -> bool) -> Vec<Vec<T>> {
     let mut runs: Vec<Vec<T>> = Vec::new();
     let mut broken = true;
@@ -56,7 +57,13 @@ pub fn runs<T: Copy>(series: impl Iterator<Item = Option<T>>, same: impl Fn(&T, 
             continue;
         };
         match runs.last_mut() {
-            Some(run) if !broken && run.last().is_some_and(|last| same(last, &sample)) => run.push(sample),
+            Some(run) if !broken => {
+                let goes_on = run.last().is_some_and(|last| same(last, &sample));
+                run.push(sample);
+                if !goes_on {
+                    runs.push(vec![sample]);
+                }
+            }
             _ => runs.push(vec![sample]),
         }
         broken = false;
@@ -72,6 +79,6 @@ mod tests {
     fn a_series_is_cut_where_nothing_is_and_where_it_changes() {
         let series = [None, Some(1), Some(3), None, Some(5), Some(6), Some(8)];
         let cut = runs(series.into_iter(), |one, two| one % 2 == two % 2);
-        assert_eq!(cut, [vec![1, 3], vec![5], vec![6, 8]]);
+        assert_eq!(cut, [vec![1, 3], vec![5, 6], vec![6, 8]]);
     }
 }

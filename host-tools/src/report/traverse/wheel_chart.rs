@@ -86,7 +86,7 @@ impl Quantity {
     fn plot(&self, samples: &Samples, scale: &Scale, place: usize, wheel: &str) -> Markup {
         let width = (WIDTH - LEFT - RIGHT + GAP) / WHEELS.len() as f64;
         let left = LEFT + width * place as f64;
-        let time = time_axis::scale(samples.span_s(), (left, left + width - GAP));
+        let time = time_axis::scale(samples.span_s(), (left, left + width - GAP)).sparse();
         let estimated = samples.kept().iter().map(|sample| self.spread(sample, place));
         let truth = samples.kept().iter().map(|sample| {
             let value = self.true_value(sample, place)?;
