@@ -4,44 +4,10 @@ use kapvik_firmware::estimator::Estimate;
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::PerWheel;
 
+use super::Quantity;
 use super::tally::Tally;
 use crate::data::truth_file::Truth;
 use crate::replay::naive::NaiveWheel;
-
-/// What is compared with the truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// Slip.
-    Slip,
-    /// Resistive torque, N·m.
-    Torque,
-    /// Contact angle, rad.
-    ContactAngle,
-    /// Normal load, N.
-    Load,
-    /// Drawbar pull of a front wheel, N.
-    FrontPull,
-    /// Drawbar pull of a bogie's two wheels together, N.
-    BogiePull,
-    /// Drawbar pull of one wheel of a bogie, split by torque, N.
-    SplitPull,
-    /// The same by the seed's rule, in proportion to load, N; it states no standard deviation.
-    LoadSplitPull,
-}
-
-impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Slip,
-        Self::Torque,
-        Self::ContactAngle,
-        Self::Load,
-        Self::FrontPull,
-        Self::BogiePull,
-        Self::SplitPull,
-        Self::LoadSplitPull,
-    ];
-}
 
 /// Errors of a drive.
 #[derive(Debug, Clone, Copy, Default)]

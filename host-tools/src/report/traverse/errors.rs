@@ -1,7 +1,8 @@
 //! The errors against the truth in the units that people read, for page and terminal.
 
 use crate::report::draw::number;
-use crate::trial::errors::{Errors, Quantity};
+use crate::trial::Quantity;
+use crate::trial::errors::Errors;
 
 /// The head of the table.
 pub const HEAD: [&str; 6] = ["", "error, RMS", "raw sensors", "ratio", "within 1 σ", "within 2 σ"];
