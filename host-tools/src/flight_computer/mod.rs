@@ -2,6 +2,8 @@
 
 mod in_process;
 mod in_qemu;
+#[cfg(test)]
+mod loss;
 mod under_way;
 
 use std::collections::VecDeque;

@@ -176,7 +176,7 @@ fn sensors(findings: &TraverseFindings) -> Markup {
             } @else {
                 p { "Readings that were not used, of " (findings.outcome.estimator.frames) " frames; all others were." }
                 div class="scroll" {
-                    table class="numbers" {
+                    table class="numbers long" {
                         thead { tr { th {} @for reason in &reasons { th { (reason) } } th {} } }
                         tbody { @for trouble in &troubles { (sensor_row(trouble, &reasons)) } }
                     }

@@ -12,7 +12,7 @@ use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, path, px, text}
 pub const HEIGHT: f64 = 176.0;
 const TOP: f64 = 42.0;
 const BOTTOM: f64 = HEIGHT - 32.0;
-const GAP: f64 = 16.0;
+const GAP: f64 = 26.0;
 /// The wheels in words, in the order of the files.
 const WHEELS: [&str; 6] = ["front left", "middle left", "rear left", "front right", "middle right", "rear right"];
 
