@@ -5,7 +5,9 @@ use std::time::{Duration, Instant};
 use kapvik_firmware::wheel_state::WHEELS;
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_host::qemu::{Binary, Clock, Image, LogView, Machine, MemoryUse};
-use kapvik_tests::{bits, budgets, flight_computer, flight_image, queries, random, spoiled, toolchain};
+use kapvik_tests::{
+    bits, budgets, estimates_of_the_recorded_drive, flight_computer, flight_image, queries, random, spoiled, toolchain,
+};
 use object::{Object, ObjectSymbol, SymbolKind};
 
 #[test]
@@ -60,6 +62,7 @@ fn memory_is_within_its_budget() {
     assert!(!asked.is_empty());
     computer.query_all(&asked, |_| ()).expect("the image answers");
     computer.self_test().expect("the image tests itself");
+    estimates_of_the_recorded_drive(&mut computer);
     computer.send_bytes(&[0x55; 2000]).expect("the image listens");
     computer.send_bytes(&[0]).expect("the image listens");
     let stack = computer.health().expect("the image is well").stack_high_water_bytes.expect("the board measures it");

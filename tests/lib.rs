@@ -5,11 +5,15 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use kapvik_firmware::link::{FrameBuffer, Header, Reply};
+use kapvik_firmware::rover::Rover;
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::terramechanics::Wheel;
 use kapvik_firmware::wheel_state::{Slope, SoilQuery, WheelNoise, WheelState};
+use kapvik_host::data::frame_file::FrameReader;
+use kapvik_host::error::HostError;
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_host::qemu::{Binary, Image, LogView};
+use kapvik_host::replay::{EstimateWriter, replay};
 use kapvik_host::setup::{self, Toolchain};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -108,6 +112,24 @@ pub fn noise_bytes(count: usize, random: &mut ChaCha8Rng) -> Vec<u8> {
 pub fn bits(answer: &QueryAnswer) -> Vec<u8> {
     let mut buffer = FrameBuffer::new();
     buffer.encode(Header::new(1), &Reply::Estimate(answer.clone())).expect("an answer fits a frame").to_vec()
+}
+
+/// The recorded drive that lies beside these tests: 20 s of hills, with sensors that give nothing, NaN and a million.
+pub fn recorded_drive() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("replay/frames.csv")
+}
+
+/// The file of estimates that a flight computer makes of the recorded drive, for the assumed rover.
+///
+/// # Panics
+/// Where the computer does not answer.
+pub fn estimates_of_the_recorded_drive(computer: &mut FlightComputer) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut writer = EstimateWriter::new(&mut bytes).expect("memory takes everything");
+    let frames = FrameReader::open(&recorded_drive()).unwrap_or_else(|error| panic!("{error}"));
+    let take = |estimate: &_| writer.write(estimate).map_err(|error| HostError::Failed(error.to_string()));
+    replay(computer, &Rover::assumed(), frames, take).unwrap_or_else(|error| panic!("{error}"));
+    bytes
 }
 
 /// What the target may cost: `budgets.toml`.

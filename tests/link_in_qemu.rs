@@ -35,7 +35,7 @@ fn damaged() -> Vec<(LinkError, Vec<u8>)> {
         (LinkError::Oversized, [vec![0x55; PAYLOAD_CAPACITY * 4], vec![0]].concat()),
         (LinkError::Short, vec![3, 1, 1, 0]),
         (LinkError::Version, frame_around(&[77, 1, 1])),
-        (LinkError::Undecodable, frame_around(&[1, 9, 99])),
+        (LinkError::Undecodable, frame_around(&[2, 9, 99])),
     ]
 }
 

@@ -1,4 +1,4 @@
-//! `run` on the figures that the project carries, with the flight library in this process.
+//! `run --measured`, on the figures that the project carries, with the flight library in this process.
 
 use assert_cmd::Command;
 use kapvik_host::data::campaign::{Campaign, Provenance};
@@ -23,7 +23,7 @@ fn a_run_on_the_host_repeats_itself_to_the_bit() {
         let folder = tempfile::tempdir().expect("a folder");
         let (report, picture) = (folder.path().join("report.html"), folder.path().join("picture.svg"));
         let mut command = Command::cargo_bin("kapvik").expect("the binary");
-        command.args(["run", "--on", "host", "--report"]).arg(&report).arg("--picture").arg(&picture);
+        command.args(["run", "--measured", "--on", "host", "--report"]).arg(&report).arg("--picture").arg(&picture);
         let output = command.assert().success().get_output().stdout.clone();
         let text = String::from_utf8(output).expect("text");
         let lines: Vec<&str> =
@@ -64,7 +64,7 @@ fn the_report_needs_nothing_else_and_hides_nothing() {
 fn the_picture_that_the_project_shows_is_the_one_that_it_makes() {
     let findings = Findings::gather(carried(), Computer::Host).expect("answers");
     let shown = include_str!("../pictures/ding2011-smooth.svg");
-    let command = "cargo kapvik run --on host --picture host-tools/pictures/ding2011-smooth.svg";
+    let command = "cargo kapvik run --measured --on host --picture host-tools/pictures/ding2011-smooth.svg";
     assert!(picture(&findings).as_deref() == Some(shown), "the picture is out of date; type: {command}");
 }
 

@@ -3,7 +3,7 @@
 #![no_main]
 
 use kapvik_board_an386::{entry, exit, stack, uart::LinkUart};
-use kapvik_firmware::telemetry::{Board, Event, Telemetry};
+use kapvik_firmware::telemetry::{Board, Event, Noticed, SensorChange, Telemetry};
 
 /// What the board knows about itself.
 struct An386;
@@ -29,10 +29,44 @@ fn main() -> ! {
     }
     loop {
         match telemetry.serve() {
-            Some(Event::Refused(reason)) => defmt::warn!("frame refused: {}", reason),
-            Some(Event::Estimated) => defmt::trace!("soil query answered"),
-            Some(event) => defmt::debug!("{}", event),
+            Some(event) => log(&event),
             None => telemetry.port().wait(),
+        }
+    }
+}
+
+fn log(event: &Event) {
+    match event {
+        Event::Refused(reason) => defmt::warn!("frame refused: {}", reason),
+        Event::FrameRefused(reason) => defmt::warn!("sensor frame refused: {}", reason),
+        Event::Configured(Ok(())) => defmt::info!("rover configured, estimating anew"),
+        Event::Configured(Err(reason)) => defmt::warn!("impossible rover, kept the one before: {}", reason),
+        Event::Estimated(noticed) => log_noticed(noticed),
+        Event::Repeated => defmt::debug!("sensor frame repeated"),
+        Event::Queried => defmt::trace!("soil query answered"),
+        Event::Greeted => defmt::debug!("greeted"),
+        Event::HealthReported => defmt::debug!("health reported"),
+        Event::SelfTested(report) => defmt::debug!("self-test: {}", report),
+    }
+}
+
+fn log_noticed(noticed: &Noticed) {
+    if let Some(count) = noticed.soil_changes {
+        defmt::info!("the soil changed, {=u16} so far", count);
+    }
+    if noticed.gaps > 0 {
+        defmt::warn!("a long gap between frames, filters started anew");
+    }
+    if noticed.filter_resets > 0 {
+        defmt::warn!("{=u32} filters reset to their floor", noticed.filter_resets);
+    }
+    if noticed.relearned > 0 {
+        defmt::warn!("{=u32} filters gave up what they believed", noticed.relearned);
+    }
+    for (sensor, change) in noticed.sensors() {
+        match change {
+            SensorChange::Dropped => defmt::warn!("sensor dropped: {}", sensor),
+            SensorChange::Restored => defmt::info!("sensor restored: {}", sensor),
         }
     }
 }

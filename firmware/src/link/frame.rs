@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{PAYLOAD_CAPACITY, WIRE_CAPACITY};
 
 /// The version of the messages. A frame of another version is refused, never guessed at.
-pub const PROTOCOL_VERSION: u8 = 1;
+pub const PROTOCOL_VERSION: u8 = 2;
 
 /// The sequence number of a reply to a frame whose own number could not be read. Requests are numbered from 1.
 pub const NO_SEQUENCE: u16 = 0;

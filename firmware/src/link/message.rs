@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::estimator::EstimatorHealth;
+use crate::pipeline::FrameEstimate;
+use crate::rover::{GeometryError, Rover};
 use crate::self_test::SelfTestReport;
+use crate::sensor_frame::SensorFrame;
 use crate::soil::QueryAnswer;
 use crate::wheel_state::SoilQuery;
 
@@ -19,6 +23,13 @@ pub enum Request {
     Health,
     /// Run the self-test again.
     SelfTest,
+    /// This is the rover: estimate anew. A rover that cannot be changes nothing.
+    Configure(Rover<f32>),
+    /// What the sensors say: what are forces and soil? Frames are taken in the order of their numbers, each once: one that
+    /// is sent again has the same answer again, one after a gap is refused until the gap is filled.
+    Frame(SensorFrame),
+    /// How are sensors and filters?
+    EstimatorHealth,
 }
 
 /// What the flight computer says.
@@ -34,8 +45,39 @@ pub enum Reply {
     Health(HealthReport),
     /// To [`Request::SelfTest`].
     SelfTest(SelfTestReport),
+    /// To [`Request::Configure`].
+    Configured(Result<(), GeometryError>),
+    /// To [`Request::Frame`].
+    Frame(Result<FrameEstimate, FrameRefusal>),
+    /// To [`Request::EstimatorHealth`].
+    EstimatorHealth(EstimatorHealth),
     /// To a frame that was refused.
     Error(LinkError),
+}
+
+/// Why a sensor frame was not taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum FrameRefusal {
+    /// No rover was configured.
+    NoRover,
+    /// The self-test found the networks altered.
+    SelfTestFailed,
+    /// Its number is neither that of the last frame nor the next one: something was lost on the link.
+    OutOfOrder {
+        /// The number that is waited for.
+        expected: u16,
+    },
+}
+
+/// Where the dimensions that the pipeline calculates with are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum RoverSource {
+    /// The assumed set K0, which is what the computer boots with.
+    Assumed,
+    /// [`Request::Configure`].
+    Configured,
 }
 
 /// Who answers, and whether it may give estimates.
@@ -45,6 +87,8 @@ pub struct BootReport {
     pub firmware_version: [u8; 3],
     /// The self-test that ran at boot, or since then on request.
     pub self_test: SelfTestReport,
+    /// Whose dimensions it calculates with; absent where it has none.
+    pub rover: Option<RoverSource>,
 }
 
 /// How link and memory do.
@@ -54,6 +98,8 @@ pub struct HealthReport {
     pub link: LinkHealth,
     /// Soil queries answered since boot.
     pub queries_answered: u32,
+    /// Sensor frames taken since boot; one that was sent again counts once.
+    pub frames_taken: u32,
     /// The deepest that the stack has been since boot, bytes; absent where the computer cannot measure it.
     pub stack_high_water_bytes: Option<u32>,
 }

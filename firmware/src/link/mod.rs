@@ -21,12 +21,12 @@ mod transceiver;
 
 pub use frame::{CHECKSUM, Frame, FrameBuffer, Header, LinkError, NO_SEQUENCE, PROTOCOL_VERSION, next_sequence};
 pub use health::LinkHealth;
-pub use message::{BootReport, HealthReport, Reply, Request};
+pub use message::{BootReport, FrameRefusal, HealthReport, Reply, Request, RoverSource};
 pub use receiver::FrameReceiver;
 pub use transceiver::{Incoming, Link};
 
-/// The most bytes of a frame before COBS: header, body and checksum. The longest message is an answer for six wheels.
-pub const PAYLOAD_CAPACITY: usize = 640;
+/// The most bytes of a frame before COBS: header, body and checksum. The longest message is a frame's estimate.
+pub const PAYLOAD_CAPACITY: usize = 960;
 
 /// The most bytes of a frame on the wire: one byte of overhead in 254, one to start and the delimiter.
 pub const WIRE_CAPACITY: usize = PAYLOAD_CAPACITY + PAYLOAD_CAPACITY / 254 + 2;

@@ -49,7 +49,7 @@ pub struct Rover<S> {
 }
 
 /// What is impossible about a rover.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum GeometryError {
     /// Mass or gravity is not a number above zero.

@@ -3,6 +3,7 @@
 mod bench;
 mod forward;
 mod identify;
+mod replay;
 mod run;
 mod setup;
 mod simulate;
@@ -17,11 +18,16 @@ use crate::error::HostError;
 /// What `kapvik` can be asked to do.
 #[derive(Subcommand)]
 pub enum Command {
-    /// Soil from measured wheel states, through the flight image in QEMU, with a report to open in a browser
+    /// The main job: sensor frames through the flight image in QEMU to wheel forces and soil, with a report to open in a browser
     Run(run::Arguments),
     /// Speed and quality, side by side with the alternatives, in one run
     #[command(subcommand)]
     Bench(bench::Subject),
+    /// Wheel forces and soil from recorded sensor frames: the flight pipeline, frame by frame
+    ///
+    /// EST.csv has a row for each frame: slip, resistive torque, contact angle, normal load and drawbar pull of each wheel
+    /// and the soil under the rover and under each wheel, each with its standard deviation; what is not known is empty.
+    Replay(replay::Arguments),
     /// Cohesion, friction angle and shear modulus from a wheel campaign
     ///
     /// Rows with the same `run` and `t_s` are the wheels of one instant, and each run is one soil. Up to six rows of a run
@@ -60,6 +66,7 @@ impl Command {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Run(arguments) => run::execute(&arguments),
+            Self::Replay(arguments) => replay::execute(&arguments),
             Self::Identify(arguments) => identify::execute(&arguments),
             Self::Bench(subject) => subject.execute(),
             Self::Train(arguments) => train::execute(&arguments),

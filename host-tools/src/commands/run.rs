@@ -1,22 +1,31 @@
 //! `kapvik run`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::data::atomic_write::write_text;
 use crate::data::campaign::Campaign;
+use crate::data::frame_file;
 use crate::error::HostError;
 use crate::flight_computer::Computer;
 use crate::process::workspace;
+use crate::report::traverse::{self, Source, TraverseFindings};
 use crate::report::{self, Findings};
 
 /// Options of `kapvik run`.
 #[derive(Args)]
 pub struct Arguments {
-    /// A wheel campaign NAME.csv, with NAME.toml beside it; without one, the measured figures that the project carries
-    #[arg(value_name = "CAMPAIGN.csv")]
-    campaign: Option<PathBuf>,
+    /// Sensor frames (with the truth where NAME.truth.csv is beside), or a wheel campaign NAME.csv with NAME.toml beside;
+    /// without, the simulated traverse that the project carries
+    #[arg(value_name = "FRAMES.csv", conflicts_with = "measured")]
+    input: Option<PathBuf>,
+    /// The measured wheel states that the project carries, in place of a traverse
+    #[arg(long)]
+    measured: bool,
+    /// The rover that recorded the frames [default: the assumed set K0]
+    #[arg(long, value_name = "R.toml", requires = "input")]
+    rover: Option<PathBuf>,
     /// Where the flight library runs; both give the same bits
     #[arg(long, value_enum, default_value_t = Computer::Qemu)]
     on: Computer,
@@ -28,30 +37,75 @@ pub struct Arguments {
     picture: Option<PathBuf>,
 }
 
-/// Streams wheel states to the flight computer, and shows what it makes of them.
+/// What is to be said and written of a run.
+struct Told {
+    terminal: String,
+    flight: Vec<String>,
+    page: String,
+    /// None where there is nothing to make a picture of.
+    picture: Option<String>,
+}
+
+/// Streams sensor frames or wheel states to the flight computer, and shows what it makes of them.
+///
+/// # Errors
+/// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let campaign = match &arguments.campaign {
-        Some(path) => Campaign::read(path)?,
-        None => Campaign::carried()?,
+    let told = match &arguments.input {
+        None if arguments.measured => campaign(Campaign::carried()?, arguments.on)?,
+        None => traverse(Source::carried()?, arguments.on)?,
+        Some(path) if frame_file::is_one(path)? => {
+            traverse(Source::recorded(path, arguments.rover.as_deref())?, arguments.on)?
+        }
+        Some(path) => match &arguments.rover {
+            None => campaign(Campaign::read(path)?, arguments.on)?,
+            Some(rover) => return Err(no_place_for_a_rover(path, rover)),
+        },
     };
-    let findings = Findings::gather(campaign, arguments.on)?;
-    println!("{}", report::terminal(&findings));
-    for line in report::flight_lines(&findings) {
+    println!("{}", told.terminal);
+    for line in &told.flight {
         println!("{line}");
     }
     let path = match &arguments.report {
         Some(path) => path.clone(),
         None => default_report()?,
     };
-    write_text(&path, &report::page(&findings))?;
+    write_text(&path, &told.page)?;
     println!("\nreport: {}", path.display());
     if let Some(path) = &arguments.picture {
-        let picture = report::picture(&findings)
-            .ok_or_else(|| HostError::Failed("no run has an estimate to make a picture of".to_owned()))?;
+        let picture =
+            told.picture.ok_or_else(|| HostError::Failed("no run has an estimate to make a picture of".to_owned()))?;
         write_text(path, &picture)?;
         println!("picture: {}", path.display());
     }
     Ok(())
+}
+
+fn traverse(source: Source, on: Computer) -> Result<Told, HostError> {
+    let findings = TraverseFindings::gather(source, on)?;
+    Ok(Told {
+        terminal: traverse::terminal(&findings),
+        flight: report::flight_lines(&findings.flight),
+        page: traverse::page(&findings),
+        picture: Some(traverse::picture(&findings)),
+    })
+}
+
+fn campaign(campaign: Campaign, on: Computer) -> Result<Told, HostError> {
+    let findings = Findings::gather(campaign, on)?;
+    Ok(Told {
+        terminal: report::terminal(&findings),
+        flight: report::flight_lines(&findings.flight),
+        page: report::page(&findings),
+        picture: report::picture(&findings),
+    })
+}
+
+fn no_place_for_a_rover(campaign: &Path, rover: &Path) -> HostError {
+    let (campaign, rover) = (campaign.display(), rover.display());
+    HostError::Failed(format!(
+        "{campaign} is a wheel campaign, which describes its wheel itself: --rover {rover} is for frames"
+    ))
 }
 
 /// In the build folder, so that nothing appears where a person keeps files.

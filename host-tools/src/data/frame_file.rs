@@ -85,6 +85,17 @@ impl Iterator for FrameReader {
     }
 }
 
+/// Whether a table is one of sensor frames, by its header: a column of a sensor, or one that is named like an encoder's.
+///
+/// # Errors
+/// Where the file cannot be read, or has no header that names each column once.
+pub fn is_one(path: &Path) -> Result<bool, HostError> {
+    let stream = NumberStream::open(path)?;
+    let like_an_encoder = |name: &String| name.starts_with("wheel_rate_") && name != "wheel_rate_rad_s";
+    let sensors = names();
+    Ok(stream.header().iter().any(|name| sensors.contains(name) || like_an_encoder(name)))
+}
+
 /// Writes the header of a file of frames, with a column for every sensor.
 ///
 /// # Errors

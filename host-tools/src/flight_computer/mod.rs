@@ -2,24 +2,33 @@
 
 mod in_process;
 mod in_qemu;
+#[cfg(test)]
+mod loss;
+mod under_way;
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
+use kapvik_firmware::estimator::EstimatorHealth;
 use kapvik_firmware::link::{
-    BootReport, FrameBuffer, FrameReceiver, Header, HealthReport, NO_SEQUENCE, Reply, Request, next_sequence,
+    BootReport, FrameBuffer, FrameReceiver, FrameRefusal, Header, HealthReport, NO_SEQUENCE, Reply, Request,
+    next_sequence,
 };
+use kapvik_firmware::pipeline::FrameEstimate;
+use kapvik_firmware::rover::Rover;
 use kapvik_firmware::self_test::SelfTestReport;
+use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
-use crate::qemu::{Binary, Clock, Image, LogLine, LogView, Machine};
+use crate::qemu::{Binary, Clock, Image, LogLine, LogView, Machine, MemoryUse};
 use crate::setup::{self, Toolchain};
 
 use in_process::InProcess;
 use in_qemu::InQemu;
+use under_way::UnderWay;
 
 /// Where the flight library runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -56,6 +65,7 @@ pub struct FlightComputer {
     buffer: FrameBuffer,
     last_sequence: u16,
     arrived: VecDeque<(u16, Reply)>,
+    memory: Option<MemoryUse>,
 }
 
 impl FlightComputer {
@@ -64,7 +74,7 @@ impl FlightComputer {
     /// # Errors
     /// Where it does not answer.
     pub fn in_process() -> Result<Self, HostError> {
-        Self::greet(Box::new(InProcess::boot()))
+        Self::greet(Box::new(InProcess::boot()), None)
     }
 
     /// The flight image in QEMU. Its log is shown on standard error as far as `view` says.
@@ -72,7 +82,9 @@ impl FlightComputer {
     /// # Errors
     /// Where QEMU does not start, or the image does not answer.
     pub fn in_qemu(toolchain: &Toolchain, image: &Image, view: LogView) -> Result<Self, HostError> {
-        Self::greet(Box::new(InQemu::connect(Machine::start(toolchain, image, Clock::Wall, view)?)?))
+        let memory = MemoryUse::of(image)?;
+        let machine = Machine::start(toolchain, image, Clock::Wall, view)?;
+        Self::greet(Box::new(InQemu::connect(machine)?), Some(memory))
     }
 
     /// Either of the two; the image is built first, with what [`setup::prepare`] finds or installs.
@@ -90,13 +102,14 @@ impl FlightComputer {
         }
     }
 
-    fn greet(line: Box<dyn Line>) -> Result<Self, HostError> {
+    fn greet(line: Box<dyn Line>, memory: Option<MemoryUse>) -> Result<Self, HostError> {
         let mut computer = Self {
             line: Some(line),
             receiver: FrameReceiver::new(),
             buffer: FrameBuffer::new(),
             last_sequence: NO_SEQUENCE,
             arrived: VecDeque::new(),
+            memory,
         };
         computer.boot_report()?;
         Ok(computer)
@@ -131,15 +144,63 @@ impl FlightComputer {
     pub fn query_all(
         &mut self,
         queries: &[SoilQuery],
-        progress: impl FnMut(usize),
+        mut progress: impl FnMut(usize),
     ) -> Result<Vec<QueryAnswer>, HostError> {
-        let requests: Vec<Request> = queries.iter().cloned().map(Request::Estimate).collect();
-        let replies = self.ask_all(&requests, progress)?;
-        let answers = replies.into_iter().map(|reply| match reply {
-            Reply::Estimate(answer) => Ok(answer),
+        let requests = queries.iter().cloned().map(|query| Ok(Request::Estimate(query)));
+        let mut answers = Vec::new();
+        self.ask_all(requests, |reply| match reply {
+            Reply::Estimate(answer) => {
+                answers.push(answer);
+                progress(answers.len());
+                Ok(())
+            }
             other => Err(unexpected(&other)),
-        });
-        answers.collect()
+        })?;
+        Ok(answers)
+    }
+
+    /// Starts the estimates anew, for this rover.
+    ///
+    /// # Errors
+    /// Where the computer does not answer, or says that there can be no such rover.
+    pub fn configure(&mut self, rover: &Rover<f32>) -> Result<(), HostError> {
+        match self.ask(&Request::Configure(*rover))? {
+            Reply::Configured(Ok(())) => Ok(()),
+            Reply::Configured(Err(error)) => {
+                Err(HostError::Failed(format!("the flight computer refuses this rover: {error:?}")))
+            }
+            other => Err(unexpected(&other)),
+        }
+    }
+
+    /// Sends sensor frames as they come, several under way at a time, and passes on each one's estimate in their order.
+    /// Neither frames nor estimates are kept.
+    ///
+    /// # Errors
+    /// The first of the frames, of `take`, and where the computer does not answer or refuses a frame.
+    pub fn frames(
+        &mut self,
+        frames: impl Iterator<Item = Result<SensorFrame, HostError>>,
+        mut take: impl FnMut(FrameEstimate) -> Result<(), HostError>,
+    ) -> Result<(), HostError> {
+        self.ask_all(frames.map(|frame| frame.map(Request::Frame)), |reply| match reply {
+            Reply::Frame(Ok(estimate)) => take(estimate),
+            Reply::Frame(Err(reason)) => {
+                Err(HostError::Failed(format!("the flight computer refuses a frame: {reason:?}")))
+            }
+            other => Err(unexpected(&other)),
+        })
+    }
+
+    /// How sensors and filters do.
+    ///
+    /// # Errors
+    /// Where the computer does not answer.
+    pub fn estimator_health(&mut self) -> Result<EstimatorHealth, HostError> {
+        match self.ask(&Request::EstimatorHealth)? {
+            Reply::EstimatorHealth(health) => Ok(health),
+            other => Err(unexpected(&other)),
+        }
     }
 
     /// How link and memory do.
@@ -167,6 +228,27 @@ impl FlightComputer {
     /// What the computer has logged so far; nothing where it runs in this process.
     pub fn log(&self) -> Vec<LogLine> {
         self.line.as_ref().map(|line| line.log()).unwrap_or_default()
+    }
+
+    /// The log, once it has stopped growing: it comes over a line of its own, behind the answers.
+    pub fn settled_log(&self) -> Vec<LogLine> {
+        const PAUSE: Duration = Duration::from_millis(60);
+        const PAUSES: u32 = 20;
+        let mut log = self.log();
+        for _ in 0..PAUSES {
+            std::thread::sleep(PAUSE);
+            let later = self.log();
+            if later.len() == log.len() {
+                break;
+            }
+            log = later;
+        }
+        log
+    }
+
+    /// What the image takes; none where there is no image.
+    pub fn memory(&self) -> Option<MemoryUse> {
+        self.memory
     }
 
     /// Puts bytes on the line as they are: to see what the computer makes of bad ones.
@@ -210,58 +292,80 @@ impl FlightComputer {
     }
 
     fn ask(&mut self, request: &Request) -> Result<Reply, HostError> {
-        let mut replies = self.ask_all(std::slice::from_ref(request), |_| ())?;
-        replies.pop().ok_or_else(|| HostError::Failed("the flight computer did not reply".to_owned()))
+        let mut answer = None;
+        self.ask_all(std::iter::once(Ok(request.clone())), |reply| {
+            answer = Some(reply);
+            Ok(())
+        })?;
+        answer.ok_or_else(|| HostError::Failed("the flight computer did not reply".to_owned()))
     }
 
-    /// Asks everything, several requests under way at a time, and gives the replies in the order of the requests.
-    fn ask_all(&mut self, requests: &[Request], mut progress: impl FnMut(usize)) -> Result<Vec<Reply>, HostError> {
-        let mut replies: Vec<Option<Reply>> = requests.iter().map(|_| None).collect();
-        let mut under_way: VecDeque<(u16, usize)> = VecDeque::new();
-        let mut waiting = requests.iter().enumerate();
-        let (mut done, mut tries) = (0, 1);
-        while done < requests.len() {
+    /// Asks everything, several requests under way at a time, and passes on the replies in the order of the requests.
+    fn ask_all(
+        &mut self,
+        mut requests: impl Iterator<Item = Result<Request, HostError>>,
+        mut take: impl FnMut(Reply) -> Result<(), HostError>,
+    ) -> Result<(), HostError> {
+        let mut under_way = UnderWay::default();
+        let mut tries = 1;
+        loop {
             while under_way.len() < WINDOW {
-                let Some((index, request)) = waiting.next() else { break };
+                let Some(request) = requests.next() else { break };
                 self.last_sequence = next_sequence(self.last_sequence);
-                self.send_request(self.last_sequence, request)?;
-                under_way.push_back((self.last_sequence, index));
+                under_way.push(self.last_sequence, request?);
+                self.send_requests(under_way.newest())?;
+            }
+            if under_way.len() == 0 {
+                return Ok(());
             }
             match self.next_reply(PATIENCE)? {
+                // A reply to nothing under way: the second one to a request that was sent twice, or an error frame.
+                Some((sequence, _)) if !under_way.holds(sequence) => continue,
+                Some((_, Reply::Frame(Err(FrameRefusal::OutOfOrder { expected })))) => {
+                    self.fill_gap(&mut under_way, expected)?;
+                }
                 Some((sequence, reply)) => {
-                    // A reply to nothing under way: the second one to a request that was sent twice, or an error frame.
-                    let Some(place) = under_way.iter().position(|(sent, _)| *sent == sequence) else { continue };
-                    let slot = under_way.remove(place).and_then(|(_, index)| replies.get_mut(index));
-                    slot.into_iter().for_each(|slot| *slot = Some(reply.clone()));
-                    (done, tries) = (done + 1, 1);
-                    progress(done);
+                    tries = 1;
+                    under_way.answer(sequence, reply);
+                    while let Some(reply) = under_way.next_answered() {
+                        take(reply)?;
+                    }
                 }
                 None if tries < TRIES => {
                     tries += 1;
-                    self.send_again(requests, &under_way)?;
+                    self.send_again(under_way.unanswered())?;
                 }
                 None => return Err(self.give_up("does not answer")),
             }
         }
-        Ok(replies.into_iter().flatten().collect())
     }
 
-    fn send_request(&mut self, sequence: u16, request: &Request) -> Result<(), HostError> {
-        let bytes = self.buffer.encode(Header::new(sequence), request);
-        let bytes = bytes.map_err(|error| HostError::Failed(format!("a request does not fit its frame: {error:?}")))?;
-        let bytes = bytes.to_vec();
-        self.send_bytes(&bytes)
+    /// A request was lost, and the computer refuses all frames behind it: they are sent again from there, once.
+    fn fill_gap(&mut self, under_way: &mut UnderWay, expected: u16) -> Result<(), HostError> {
+        if !under_way.holds(expected) {
+            return Err(self.give_up("took a frame whose reply was lost: the estimates cannot be completed"));
+        }
+        if under_way.is_first_notice_of(expected) {
+            self.send_again(under_way.from(expected))?;
+        }
+        Ok(())
+    }
+
+    fn send_requests<'a>(&mut self, requests: impl Iterator<Item = (u16, &'a Request)>) -> Result<(), HostError> {
+        for (sequence, request) in requests {
+            let bytes = self.buffer.encode(Header::new(sequence), request);
+            let bytes =
+                bytes.map_err(|error| HostError::Failed(format!("a request does not fit its frame: {error:?}")))?;
+            let bytes = bytes.to_vec();
+            self.send_bytes(&bytes)?;
+        }
+        Ok(())
     }
 
     /// Sends what is under way once more, after a delimiter that ends whatever the line has swallowed.
-    fn send_again(&mut self, requests: &[Request], under_way: &VecDeque<(u16, usize)>) -> Result<(), HostError> {
+    fn send_again<'a>(&mut self, requests: impl Iterator<Item = (u16, &'a Request)>) -> Result<(), HostError> {
         self.send_bytes(&[0])?;
-        for (sequence, index) in under_way {
-            if let Some(request) = requests.get(*index) {
-                self.send_request(*sequence, request)?;
-            }
-        }
-        Ok(())
+        self.send_requests(requests)
     }
 
     fn with_line<R>(

@@ -24,7 +24,8 @@ pub fn chain(findings: &Findings) -> Markup {
     }
 }
 
-fn link(title: &str, what: &str, how: &str) -> Markup {
+/// A box.
+pub(super) fn link(title: &str, what: &str, how: &str) -> Markup {
     html! { li { strong { (title) } span { (what) } small { (how) } } }
 }
 

@@ -28,25 +28,12 @@ pub struct FlightFacts {
     pub fingerprint: String,
 }
 
-/// The facts, as a table.
-pub fn table(findings: &Findings) -> Markup {
-    let flight = &findings.flight;
-    let [major, minor, patch] = flight.boot.firmware_version;
+/// The facts, as a table with what else is to be told.
+pub fn table(flight: &FlightFacts, more: &[(&str, String)]) -> Markup {
     html! {
         table class="facts" {
             tbody {
-                (fact("Flight library", &format!("version {major}.{minor}.{patch}, {}", place(flight.computer))))
-                (fact("Self-test at boot", &self_test(&flight.boot.self_test)))
-                @if let Some(memory) = &flight.memory {
-                    (fact("Image", &format!("{} of flash, {} of static memory", kib(memory.flash_bytes),
-                        kib(memory.static_ram_bytes))))
-                }
-                @if let Some(stack) = flight.health.stack_high_water_bytes { (fact("Deepest stack", &kib(stack))) }
-                (fact("Link", &link(&flight.health)))
-                (fact("Answers", &format!("{} queries, fingerprint {}", flight.health.queries_answered, flight.fingerprint)))
-                (fact("Wheel", &wheel(findings)))
-                (fact("Noise of one row", &noise(findings)))
-                (fact("Data", &findings.campaign.source))
+                @for (name, what) in facts(flight).iter().chain(more) { tr { th scope="row" { (name) } td { (what) } } }
             }
         }
         @if !flight.log.is_empty() {
@@ -57,28 +44,38 @@ pub fn table(findings: &Findings) -> Markup {
 }
 
 /// The facts, line by line, for the terminal.
-pub fn lines(findings: &Findings) -> Vec<String> {
-    let flight = &findings.flight;
+pub fn lines(flight: &FlightFacts) -> Vec<String> {
+    facts(flight).into_iter().map(|(name, what)| format!("{}: {what}", name.to_lowercase())).collect()
+}
+
+fn facts(flight: &FlightFacts) -> Vec<(&'static str, String)> {
     let [major, minor, patch] = flight.boot.firmware_version;
-    let memory = flight.memory.map(|memory| {
-        format!("image: {} of flash, {} of static memory", kib(memory.flash_bytes), kib(memory.static_ram_bytes))
+    let image = flight.memory.map(|memory| {
+        format!("{} of flash, {} of static memory", kib(memory.flash_bytes), kib(memory.static_ram_bytes))
     });
-    let stack = flight.health.stack_high_water_bytes.map(|stack| format!("deepest stack: {}", kib(stack)));
     [
-        Some(format!("flight library: version {major}.{minor}.{patch}, {}", place(flight.computer))),
-        Some(format!("self-test at boot: {}", self_test(&flight.boot.self_test))),
-        memory,
-        stack,
-        Some(format!("link: {}", link(&flight.health))),
-        Some(format!("answers: {} queries, fingerprint {}", flight.health.queries_answered, flight.fingerprint)),
+        Some(("Flight library", format!("version {major}.{minor}.{patch}, {}", place(flight.computer)))),
+        Some(("Self-test at boot", self_test(&flight.boot.self_test))),
+        image.map(|image| ("Image", image)),
+        flight.health.stack_high_water_bytes.map(|stack| ("Deepest stack", kib(stack))),
+        Some(("Link", link(&flight.health))),
+        Some(("Answers", answers(flight))),
     ]
     .into_iter()
     .flatten()
     .collect()
 }
 
-fn fact(name: &str, what: &str) -> Markup {
-    html! { tr { th scope="row" { (name) } td { (what) } } }
+/// What only a campaign has to tell.
+pub fn of_campaign(findings: &Findings) -> [(&'static str, String); 3] {
+    [("Wheel", wheel(findings)), ("Noise of one row", noise(findings)), ("Data", findings.campaign.source.clone())]
+}
+
+fn answers(flight: &FlightFacts) -> String {
+    let HealthReport { queries_answered, frames_taken, .. } = flight.health;
+    let counts = [(frames_taken, "sensor frames"), (queries_answered, "queries")];
+    let counts = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}, "));
+    format!("{}fingerprint {}", counts.collect::<String>(), flight.fingerprint)
 }
 
 fn place(computer: Computer) -> &'static str {

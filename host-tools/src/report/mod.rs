@@ -14,6 +14,7 @@ mod picture;
 mod residual;
 mod response;
 mod terminal;
+pub mod traverse;
 mod verdict;
 
 pub use facts::{FlightFacts, lines as flight_lines};

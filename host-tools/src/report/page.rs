@@ -17,8 +17,10 @@ use super::residual::{ModelCheck, ModelRow, Rms};
 use super::response::{QUANTITIES, Response};
 use super::verdict::Verdict;
 
-const PAGE_CSS: &str = include_str!("page.css");
-const DRAW_CSS: &str = include_str!("draw/draw.css");
+/// How the page looks.
+pub(super) const PAGE_CSS: &str = include_str!("page.css");
+/// How the pictures look.
+pub(super) const DRAW_CSS: &str = include_str!("draw/draw.css");
 
 /// Runs that are drawn; the estimates of all are in the JSON file of `identify`.
 const RUNS_DRAWN: usize = 24;
@@ -60,7 +62,7 @@ pub fn page(findings: &Findings) -> String {
                     section {
                         h2 { "From measurement to estimate" }
                         (chain(findings))
-                        (facts::table(findings))
+                        (facts::table(&findings.flight, &facts::of_campaign(findings)))
                     }
                 }
                 footer { "Written by " code { "kapvik run" } ". Answers " code { (findings.flight.fingerprint) }

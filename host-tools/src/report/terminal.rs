@@ -34,7 +34,7 @@ pub fn terminal(findings: &Findings) -> String {
     }
     text += "\n";
     for caveat in caveats(findings) {
-        text += &wrapped(&caveat);
+        text += &wrapped("• ", &caveat);
     }
     text
 }
@@ -93,30 +93,34 @@ fn residuals(model: &ModelCheck) -> Table {
     table
 }
 
-fn plain_table() -> Table {
+/// A table without lines.
+pub(super) fn plain_table() -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING);
     table
 }
 
-fn align_right(table: &mut Table) {
+/// Sets all columns but the first to the right.
+pub(super) fn align_right(table: &mut Table) {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
 }
 
 /// A paragraph with a mark before it, in lines that a terminal can show.
-fn wrapped(paragraph: &str) -> String {
+pub(super) fn wrapped(mark: &str, paragraph: &str) -> String {
     const WIDTH: usize = 96;
     let mut text = String::new();
-    let mut line = String::from("•");
-    for word in paragraph.split_whitespace() {
+    let mut line = mark.to_owned();
+    for (place, word) in paragraph.split_whitespace().enumerate() {
         if line.chars().count() + 1 + word.chars().count() > WIDTH {
             text += &line;
             text.push('\n');
             line = " ".to_owned();
         }
-        line.push(' ');
+        if place > 0 {
+            line.push(' ');
+        }
         line += word;
     }
     text + &line + "\n"

@@ -3,6 +3,7 @@
 
 pub mod consistency;
 mod drive;
+pub mod errors;
 mod report;
 pub mod tally;
 pub mod whiteness;

@@ -6,7 +6,7 @@ mod shapes;
 
 pub use axis::{bottom_axis, left_axis};
 pub use scale::{Pixels, Scale};
-pub use shapes::{Anchor, dot, line, path, ring, text, vertical_band};
+pub use shapes::{Anchor, band, dot, line, path, ring, text, vertical_band};
 
 /// A number with a true minus sign, and none before zero; `signed` also shows a plus.
 pub fn number(value: f64, digits: usize, signed: bool) -> String {

@@ -10,17 +10,22 @@ pub struct Scale {
     high: f64,
     pixels: Pixels,
     logarithmic: bool,
+    /// Ticks are at least so many, on a linear scale.
+    least_ticks: f64,
 }
+
+/// Ticks of a scale that nobody asked for fewer.
+const LEAST_TICKS: f64 = 3.2;
 
 impl Scale {
     /// A linear scale; `low` below `high`.
     pub fn linear(low: f64, high: f64, pixels: Pixels) -> Self {
-        Self { low, high, pixels, logarithmic: false }
+        Self { low, high, pixels, logarithmic: false, least_ticks: LEAST_TICKS }
     }
 
     /// A logarithmic scale; both above zero.
     pub fn logarithmic(low: f64, high: f64, pixels: Pixels) -> Self {
-        Self { low, high, pixels, logarithmic: true }
+        Self { low, high, pixels, logarithmic: true, least_ticks: LEAST_TICKS }
     }
 
     /// A linear scale that holds all `values` and zero, with some room.
@@ -31,6 +36,11 @@ impl Scale {
         let span = if high > low { high - low } else { 1.0 };
         let room = 0.06 * span;
         Self::linear(if low < 0.0 { low - room } else { 0.0 }, high + room, pixels)
+    }
+
+    /// With fewer ticks, for a short axis: from two to four.
+    pub fn sparse(self) -> Self {
+        Self { least_ticks: 1.6, ..self }
     }
 
     /// The place of a number; beyond the scale it is at its end.
@@ -56,8 +66,7 @@ impl Scale {
     }
 
     fn linear_ticks(&self) -> Vec<f64> {
-        const WANTED: f64 = 3.2;
-        let most = (self.high - self.low) / WANTED;
+        let most = (self.high - self.low) / self.least_ticks;
         let decade = 10_f64.powf(most.log10().floor());
         let step = decade * [5.0, 2.0, 1.0].into_iter().find(|step| step * decade <= most).unwrap_or(1.0);
         let first = (self.low / step).ceil() as i64;

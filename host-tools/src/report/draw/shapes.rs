@@ -44,6 +44,13 @@ pub fn path(class: &str, points: &[(f64, f64)]) -> Markup {
     html! { polyline class=(class) points=(list.join(" ")) {} }
 }
 
+/// A band between two broken lines over the same places.
+pub fn band(class: &str, upper: &[(f64, f64)], lower: &[(f64, f64)]) -> Markup {
+    let around = upper.iter().chain(lower.iter().rev());
+    let list: Vec<String> = around.map(|(x, y)| format!("{},{}", px(*x), px(*y))).collect();
+    html! { polygon class=(class) points=(list.join(" ")) {} }
+}
+
 /// A text.
 pub fn text(class: &str, (x, y): (f64, f64), anchor: Anchor, content: &str) -> Markup {
     let anchor = match anchor {

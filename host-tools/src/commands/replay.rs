@@ -1,0 +1,50 @@
+//! `kapvik replay`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::data::atomic_write::write_atomically;
+use crate::error::HostError;
+use crate::flight_computer::{Computer, FlightComputer};
+use crate::qemu::LogView;
+use crate::replay::{EstimateWriter, Recording, lines, replay};
+
+/// Options of `kapvik replay`.
+#[derive(Args)]
+pub struct Arguments {
+    /// Sensor frames, in the order of time
+    #[arg(value_name = "FRAMES.csv")]
+    frames: PathBuf,
+    /// Where the estimates go
+    #[arg(short, long, value_name = "EST.csv")]
+    output: PathBuf,
+    /// The rover's dimensions and noise [default: the assumed set K0]
+    #[arg(long, value_name = "R.toml")]
+    rover: Option<PathBuf>,
+    /// Where the flight library runs; both give the same bits
+    #[arg(long, value_enum, default_value_t = Computer::Host)]
+    on: Computer,
+}
+
+/// Replays a recording.
+///
+/// # Errors
+/// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
+    let rover = recording.rover.map(|value| value as f32);
+    let mut computer = FlightComputer::start(arguments.on, LogView::Nothing)?;
+    let mut outcome = None;
+    write_atomically(&arguments.output, |out| {
+        let file = |error| HostError::file(&arguments.output)(error);
+        let mut writer = EstimateWriter::new(out).map_err(file)?;
+        let take = |estimate: &_| writer.write(estimate).map_err(file);
+        outcome = Some(replay(&mut computer, &rover, recording.frames, take)?);
+        Ok(())
+    })?;
+    for line in outcome.iter().flat_map(lines) {
+        println!("{line}");
+    }
+    Ok(())
+}

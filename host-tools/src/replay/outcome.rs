@@ -1,0 +1,72 @@
+//! What came of a replay, in lines for the terminal.
+
+use kapvik_firmware::fusion::RoverSoil;
+use kapvik_firmware::soil::ParameterEstimate;
+
+use super::{Outcome, REASONS, troubles};
+use crate::identify::refusal_in_words;
+
+/// The outcome, line by line.
+pub fn lines(outcome: &Outcome) -> Vec<String> {
+    let mut lines = vec![format!(
+        "{} frames, {:.1} s of driving, in {:.2} s: {:.0} frames/s, {:.0} times real time",
+        outcome.frames,
+        outcome.driven_s(),
+        outcome.took.as_secs_f64(),
+        outcome.frames_per_second(),
+        outcome.times_real_time(),
+    )];
+    lines.push(match &outcome.soil {
+        Ok(soil) => soil_line(soil),
+        Err(reason) => format!("soil at the end: no estimate: {}", refusal_in_words(*reason)),
+    });
+    lines.extend(outcome.soil_changes_us.iter().map(|time| format!("soil changed at {:.2} s", 1e-6 * *time as f64)));
+    lines.extend(filter_lines(outcome));
+    lines.extend(sensor_lines(outcome));
+    lines
+}
+
+fn soil_line(soil: &RoverSoil) -> String {
+    let estimate = &soil.estimate;
+    let shown = |parameter: &ParameterEstimate, factor: f32, digits: usize| {
+        let mark = if parameter.identifiable { "" } else { " ?" };
+        format!("{:.digits$} ± {:.digits$}{mark}", factor * parameter.value, factor * parameter.std)
+    };
+    format!(
+        "soil at the end: c {} Pa, φ {}°, K {} mm (± one standard deviation; ? = cannot be told from these data)",
+        shown(&estimate.cohesion_pa, 1.0, 0),
+        shown(&estimate.friction_angle_rad, 1_f32.to_degrees(), 1),
+        shown(&estimate.shear_modulus_m, 1e3, 1),
+    )
+}
+
+/// What the filters count and what is not zero.
+fn filter_lines(outcome: &Outcome) -> impl Iterator<Item = String> {
+    let health = &outcome.estimator;
+    let counters = [
+        ("frames repeated", health.repeated_frames),
+        ("frames out of time", health.backward_frames),
+        ("gaps after which the filters started anew", health.gaps),
+        ("filters reset to their floor", health.filter_resets),
+        ("filters that gave up what they believed", health.relearned),
+    ];
+    counters.into_iter().filter(|(_, count)| *count > 0).map(|(what, count)| format!("{what}: {count}"))
+}
+
+/// For each reason the sensors whose readings were not used, with how many.
+fn sensor_lines(outcome: &Outcome) -> Vec<String> {
+    let troubles = troubles(&outcome.estimator);
+    let of_reason = |reason: &str| -> Vec<String> {
+        let counts =
+            troubles.iter().filter_map(|trouble| Some(format!("{} {}", trouble.sensor, trouble.count(reason)?)));
+        counts.collect()
+    };
+    let unused = REASONS.into_iter().map(|reason| (format!("readings not used, {reason}"), of_reason(reason)));
+    let dropped: Vec<String> =
+        troubles.iter().filter(|trouble| trouble.dropped).map(|trouble| trouble.sensor.clone()).collect();
+    unused
+        .chain([("sensors out of use at the end".to_owned(), dropped)])
+        .filter(|(_, sensors)| !sensors.is_empty())
+        .map(|(what, sensors)| format!("{what}: {}", sensors.join(", ")))
+        .collect()
+}

@@ -1,0 +1,51 @@
+//! A file of sensor frames, opened, with the rover that recorded it.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use kapvik_firmware::rover::Rover;
+
+use crate::data::frame_file::FrameReader;
+use crate::data::number_stream::NumberStream;
+use crate::data::rover_file::RoverFile;
+use crate::error::HostError;
+
+/// A recording.
+pub struct Recording {
+    /// The rover.
+    pub rover: Rover<f64>,
+    /// The frames, read as they are asked for.
+    pub frames: FrameReader,
+}
+
+impl Recording {
+    /// Opens a file of frames behind a progress bar, which a terminal alone shows. Without a rover file the rover is the
+    /// assumed set K0.
+    ///
+    /// # Errors
+    /// Where a file cannot be read, the frames have no header, or there can be no such rover.
+    pub fn open(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
+        let rover = match rover {
+            Some(path) => RoverFile::read(path)?.rover,
+            None => Rover::assumed(),
+        };
+        let file = File::open(frames).map_err(HostError::file(frames))?;
+        let length = file.metadata().map_err(HostError::file(frames))?.len();
+        let input = BufReader::new(progress_bar(length).wrap_read(file));
+        let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
+        Ok(Self { rover, frames })
+    }
+}
+
+/// Of a file of that many bytes; 0 where nobody knows.
+fn progress_bar(bytes: u64) -> ProgressBar {
+    let template = match bytes {
+        0 => "{spinner} {bytes} {elapsed}",
+        _ => "{wide_bar} {bytes} of {total_bytes} {eta}",
+    };
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = if bytes == 0 { ProgressBar::new_spinner() } else { ProgressBar::new(bytes) };
+    bar.with_style(style).with_finish(ProgressFinish::AndClear)
+}

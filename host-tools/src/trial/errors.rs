@@ -1,0 +1,77 @@
+//! Errors of the wheels' estimates against the truth, quantity by quantity, beside those of the raw sensors.
+
+use kapvik_firmware::estimator::Estimate;
+use kapvik_firmware::pipeline::FrameEstimate;
+use kapvik_firmware::rover::PerWheel;
+
+use super::Quantity;
+use super::tally::Tally;
+use crate::data::truth_file::Truth;
+use crate::replay::naive::NaiveWheel;
+
+/// Errors of a drive.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Errors {
+    tallies: [Tally; Quantity::ALL.len()],
+}
+
+impl Errors {
+    /// The errors in a quantity.
+    pub fn of(&self, quantity: Quantity) -> &Tally {
+        &self.tallies[quantity as usize]
+    }
+
+    /// Takes the estimates of a frame, what that frame and the last second of the raw sensors say, and the truth.
+    pub fn take(
+        &mut self,
+        estimate: &FrameEstimate,
+        now: &PerWheel<NaiveWheel>,
+        second: &PerWheel<NaiveWheel>,
+        truth: &Truth,
+    ) {
+        let wheels = estimate.wheels.zip_wheels(now.zip_wheels(*second)).zip_wheels(truth.wheels);
+        for (place, ((wheel, (now, second)), truth)) in wheels.iter_wheels().enumerate() {
+            let raw = |value: fn(&NaiveWheel) -> Option<f64>| [value(now), value(second)];
+            let mut take = |quantity, estimate, raw, truth: f64| self.take_one(quantity, estimate, raw, truth);
+            if let (Some(slip), Some(truth)) = (wheel.slip, truth.slip) {
+                take(Quantity::Slip, slip, raw(|raw| raw.slip), truth);
+            }
+            take(
+                Quantity::Torque,
+                wheel.resistive_torque_nm,
+                raw(|raw| raw.resistive_torque_nm),
+                truth.resistive_torque_nm,
+            );
+            take(
+                Quantity::ContactAngle,
+                wheel.contact_angle_rad,
+                raw(|raw| raw.contact_angle_rad),
+                truth.contact_angle_rad,
+            );
+            take(Quantity::Load, wheel.normal_load_n, raw(|raw| raw.normal_load_n), truth.normal_load_n);
+            let pull = raw(|raw| raw.drawbar_pull_n);
+            let by_load = Estimate { value: wheel.drawbar_pull_by_load_n, std: 0.0 };
+            if place % 3 == 0 {
+                take(Quantity::FrontPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
+            } else {
+                take(Quantity::SplitPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
+                take(Quantity::LoadSplitPull, by_load, pull, truth.drawbar_pull_n);
+            }
+        }
+        let raw_pull = |wheels: &PerWheel<NaiveWheel>| {
+            wheels.map(|side| Some(side.middle.drawbar_pull_n? + side.rear.drawbar_pull_n?))
+        };
+        let pulls = estimate.bogie_drawbar_pull_n.zip(raw_pull(now).zip(raw_pull(second)));
+        let truth = truth.wheels.map(|side| side.middle.drawbar_pull_n + side.rear.drawbar_pull_n);
+        for ((estimate, (now, second)), truth) in pulls.zip(truth).as_array() {
+            self.take_one(Quantity::BogiePull, *estimate, [*now, *second], *truth);
+        }
+    }
+
+    /// A truth that a file does not tell is NaN, and counts nothing.
+    fn take_one(&mut self, quantity: Quantity, estimate: Estimate, [now, second]: [Option<f64>; 2], truth: f64) {
+        if truth.is_finite() {
+            self.tallies[quantity as usize].take(estimate, now, second, truth);
+        }
+    }
+}

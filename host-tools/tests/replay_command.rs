@@ -1,0 +1,175 @@
+//! `kapvik replay` with the flight library in this process: bad input ends it with one line that names the place, and
+//! leaves nothing behind; the rest is written whole.
+
+use std::fs;
+use std::path::PathBuf;
+
+use assert_cmd::Command;
+use kapvik_firmware::pipeline::Pipeline;
+use kapvik_firmware::rover::Rover;
+use kapvik_host::data::frame_file::{FrameReader, write_frame, write_header};
+use kapvik_host::data::sensor_channels::names;
+use kapvik_host::replay::EstimateWriter;
+use kapvik_host::simulate::{Options, Scenario, Traverse};
+
+/// A folder with a file of frames of a level drive.
+struct Case {
+    folder: tempfile::TempDir,
+}
+
+impl Case {
+    /// Frames of a level drive, with the line of that number replaced, from 1, the header being the first.
+    fn with(replaced: Option<(usize, String)>) -> Self {
+        let options = Options { duration_s: Some(6.0), ..Options::default() };
+        let drive = Traverse::new(Scenario::Level, 3, &Rover::assumed(), &options).expect("a drive");
+        let mut bytes = Vec::new();
+        write_header(&mut bytes).expect("written");
+        for step in drive {
+            write_frame(&mut bytes, &step.expect("a frame").0).expect("written");
+        }
+        let text = String::from_utf8(bytes).expect("text");
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        if let Some((number, line)) = replaced {
+            lines[number - 1] = line;
+        }
+        let case = Self { folder: tempfile::tempdir().expect("a folder") };
+        fs::write(case.path("frames.csv"), lines.join("\n") + "\n").expect("written");
+        case
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, subcommand: &str) -> Command {
+        let mut command = Command::cargo_bin("kapvik").expect("the binary");
+        command.current_dir(self.folder.path()).args([subcommand, "--on", "host"]);
+        command
+    }
+
+    fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path()).expect("readable");
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// `replay` and `run` with these arguments fail with one line that has all of these words, and leave no file.
+    fn is_refused(&self, arguments: &[&str], words: &[&str]) {
+        let before = self.files();
+        for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
+            let assert = self.command(subcommand).args(arguments).args([output, "out"]).assert().failure();
+            let error = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+            assert_eq!(error.trim_end().lines().count(), 1, "{error}");
+            for word in words {
+                assert!(error.contains(word), "{word} in {error}");
+            }
+            assert_eq!(self.files(), before);
+        }
+    }
+}
+
+/// A row of the drive with one field replaced.
+fn row(time_s: &str, field: &str, column: usize) -> String {
+    let mut fields = vec!["0.1".to_owned(); names().len() + 1];
+    fields[0] = time_s.to_owned();
+    fields[column - 1] = field.to_owned();
+    fields.join(",")
+}
+
+#[test]
+fn frames_become_estimates_row_by_row() {
+    let case = Case::with(None);
+    let assert = case.command("replay").args(["frames.csv", "-o", "out.csv"]).assert().success();
+    let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+    assert!(told.contains("61 frames, 6.0 s") && told.contains("times real time"), "{told}");
+    let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover can be");
+    let mut expected = Vec::new();
+    let mut writer = EstimateWriter::new(&mut expected).expect("written");
+    for frame in FrameReader::open(&case.path("frames.csv")).expect("frames") {
+        writer.write(&pipeline.tick(&frame.expect("a frame"))).expect("written");
+    }
+    let written = fs::read(case.path("out.csv")).expect("written");
+    assert!(written == expected, "the link changes no bit");
+    assert_eq!(case.files(), ["frames.csv", "out.csv"]);
+}
+
+#[test]
+fn a_rover_file_is_used() {
+    let case = Case::with(None);
+    fs::write(case.path("rover.toml"), "mass_kg = 60.0\n").expect("written");
+    let run = |arguments: &[&str]| {
+        case.command("replay").args(["frames.csv", "-o", "out.csv"]).args(arguments).assert().success();
+        fs::read(case.path("out.csv")).expect("written")
+    };
+    assert!(run(&[]) != run(&["--rover", "rover.toml"]));
+}
+
+#[test]
+fn bad_frames_are_refused_at_their_place() {
+    let last = 62;
+    for (line, text, words) in [
+        (last, row("6", "abc", 5), ["frames.csv:62:5:", "`abc`"]),
+        (30, row("1.0", "0.1", 5), ["frames.csv:30:1:", "backwards"]),
+        (30, row("x", "0.1", 5), ["frames.csv:30:1:", "`x`"]),
+        (30, "1,2,3".to_owned(), ["frames.csv:30:4:", "3 fields"]),
+        (1, row("time", "wheel_rate_fl", 2), ["frames.csv:1:", "expected"]),
+    ] {
+        Case::with(Some((line, text))).is_refused(&["frames.csv"], &words);
+    }
+}
+
+#[test]
+fn missing_files_and_impossible_rovers_are_refused() {
+    let case = Case::with(None);
+    case.is_refused(&["nowhere.csv"], &["nowhere.csv", "No such file"]);
+    case.is_refused(&["frames.csv", "--rover", "nowhere.toml"], &["nowhere.toml", "No such file"]);
+    fs::write(case.path("rover.toml"), "mass_kg = 41\n[suspension]\nfront_hub = [-1.0, -0.2]\n").expect("written");
+    case.is_refused(&["frames.csv", "--rover", "rover.toml"], &["rover.toml:3:13:", "front_hub"]);
+    fs::write(case.path("empty.csv"), "").expect("written");
+    case.is_refused(&["empty.csv"], &["empty.csv:1:1:"]);
+    fs::write(case.path("header.csv"), "t_s,wheel_rate_fl_rad_s\n").expect("written");
+    case.is_refused(&["header.csv"], &["no frame"]);
+}
+
+#[test]
+fn a_bad_truth_is_refused_at_its_place() {
+    let case = Case::with(None);
+    fs::write(case.path("frames.truth.csv"), "t_s,slip_fl\n0,0.1\n0.1,x\n").expect("written");
+    let before = case.files();
+    let assert = case.command("run").args(["frames.csv", "--report", "out"]).assert().failure();
+    let error = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+    assert!(error.contains("frames.truth.csv:3:2:"), "{error}");
+    assert_eq!(case.files(), before);
+}
+
+#[test]
+fn an_output_that_was_there_stays_where_the_frames_are_bad() {
+    let case = Case::with(Some((62, row("6", "abc", 5))));
+    fs::write(case.path("out.csv"), "before").expect("written");
+    case.command("replay").args(["frames.csv", "-o", "out.csv"]).assert().failure();
+    assert_eq!(fs::read_to_string(case.path("out.csv")).expect("readable"), "before");
+}
+
+#[test]
+fn the_report_of_a_recording_needs_nothing_else() {
+    let case = Case::with(None);
+    let report = |name: &str| {
+        case.command("run").args(["frames.csv", "--report", name, "--picture", "picture.svg"]).assert().success();
+        fs::read_to_string(case.path(name)).expect("written")
+    };
+    let html = report("one.html");
+    assert!(html == report("two.html"), "a run repeats itself to the bit");
+    for outside in ["http://", "https://", "<script", "<link", "@import", "url("] {
+        assert!(!html.contains(outside), "{outside} reaches outside the file");
+    }
+    for words in
+        ["frames.csv", "recorded sensor frames", "rover assumed (set K0)", "Drawbar pull", "What to keep in mind"]
+    {
+        assert!(html.contains(words), "{words} is missing");
+    }
+    assert!(!html.contains("NaN") && !html.contains("inf\""));
+    let svg = fs::read_to_string(case.path("picture.svg")).expect("written");
+    assert!(svg.starts_with("<svg xmlns") && svg.matches("<svg").count() == 1);
+}
