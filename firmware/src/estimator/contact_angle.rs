@@ -78,9 +78,11 @@ const IMPOSSIBLE_ANGLE: f64 = 1.2;
 /// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
 const RATIO_DRIFT: f64 = 0.2;
 const ANGLE_DRIFT: f64 = 0.32;
+/// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
+const LINK_DRIFT: f64 = 0.032;
 /// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
-const ANGLE_FROM_VELOCITY: f64 = 0.3;
-const ANGLE_FROM_ROUGHNESS: f64 = 10.0;
+const ANGLE_FROM_VELOCITY: f64 = 0.1;
+const ANGLE_FROM_ROUGHNESS: f64 = 0.1;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
 /// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
@@ -240,8 +242,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         if let (Some(rocker), Some(bogie)) = (readings.rocker_angle_rad, readings.bogie_angle_rad) {
             let pitch = self.model.body_pitch_rad + rocker;
             let variance = noise.angle_rad * noise.angle_rad;
-            self.rocker_rate.see(pitch, variance + variance, nominal(ANGLE_DRIFT));
-            self.bogie_rate.see(pitch + bogie, variance + variance + variance, nominal(ANGLE_DRIFT));
+            self.rocker_rate.see(pitch, variance + variance, nominal(LINK_DRIFT));
+            self.bogie_rate.see(pitch + bogie, variance + variance + variance, nominal(LINK_DRIFT));
         }
         if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
             let velocity = Planar { x, z }.turned(self.model.body_pitch);
