@@ -3,6 +3,7 @@
 use clap::Args;
 use kapvik_firmware::rover::Rover;
 
+use super::estimators_soil;
 use crate::simulate::Scenario;
 use crate::trial::tally::Tally;
 use crate::trial::{Quantity, Trial, trial};
@@ -31,13 +32,14 @@ pub fn run(arguments: &EstimatorArguments) {
     for scenario in scenarios {
         let trial = trial(scenario, arguments.seed..arguments.seed + arguments.drives, &Rover::assumed());
         print(&trial);
+        estimators_soil::print(&trial);
     }
 }
 
 fn print(trial: &Trial) {
     println!("\n{:?}, {} drives", trial.scenario, trial.drives.len());
     trial.failures.iter().for_each(|failure| println!("  no drive: {failure}"));
-    println!("  {:16} {:>9} {:>9} {:>6}   within 1 σ, 2 σ", "", "RMSE", "raw", "ratio");
+    println!("  {:16} {:>9} {:>9} {:>6} {:>9}   within 1 σ, 2 σ", "", "RMSE", "raw", "ratio", "bias");
     for (quantity, tally) in Quantity::ALL.into_iter().zip(trial.tallies()) {
         print_tally(quantity, &tally);
     }
@@ -67,5 +69,6 @@ fn print_tally(quantity: Quantity, tally: &Tally) {
     let [one, two] = tally.coverage();
     let ratio = tally.rmse() / tally.naive_rmse();
     let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
-    println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.2}   {:5.1} {:5.1}", 100.0 * one, 100.0 * two);
+    let bias = unit * tally.bias();
+    println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.2} {bias:9.4}   {:5.1} {:5.1}", 100.0 * one, 100.0 * two);
 }

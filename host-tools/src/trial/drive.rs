@@ -2,6 +2,7 @@
 
 use kapvik_firmware::estimator::{Estimate, WheelEstimate};
 use kapvik_firmware::filter::{Fate, Innovation};
+use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
 use kapvik_firmware::rover::{PerSide, PerWheel, Rover};
 
@@ -61,10 +62,17 @@ pub struct Drive {
     /// Normalised innovations of each measurement, a series each: filter 1 of one wheel, then both halves of filter 2 of one
     /// side.
     pub series: [Vec<f64>; 11],
-    /// The last estimate.
-    pub last: Option<FrameEstimate>,
-    /// The last truth.
-    pub last_truth: Truth,
+    /// The soil, frame by frame, from the first estimate on.
+    pub soils: Vec<SoilPoint>,
+}
+
+/// What was said of the soil at a frame, and what it was.
+#[derive(Debug, Clone, Copy)]
+pub struct SoilPoint {
+    /// What was said.
+    pub said: RoverSoil,
+    /// What is true.
+    pub truth: Truth,
 }
 
 /// Seconds at the start that are not counted: the estimators know nothing yet, and the rover stands.
@@ -86,7 +94,7 @@ impl Drive {
             let estimate = pipeline.tick(&frame);
             let now = naive(rover, &frame);
             let second = trailing.push(frame.time_us, now);
-            (drive.last, drive.last_truth) = (Some(estimate), truth);
+            drive.soils.extend(estimate.soil.ok().map(|said| SoilPoint { said, truth }));
             if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
                 drive.take_errors(&estimate, &now, &second, &truth);
                 drive.take_squares(index, &pipeline, &estimate, &truth);

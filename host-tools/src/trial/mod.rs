@@ -8,5 +8,5 @@ mod report;
 pub mod tally;
 pub mod whiteness;
 
-pub use drive::{Drive, Quantity};
+pub use drive::{Drive, Quantity, SoilPoint};
 pub use report::{Trial, trial};

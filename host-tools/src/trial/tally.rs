@@ -5,6 +5,7 @@ use kapvik_firmware::estimator::Estimate;
 /// Errors of an estimate, how honest its standard deviation is, and what the raw sensors would have done.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tally {
+    sum: f64,
     squares: f64,
     within: [u64; 2],
     count: u64,
@@ -35,6 +36,7 @@ impl Tally {
     /// Takes an estimate, what one frame and the last second of the raw sensors say, and the truth.
     pub fn take(&mut self, estimate: Estimate, naive: Option<f64>, naive_mean: Option<f64>, truth: f64) {
         let (error, std) = (f64::from(estimate.value) - truth, f64::from(estimate.std));
+        self.sum += error;
         self.squares += error * error;
         self.count += 1;
         for (within, stds) in self.within.iter_mut().zip([1.0, 2.0]) {
@@ -46,6 +48,7 @@ impl Tally {
 
     /// Adds what another tally counted.
     pub fn add(&mut self, other: &Self) {
+        self.sum += other.sum;
         self.squares += other.squares;
         self.count += other.count;
         self.within.iter_mut().zip(other.within).for_each(|(sum, part)| *sum += part);
@@ -58,6 +61,11 @@ impl Tally {
     /// How many estimates were counted.
     pub fn count(&self) -> u64 {
         self.count
+    }
+
+    /// Mean error.
+    pub fn bias(&self) -> f64 {
+        self.sum / self.count.max(1) as f64
     }
 
     /// Root mean square error.
