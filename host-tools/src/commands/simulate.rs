@@ -36,8 +36,8 @@ pub struct Arguments {
     /// How long it takes, s, in place of the scenario's own length
     #[arg(long, value_name = "S", value_parser = above_zero)]
     duration: Option<f64>,
-    /// Frames a second
-    #[arg(long, value_name = "HZ", value_parser = above_zero, default_value_t = RATE_HZ)]
+    /// Frames a second, at most 1000
+    #[arg(long, value_name = "HZ", value_parser = rate, default_value_t = RATE_HZ)]
     rate: f64,
     /// The rover; without: the assumed set K0, which also stands in for keys that the file lacks
     #[arg(long, value_name = "R.toml")]
@@ -127,6 +127,13 @@ fn progress(frames: u64) -> ProgressBar {
 fn above_zero(text: &str) -> Result<f64, String> {
     let number = f64::from_str(text).ok().filter(|number| *number > 0.0 && number.is_finite());
     number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    above_zero(text)
+        .ok()
+        .filter(|rate| *rate <= 1000.0)
+        .ok_or_else(|| "expected a number above 0, at most 1000".to_owned())
 }
 
 /// A soil by its name in the catalogue, or from a file.

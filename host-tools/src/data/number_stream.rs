@@ -154,8 +154,8 @@ impl NumberStream {
 
 /// Seconds since the start as µs; `None` where it is no time, or too long for one.
 pub fn microseconds(time_s: f64) -> Option<u64> {
-    // Up to 2^53 µs, 285 years, a number of seconds with six decimals comes back as the same whole number.
-    const LONGEST_S: f64 = 9.0e9;
+    // Up to 2^31 s, 68 years, seconds with six decimals come back as the same whole number.
+    const LONGEST_S: f64 = 2_147_483_648.0;
     (0.0..=LONGEST_S).contains(&time_s).then(|| libm::round(1.0e6 * time_s) as u64)
 }
 

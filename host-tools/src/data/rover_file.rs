@@ -177,7 +177,8 @@ impl RoverTable {
                     .centre_of_mass
                     .as_ref()
                     .filter(|centre| centre.get_ref().iter().any(|coordinate| !coordinate.is_finite()));
-                let bad_track = half_track.as_ref().filter(|track| !(*track.get_ref() > 0.0));
+                let possible = |track: f64| track > 0.0 && track.is_finite();
+                let bad_track = half_track.as_ref().filter(|track| !possible(*track.get_ref()));
                 let single = bad_track.map(Spanned::span).or(bad_centre.map(Spanned::span));
                 single.or_else(|| points(&[front_hub, bogie_pivot, middle_hub, rear_hub]))
             }

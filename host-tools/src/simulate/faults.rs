@@ -55,7 +55,7 @@ impl Fault {
         if !columns.contains(&true) {
             return Err(format!("`{pattern}`: expected a column such as load_cell_fl_n, or a pattern such as gyro_*"));
         }
-        if !(between_s.0 <= between_s.1) {
+        if between_s.0 > between_s.1 || [between_s.0, between_s.1].iter().any(|time| time.is_nan()) {
             return Err(format!("{}-{}: expected two times in s, rising", between_s.0, between_s.1));
         }
         Ok(Self { failure, columns, between_s })

@@ -78,15 +78,23 @@ impl Draw<'_> {
         self.random.random_range(low..high)
     }
 
-    /// The soil that was asked for, else one on which each wheel can pull so much of its load.
-    fn soil(&mut self, pull_ratio: f64) -> Option<Soil<f64>> {
-        let demand = Demand { pull_ratio, depth: 0.45 };
-        self.soil.or_else(|| draw_soil(self.random, self.rover, &demand))
+    /// A level drive at equal speeds, to be changed, on a soil where each wheel can pull so much of its load.
+    fn course(&mut self, pull_ratio: f64, duration_s: f64) -> Option<Course> {
+        self.course_on(&Demand { pull_ratio, spread: false }, duration_s)
     }
 
-    /// A level drive at equal speeds, to be changed.
-    fn course(&mut self, pull_ratio: f64, duration_s: f64) -> Option<Course> {
-        let soil = self.soil(pull_ratio)?;
+    /// A level drive at slips that are spread, to be changed.
+    fn spread_course(&mut self, pull_ratio: f64, duration_s: f64) -> Option<Course> {
+        let mut course = self.course_on(&Demand { pull_ratio, spread: true }, duration_s)?;
+        let fastest = self.uniform(0.030, 0.036);
+        let rim_speed_m_s = draw_spread_speeds(self.random, self.rover, &course.soil, fastest);
+        course.programme.commands = vec![Command { from_s: START_S, rim_speed_m_s }];
+        Some(course)
+    }
+
+    /// A level drive at equal speeds on the soil that was asked for, else on one that meets the demand.
+    fn course_on(&mut self, demand: &Demand, duration_s: f64) -> Option<Course> {
+        let soil = self.soil.or_else(|| draw_soil(self.random, self.rover, demand))?;
         let rim_speed = self.uniform(0.021, 0.028);
         let rim_speed_m_s = draw_equal_speeds(self.random, rim_speed);
         let programme = draw_programme(self.random, vec![Command { from_s: START_S, rim_speed_m_s }]);
@@ -106,14 +114,7 @@ impl Draw<'_> {
     }
 
     fn spread(&mut self) -> Option<Course> {
-        let mut course = self.course(0.05, 60.0)?;
-        course.programme.commands = vec![self.spread_command(&course.soil)];
-        Some(course)
-    }
-
-    fn spread_command(&mut self, soil: &Soil<f64>) -> Command {
-        let fastest = self.uniform(0.030, 0.036);
-        Command { from_s: START_S, rim_speed_m_s: draw_spread_speeds(self.random, self.rover, soil, fastest) }
+        self.spread_course(0.05, 60.0)
     }
 
     fn hills(&mut self) -> Option<Course> {
@@ -238,19 +239,17 @@ impl Draw<'_> {
     }
 
     fn soil_change(&mut self) -> Option<Course> {
-        let mut course = self.course(0.10, 120.0)?;
-        course.programme.commands = vec![self.spread_command(&course.soil)];
+        let mut course = self.spread_course(0.10, 120.0)?;
         let becomes = if self.random.random::<f64>() < 0.5 { Becomes::IceCemented } else { Becomes::Sublimated };
         course.changes = vec![Change { from_m: self.uniform(0.75, 0.85), becomes }];
         Some(course)
     }
 
     fn traverse(&mut self) -> Option<Course> {
-        let mut course = self.course(0.22, 150.0)?;
-        let spread = self.spread_command(&course.soil);
+        let mut course = self.spread_course(0.22, 150.0)?;
         let rim_speed = self.uniform(0.026, 0.028);
         let equal = Command { from_s: 35.0, rim_speed_m_s: draw_equal_speeds(self.random, rim_speed) };
-        course.programme.commands = vec![spread, equal];
+        course.programme.commands.push(equal);
         let mut sides = self.hills_between((0.7, 2.0));
         let slope = libm::tan(self.uniform(5.0, 8.0).to_radians());
         let ramp = Shape::Ramp { between_m: (1.6, 2.4), slope, rounding_m: 0.5 };

@@ -172,7 +172,7 @@ impl Traverse {
         let time_us = self.time_us(self.next);
         let time_s = 1.0e-6 * time_us as f64;
         let worst = imbalance(&self.world, &self.instant).worst();
-        if !(worst <= BALANCE) {
+        if worst.is_nan() || worst > BALANCE {
             return Err(SimulationError::Unbalanced { time_s, worst });
         }
         let Rover { wheel, drive, .. } = self.world.rover;

@@ -1,0 +1,137 @@
+//! `kapvik simulate` as a person runs it.
+
+use std::fs;
+use std::process::{Command, Output};
+
+use kapvik_host::data::frame_file::FrameReader;
+use kapvik_host::data::truth_file::TruthReader;
+use tempfile::TempDir;
+
+/// A folder to simulate in.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_kapvik"));
+        command.current_dir(self.0.path()).arg("simulate").args(arguments).output().expect("kapvik runs")
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.0.path().join(name)).expect("a file")
+    }
+
+    fn files(&self) -> usize {
+        fs::read_dir(self.0.path()).expect("a folder").count()
+    }
+}
+
+#[test]
+fn frames_and_truth_stand_beside_each_other_and_repeat() {
+    let folder = Folder::new();
+    let arguments = ["--seed", "3", "--scenario", "level", "--duration", "6", "--rate", "20"];
+    let output = folder.run(&[arguments.as_slice(), &["-o", "a.csv"]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("121 frames, 6 s") && said.contains("a.csv and a.truth.csv"), "{said}");
+    assert!(folder.run(&[arguments.as_slice(), &["-o", "b.csv"]].concat()).status.success());
+    assert_eq!(folder.text("a.csv"), folder.text("b.csv"));
+    assert_eq!(folder.text("a.truth.csv"), folder.text("b.truth.csv"));
+    assert_eq!(folder.files(), 4);
+    let frames: Vec<_> = FrameReader::open(&folder.0.path().join("a.csv")).expect("frames").collect();
+    let truths: Vec<_> = TruthReader::open(&folder.0.path().join("a.truth.csv")).expect("truths").collect();
+    assert_eq!((frames.len(), truths.len()), (121, 121));
+    for (frame, truth) in frames.into_iter().zip(truths) {
+        assert_eq!(frame.expect("a frame").time_us, truth.expect("a truth").time_us);
+    }
+}
+
+#[test]
+fn soils_rovers_effects_and_faults_can_be_asked_for() {
+    let folder = Folder::new();
+    fs::write(folder.0.path().join("r.toml"), "mass_kg = 30.0\n").expect("written");
+    let output = folder.run(&[
+        "--seed",
+        "1",
+        "-o",
+        "a.csv",
+        "--scenario",
+        "level",
+        "--duration",
+        "30",
+        "--rover",
+        "r.toml",
+        "--soil",
+        "seed-table-1",
+        "--then",
+        "ice-cemented@0.45",
+        "--effect",
+        "force-bias=5",
+        "--effect",
+        "nan=gyro_*@2-3",
+        "--effect",
+        "skip-frames=@10-11",
+    ]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let path = folder.0.path().join("a.truth.csv");
+    let truths: Vec<_> = TruthReader::open(&path).expect("truths").map(|truth| truth.expect("a truth")).collect();
+    assert_eq!(truths.len(), 301 - 11);
+    assert_eq!(truths[0].wheels.left.front.soil.cohesion_pa, 250.0);
+    assert_eq!(truths[truths.len() - 1].wheels.left.front.soil.cohesion_pa, 3250.0);
+    let load: f64 = truths[0].wheels.iter_wheels().map(|wheel| wheel.normal_load_n).sum();
+    assert!((load - 30.0 * 9.81).abs() < 1.0e-6);
+    let frames = folder.text("a.csv");
+    assert_eq!(frames.lines().filter(|line| line.contains("NaN")).count(), 11);
+}
+
+/// What is refused, with what the one line on the error stream starts; nothing is left behind.
+#[test]
+fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
+    let rovers = [
+        ("[suspension]\nfront_hub = [-0.1, -0.2]\n", "r.toml:2:13: the hubs are out of order"),
+        ("mass_kg = heavy\n", "r.toml:1:11: "),
+    ];
+    for (rover, expected) in rovers {
+        let folder = Folder::new();
+        fs::write(folder.0.path().join("r.toml"), rover).expect("written");
+        refused(&folder, &["--rover", "r.toml"], expected, 1);
+    }
+    let cases: [(&[&str], &str); 11] = [
+        (&["--rover", "none.toml"], "none.toml: "),
+        (&["--soil", "butter"], "butter: expected a file S.toml, or a soil of the catalogue: seed-table-1,"),
+        (&["--soil", "none.toml"], "none.toml: "),
+        (&["--soil", "lete-sand", "--then", "ice"], "--then ice: expected SOIL@METRES"),
+        (&["--then", "ice@far"], "--then ice@far: expected SOIL@METRES"),
+        (
+            &["--effect", "slip-sinkage=0.3"],
+            "--effect slip-sinkage=0.3: no effect is named `slip-sinkage`: expected one of drive-friction",
+        ),
+        (&["--effect", "latency"], "--effect latency: expected ID=VALUE"),
+        (&["--effect", "latency=late"], "--effect latency=late: `late`: expected a number"),
+        (&["--effect", "nan=load@1-2"], "--effect nan=load@1-2: `load`: expected a column"),
+        (&["--effect", "nan=gyro_*"], "--effect nan=gyro_*: `gyro_*`: expected SENSOR@T1-T2"),
+        (&["--scenario", "slope", "--soil", "snow-us"], ""),
+    ];
+    for (arguments, expected) in cases {
+        refused(&Folder::new(), arguments, expected, 0);
+    }
+}
+
+fn refused(folder: &Folder, arguments: &[&str], expected: &str, files: usize) {
+    let output = folder.run(&[&["--seed", "1", "-o", "a.csv"], arguments].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success(), "{arguments:?} succeeded");
+    assert!(said.starts_with(&format!("kapvik: {expected}")) && said.lines().count() == 1, "{arguments:?}: {said}");
+    assert_eq!(folder.files(), files, "{arguments:?} left something behind");
+}
+
+#[test]
+fn what_was_there_survives_a_refusal() {
+    let folder = Folder::new();
+    fs::write(folder.0.path().join("a.csv"), "before").expect("written");
+    refused(&folder, &["--scenario", "slope", "--soil", "snow-us"], "", 1);
+    assert_eq!(folder.text("a.csv"), "before");
+}
