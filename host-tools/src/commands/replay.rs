@@ -9,6 +9,7 @@ use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::qemu::LogView;
 use crate::replay::{EstimateWriter, Recording, lines, replay};
+use crate::report::link_in_words;
 
 /// Options of `kapvik replay`.
 #[derive(Args)]
@@ -43,8 +44,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         outcome = Some(replay(&mut computer, &rover, recording.frames, take)?);
         Ok(())
     })?;
-    for line in outcome.iter().flat_map(lines) {
-        println!("{line}");
+    if let Some(outcome) = &outcome {
+        lines(outcome).iter().for_each(|line| println!("{line}"));
+        if arguments.on == Computer::Qemu {
+            println!("link: {}", link_in_words(&outcome.health));
+        }
     }
     Ok(())
 }

@@ -20,7 +20,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
         Ok(soil) => soil_line(soil),
         Err(reason) => format!("soil at the end: no estimate: {}", refusal_in_words(*reason)),
     });
-    lines.extend(outcome.soil_changes_us.iter().map(|time| format!("soil changed at {:.2} s", 1e-6 * *time as f64)));
+    lines.extend(change_line(outcome));
     lines.extend(filter_lines(outcome));
     lines.extend(sensor_lines(outcome));
     lines
@@ -38,6 +38,18 @@ fn soil_line(soil: &RoverSoil) -> String {
         shown(&estimate.friction_angle_rad, 1_f32.to_degrees(), 1),
         shown(&estimate.shear_modulus_m, 1e3, 1),
     )
+}
+
+/// When another soil was noticed; a long drive over many soils is cut short.
+fn change_line(outcome: &Outcome) -> Option<String> {
+    const TOLD: usize = 12;
+    let changes = &outcome.soil_changes_us;
+    let times: Vec<String> = changes.iter().take(TOLD).map(|time| format!("{:.1} s", 1e-6 * *time as f64)).collect();
+    let more = match changes.len().saturating_sub(TOLD) {
+        0 => String::new(),
+        more => format!(" and {more} times more"),
+    };
+    (!times.is_empty()).then(|| format!("another soil noticed at {}{more}", times.join(", ")))
 }
 
 /// What the filters count and what is not zero.

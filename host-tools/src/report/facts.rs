@@ -96,14 +96,17 @@ fn self_test(report: &SelfTestReport) -> String {
     )
 }
 
-fn link(health: &HealthReport) -> String {
+/// How the link did, in words.
+pub fn link(health: &HealthReport) -> String {
     let link = &health.link;
     format!(
-        "{} frames taken, {} refused, {} gaps, {} replies lost",
+        "{} messages taken, {} refused, {} gaps, {} repeated, {} replies lost, {} receive errors",
         link.frames_ok,
         link.refused(),
         link.sequence_gaps,
-        link.replies_lost
+        link.duplicates,
+        link.replies_lost,
+        link.receive_errors
     )
 }
 
