@@ -19,7 +19,7 @@ pub struct Gaussian<T, const N: usize> {
 pub enum InvalidNumber {
     /// A mean is not finite.
     Mean,
-    /// A standard deviation is negative, or its square is not finite.
+    /// A standard deviation is negative, or the sum of their squares is not finite.
     StandardDeviation,
 }
 
@@ -27,13 +27,12 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     /// Independent numbers with these means and standard deviations, each in the unit of its own number.
     ///
     /// # Errors
-    /// Where a mean is not finite, or a standard deviation negative or its square not finite.
+    /// Where a mean is not finite, or a standard deviation negative or the sum of their squares not.
     pub fn independent(mean: [T; N], std: [T; N]) -> Result<Self, InvalidNumber> {
         if !all_finite(&mean) {
             return Err(InvalidNumber::Mean);
         }
-        let valid = |value: &T| *value >= T::zero() && (*value * *value).is_finite();
-        if !std.iter().all(valid) {
+        if !(dot(&std, &std).is_finite() && std.iter().all(|value| *value >= T::zero())) {
             return Err(InvalidNumber::StandardDeviation);
         }
         Ok(Self { mean, root: diagonal(&std) })

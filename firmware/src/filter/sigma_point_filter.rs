@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 
 use super::spread::Factors;
-use super::vector::{all_finite, diagonal};
+use super::vector::{all_finite, diagonal, dot};
 use super::{Gaussian, InvalidNumber, Spread};
 
 /// A square-root sigma-point filter for a state of `N` numbers.
@@ -54,11 +54,12 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     }
 
     /// Ends a step that has written a new root: takes the mean that belongs to it, where root, mean and `witness`, another
-    /// result of the same computation, are finite. Else the mean stays and the root falls back to the stated diagonal.
+    /// result of the same computation, are finite, and so is every variance that follows from the root. Else the mean stays and the root falls back to the stated diagonal.
     /// Gives whether it took the mean.
     #[must_use]
     pub(super) fn settle(&mut self, mean: [T; N], witness: T) -> bool {
-        let finite = all_finite(self.estimate.root.as_flattened()) && all_finite(&mean) && witness.is_finite();
+        let root = self.estimate.root.as_flattened();
+        let finite = dot(root, root).is_finite() && all_finite(&mean) && witness.is_finite();
         if finite {
             self.estimate.mean = mean;
         } else {

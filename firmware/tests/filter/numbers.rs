@@ -132,12 +132,15 @@ fn a_factorisation_that_overflows_falls_back_and_is_counted() {
     assert_fell_back(&one, 5);
     assert_eq!(one.add_correlated_noise(&[[1e30, 1.0, 1.0]]), Prediction::Reset);
     assert_fell_back(&one, 6);
-    assert_eq!(one.widen(1e30), Prediction::Reset);
+    // A root that single precision holds, with a variance that it does not.
+    assert_eq!(one.predict(|x| [x[0], x[1], 1e20 * (x[1] + 1.0)], &[0.1; N]), Prediction::Reset);
     assert_fell_back(&one, 7);
+    assert_eq!(one.widen(1e30), Prediction::Reset);
+    assert_fell_back(&one, 8);
     // Nearly 10³⁸ standard deviations off and believed: the squared innovation is beyond single precision.
     let told = one.update(|x| *x, &[Some(1e30), None, Some(0.5)], &[0.1; N], Gate::Open);
     assert_eq!((told.fusion, told.degrees_of_freedom, told.normalised_square), (Fusion::Reset, 0, 0.0));
-    assert_fell_back(&one, 8);
+    assert_fell_back(&one, 9);
     // It goes on.
     let told = one.update(|x| *x, &[Some(1.1), Some(-1.0), Some(0.4)], &[0.1; N], Gate::one_in_a_thousand());
     assert_eq!((told.fusion, told.degrees_of_freedom), (Fusion::Done, 3));
