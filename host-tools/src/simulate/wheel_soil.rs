@@ -13,9 +13,10 @@ pub const STANDING_M_S: f64 = 1.0e-4;
 /// Massless links on this soil are unstable without damping of the sinking motion: sinking slows the hub, which slips
 /// more and finds less support. Taken relative to the speed, as the soil's forces know only ratios of speeds, a damping
 /// that is enough at one speed is at every other, and down to standstill. At 2 cm/s and a sixth of Kapvik's weight this
-/// one is 1.7 kN·s/m; a third of it is too little on soils of small K. Of the load it makes up 0.03 % on level ground, 0.6 %
-/// on hills, 2 % on rocks and, for a rover length, 14 % where a wheel sinks into loosened soil.
-const SINKING_DAMPING: f64 = 0.5;
+/// one is 3.4 kN·s/m; half of it is too little on some soils of the prior when the rover starts. Of a
+/// load it makes up at most 0.05 % on level ground, 1.3 % on hills, 4 % on rocks, and 25 % while a wheel sinks into loosened
+/// soil (one drive each).
+const SINKING_DAMPING: f64 = 1.0;
 
 /// How a wheel moves on the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
