@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::frozen;
 use crate::network::{GOLDEN_PAIRS, RoverTable, WheelTable, checksum};
 
-/// What the test found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// What the test found; by default, nothing yet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SelfTestReport {
     /// A trained table is there; a build for training the first table of a new shape has none.

@@ -20,7 +20,8 @@ const NO_PORT: i32 = 2;
 #[entry]
 fn main() -> ! {
     let Some(port) = LinkUart::take() else { exit(NO_PORT) };
-    let mut telemetry = Telemetry::boot(port, An386);
+    let mut telemetry = Telemetry::new(port, An386);
+    telemetry.start();
     let self_test = telemetry.self_test();
     if self_test.passed() {
         defmt::info!("self-test passed, {=u8} golden pairs", self_test.wheel_pairs + self_test.rover_pairs);

@@ -49,6 +49,11 @@ impl Pipeline {
         self.last
     }
 
+    /// What was said of the last frame; before the first, that nothing is known.
+    pub fn last(&self) -> &FrameEstimate {
+        &self.last
+    }
+
     /// The filters, for whoever tests them.
     pub fn estimator(&self) -> &RoverEstimator<f32> {
         &self.estimator

@@ -7,20 +7,13 @@ use crate::pipeline::{FrameEstimate, Pipeline};
 use crate::rover::{GeometryError, Rover};
 use crate::sensor_frame::SensorFrame;
 
-/// A pipeline for one rover, and what it said last.
+/// A pipeline for one rover, and which frame it took last.
 #[derive(Debug)]
 pub(super) struct Estimation {
     pipeline: Pipeline,
     source: RoverSource,
     watch: Watch,
-    last: Option<Answered>,
-}
-
-/// The answer to the last frame, kept in case its reply was lost.
-#[derive(Debug)]
-struct Answered {
-    sequence: u16,
-    estimate: FrameEstimate,
+    last_sequence: Option<u16>,
 }
 
 impl Estimation {
@@ -29,7 +22,7 @@ impl Estimation {
     /// # Errors
     /// Where there can be no such rover.
     pub fn new(rover: &Rover<f32>, source: RoverSource) -> Result<Self, GeometryError> {
-        Ok(Self { pipeline: Pipeline::new(rover)?, source, watch: Watch::default(), last: None })
+        Ok(Self { pipeline: Pipeline::new(rover)?, source, watch: Watch::default(), last_sequence: None })
     }
 
     /// Where the rover's dimensions are from.
@@ -44,11 +37,16 @@ impl Estimation {
 
     /// The numbers of requests start anew: no frame can be the last one sent again.
     pub fn forget_numbers(&mut self) {
-        self.last = None;
+        self.last_sequence = None;
     }
 
-    /// The estimate of a frame that came with `sequence` where the request before it had `last_served`, and what was
-    /// noticed; nothing is where the frame was there before, and its answer is the same again.
+    /// What was said of the last frame, kept in case that reply was lost.
+    pub fn last(&self) -> &FrameEstimate {
+        self.pipeline.last()
+    }
+
+    /// Takes a frame that came with `sequence` where the request before it had `last_served`, and says what was noticed;
+    /// nothing is where the frame was there before. The estimate is then the [last](Self::last).
     ///
     /// # Errors
     /// Where it is neither the last frame again nor the next one.
@@ -57,16 +55,16 @@ impl Estimation {
         frame: &SensorFrame,
         sequence: u16,
         last_served: u16,
-    ) -> Result<(FrameEstimate, Option<Noticed>), FrameRefusal> {
+    ) -> Result<Option<Noticed>, FrameRefusal> {
         let expected = next_sequence(last_served);
-        match &self.last {
-            Some(last) if last.sequence == sequence => Ok((last.estimate, None)),
-            _ if sequence == expected => {
-                let estimate = self.pipeline.tick(frame);
-                self.last = Some(Answered { sequence, estimate });
-                Ok((estimate, Some(self.watch.notice(self.pipeline.health(), &estimate))))
-            }
-            _ => Err(FrameRefusal::OutOfOrder { expected }),
+        if self.last_sequence == Some(sequence) {
+            return Ok(None);
         }
+        if sequence != expected {
+            return Err(FrameRefusal::OutOfOrder { expected });
+        }
+        self.pipeline.tick(frame);
+        self.last_sequence = Some(sequence);
+        Ok(Some(self.watch.notice(self.pipeline.health(), self.pipeline.last())))
     }
 }

@@ -62,17 +62,24 @@ pub struct Telemetry<U, B> {
 }
 
 impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
-    /// Runs the self-test, then stands ready to answer over `port`, for the assumed rover K0.
-    pub fn boot(port: U, board: B) -> Self {
+    /// A flight computer behind `port` that gives no estimates until [`Self::start`].
+    pub fn new(port: U, board: B) -> Self {
         Self {
             link: Link::new(port),
             board,
-            self_test: self_test::run(),
-            estimation: Estimation::new(&Rover::assumed(), RoverSource::Assumed).ok(),
+            self_test: SelfTestReport::default(),
+            estimation: None,
             last_served: NO_SEQUENCE,
             queries_answered: 0,
             frames_taken: 0,
         }
+    }
+
+    /// Runs the self-test, then estimates for the assumed rover K0.
+    pub fn start(&mut self) {
+        self.self_test = self_test::run();
+        // K0 is a rover that can be; if it were not, frames would be refused with that reason.
+        let _ = self.estimate_for(&Rover::assumed(), RoverSource::Assumed);
     }
 
     /// The self-test that ran at boot, or since then on request.
@@ -113,7 +120,7 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
                 (Reply::SelfTest(self.self_test), Event::SelfTested(self.self_test))
             }
             Request::Configure(rover) => {
-                let outcome = self.configure(rover);
+                let outcome = self.estimate_for(rover, RoverSource::Configured);
                 (Reply::Configured(outcome), Event::Configured(outcome))
             }
             Request::Frame(frame) => self.take_frame(sequence, frame),
@@ -121,26 +128,40 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
         }
     }
 
-    fn configure(&mut self, rover: &Rover<f32>) -> Result<(), GeometryError> {
-        self.estimation = Some(Estimation::new(rover, RoverSource::Configured)?);
+    /// Starts the estimates anew. Never inlined: a pipeline that is being made takes kilobytes, which the stack frame of a
+    /// caller would keep.
+    #[inline(never)]
+    fn estimate_for(&mut self, rover: &Rover<f32>, source: RoverSource) -> Result<(), GeometryError> {
+        self.estimation = Some(Estimation::new(rover, source)?);
         Ok(())
     }
 
     fn take_frame(&mut self, sequence: u16, frame: &SensorFrame) -> (Reply, Event) {
+        let event = self.tick(sequence, frame);
+        let estimate = match (&event, &self.estimation) {
+            (Event::FrameRefused(reason), _) => Err(*reason),
+            (_, Some(estimation)) => Ok(*estimation.last()),
+            (_, None) => Err(FrameRefusal::NoRover),
+        };
+        (Reply::Frame(estimate), event)
+    }
+
+    /// Never inlined, as [`Self::estimate_for`].
+    #[inline(never)]
+    fn tick(&mut self, sequence: u16, frame: &SensorFrame) -> Event {
         let taken = match &mut self.estimation {
             None => Err(FrameRefusal::NoRover),
             Some(_) if !self.self_test.passed() => Err(FrameRefusal::SelfTestFailed),
             Some(estimation) => estimation.take(frame, sequence, self.last_served),
         };
-        let event = match &taken {
-            Ok((_, Some(noticed))) => {
+        match taken {
+            Ok(Some(noticed)) => {
                 self.frames_taken = self.frames_taken.saturating_add(1);
-                Event::Estimated(*noticed)
+                Event::Estimated(noticed)
             }
-            Ok((_, None)) => Event::Repeated,
-            Err(reason) => Event::FrameRefused(*reason),
-        };
-        (Reply::Frame(taken.map(|(estimate, _)| estimate)), event)
+            Ok(None) => Event::Repeated,
+            Err(reason) => Event::FrameRefused(reason),
+        }
     }
 
     fn estimator_health(&self) -> EstimatorHealth {

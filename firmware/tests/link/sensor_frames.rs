@@ -25,7 +25,8 @@ struct Computer(Telemetry<Port, NoBoard>);
 
 impl Computer {
     fn greeted() -> Self {
-        let mut computer = Self(Telemetry::boot(Port::default(), NoBoard));
+        let mut computer = Self(Telemetry::new(Port::default(), NoBoard));
+        computer.0.start();
         assert!(matches!(computer.ask(1, &Request::Hello), Reply::Boot(_)));
         computer
     }
@@ -121,6 +122,18 @@ fn a_frame_after_a_gap_waits_until_the_gap_is_filled() {
     // A frame from before the last one is neither taken nor answered from memory.
     assert_eq!(computer.ask(4, &frame(3)), Reply::Frame(Err(FrameRefusal::OutOfOrder { expected: 7 })));
     assert_eq!(computer.estimator_health(7).frames, 5);
+}
+
+#[test]
+fn nothing_is_estimated_before_the_start() {
+    let mut computer = Computer(Telemetry::new(Port::default(), NoBoard));
+    match computer.ask(1, &Request::Hello) {
+        Reply::Boot(report) => assert!(!report.self_test.passed() && report.rover.is_none(), "{report:?}"),
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(computer.ask(2, &frame(1)), Reply::Frame(Err(FrameRefusal::NoRover)));
+    assert_eq!(computer.ask(3, &Request::Configure(Rover::assumed())), Reply::Configured(Ok(())));
+    assert_eq!(computer.ask(4, &frame(1)), Reply::Frame(Err(FrameRefusal::SelfTestFailed)));
 }
 
 #[test]

@@ -19,7 +19,9 @@ pub(super) struct InProcess {
 
 impl InProcess {
     pub fn boot() -> Self {
-        Self { telemetry: Telemetry::boot(MemoryPort::default(), ThisProcess) }
+        let mut telemetry = Telemetry::new(MemoryPort::default(), ThisProcess);
+        telemetry.start();
+        Self { telemetry }
     }
 }
 
