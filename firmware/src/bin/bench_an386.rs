@@ -2,8 +2,6 @@
 #![no_std]
 #![no_main]
 
-use core::cell::{Cell, RefCell};
-
 use kapvik_board_an386::{bench::Bench, entry, exit};
 use kapvik_firmware::filter::trial::{self, Scales, Trial};
 use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
@@ -48,12 +46,11 @@ fn main() -> ! {
     filter_step::<12, 18>(&bench, "filter_12_18", predicted);
     filter_step::<9, 12>(&bench, "filter_9_12_random_walk", drifted);
     filter_step::<3, 2>(&bench, "filter_3_2", predicted);
-    if let Ok(pipeline) = Pipeline::new(&Rover::assumed()) {
-        let pipeline = RefCell::new(pipeline);
-        let time_us = Cell::new(0_u64);
+    if let Ok(mut pipeline) = Pipeline::new(&Rover::assumed()) {
+        let mut time_us = 0;
         bench.kernel("tick", -1.0, 1.0, |wobble| {
-            time_us.set(time_us.get() + 100_000);
-            pipeline.borrow_mut().tick(&drive::frame(time_us.get(), wobble))
+            time_us += 100_000;
+            pipeline.tick(&drive::frame(time_us, wobble))
         });
     }
     for print in &FINGERPRINTS {
