@@ -4,6 +4,7 @@
 
 use core::cell::{Cell, RefCell};
 
+use heapless::Vec;
 use kapvik_board_an386::{bench::Bench, entry, exit};
 use kapvik_firmware::filter::trial::{self, Scales, Trial};
 use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
@@ -15,6 +16,7 @@ use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::{Axes, PerAxle, PerSide, Rover};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
 /// The problem that the filter's steps are counted on.
 const SCALES: Scales = Scales::NOMINAL;
@@ -44,6 +46,7 @@ fn main() -> ! {
     let [first, ..] = &ROVER.golden;
     let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
     bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
+    bench.kernel("rover_features", 0.02, 0.6, |slip| six_wheels_at(slip).rover_features());
     filter_step::<6, 6>(&bench, "filter_6_6", predicted);
     filter_step::<12, 18>(&bench, "filter_12_18", predicted);
     filter_step::<9, 12>(&bench, "filter_9_12_random_walk", drifted);
@@ -60,6 +63,23 @@ fn main() -> ! {
         bench.fingerprint(print.name, (print.compute)());
     }
     exit(0)
+}
+
+/// Six wheels about one slip, with sinkage.
+fn six_wheels_at(slip: f32) -> SoilQuery {
+    let noise = WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
+    let mut query = SoilQuery { wheel: WHEEL, noise, slope: None, wheels: Vec::new() };
+    for part in [0.5, 0.7, 0.9, 1.1, 1.3, 1.5] {
+        let state = WheelState {
+            drawbar_pull_n: 2.0 * part,
+            load_n: 60.0 + 5.0 * part,
+            torque_nm: 1.5 * part,
+            slip: slip * part,
+            sinkage_m: Some(0.018),
+        };
+        let _ = query.wheels.push(state);
+    }
+    query
 }
 
 /// The rover network with one slip changed, so that nothing is computed ahead.
