@@ -84,7 +84,7 @@ pub fn joined<const N: usize, const PARTS: usize>(parts: [&[f32]; PARTS]) -> [f3
 fn activate<const N: usize>(sums: &mut [f32; N], gradient: f32) {
     let sigmoid = |sum| math::bipolar_sigmoid(sum, gradient);
     // Several in a turn of the loop, which costs a tenth less than one.
-    let (tiles, rest) = sums.as_chunks_mut::<4>();
+    let (tiles, rest) = sums.as_chunks_mut::<8>();
     tiles.iter_mut().for_each(|tile| *tile = tile.map(sigmoid));
     rest.iter_mut().for_each(|sum| *sum = sigmoid(*sum));
 }
