@@ -114,14 +114,14 @@ fn a_table_that_is_wrong_stops_the_build_and_says_why() {
     assert!(build_with("sound", &sound).status.success());
     let mut altered = sound.clone();
     altered[sound.len() / 2] ^= 1;
-    let version_two = String::from_utf8_lossy(&sound).replace("\nversion 1\n", "\nversion 2\n");
-    let body = &version_two[..version_two.rfind("crc32 ").unwrap_or(0)];
+    let other_version = String::from_utf8_lossy(&sound).replace("\nversion 2\n", "\nversion 3\n");
+    let body = &other_version[..other_version.rfind("crc32 ").unwrap_or(0)];
     let sealed = format!("{body}crc32 {:08x}\n", kapvik_table_file::checksum(body.as_bytes()));
     assert!(matches!(TableFile::parse(sealed.as_bytes()), Err(TableError::Version { .. })));
     let cases: [(&str, Vec<u8>, &str); 6] = [
         ("truncated", sound[..sound.len() - 100].to_vec(), "truncated"),
         ("altered", altered, "was altered"),
-        ("version", sealed.into_bytes(), "is of version 2, this build reads version 1"),
+        ("version", sealed.into_bytes(), "is of version 3, this build reads version 2"),
         ("shape", edited(|file| file.blocks[2].shape[1] += 1), "block wheel.network of the frozen table has shape"),
         ("golden", edited(|file| *first_word(file, "rover.network") ^= 1 << 20), "golden pairs"),
         ("not-finite", edited(|file| *first_word(file, "wheel.network") = 0x7fc0_0000), "not finite"),

@@ -2,6 +2,9 @@
 #![no_std]
 #![no_main]
 
+use core::hint::black_box;
+
+use heapless::Vec;
 use kapvik_board_an386::{bench::Bench, entry, exit};
 use kapvik_firmware::filter::trial::{self, Scales, Trial};
 use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};
@@ -13,6 +16,7 @@ use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::{Axes, PerAxle, PerSide, Rover};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
 /// The problem that the filter's steps are counted on.
 const SCALES: Scales = Scales::NOMINAL;
@@ -42,6 +46,12 @@ fn main() -> ! {
     let [first, ..] = &ROVER.golden;
     let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
     bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
+    let query = RefCell::new(six_wheels_query());
+    bench.kernel("rover_features", 0.02, 0.6, |slip| {
+        let mut query = query.borrow_mut();
+        query.wheels.iter_mut().take(1).for_each(|state| state.slip = slip);
+        black_box(&query.rover_features());
+    });
     filter_step::<6, 6>(&bench, "filter_6_6", predicted);
     filter_step::<12, 18>(&bench, "filter_12_18", predicted);
     filter_step::<9, 12>(&bench, "filter_9_12_random_walk", drifted);
@@ -57,6 +67,23 @@ fn main() -> ! {
         bench.fingerprint(print.name, (print.compute)());
     }
     exit(0)
+}
+
+/// Six wheels at spread slips, with sinkage.
+fn six_wheels_query() -> SoilQuery {
+    let noise = WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
+    let mut query = SoilQuery { wheel: WHEEL, noise, slope: None, wheels: Vec::new() };
+    for slip in [0.05, 0.16, 0.27, 0.38, 0.49, 0.60] {
+        let state = WheelState {
+            drawbar_pull_n: 20.0 * slip - 4.0,
+            load_n: 60.0 + 10.0 * slip,
+            torque_nm: 1.0 + 2.0 * slip,
+            slip,
+            sinkage_m: Some(0.018),
+        };
+        let _ = query.wheels.push(state);
+    }
+    query
 }
 
 /// The rover network with one slip changed, so that nothing is computed ahead.

@@ -1,7 +1,7 @@
 //! Inputs and the outputs that a sound table gives for them, bit for bit.
 
 use super::numbers;
-use super::shape::{CONTEXT_FEATURES, OUTPUTS, ROVER_WHEELS, WHEEL_FEATURES, WHEEL_INPUTS};
+use super::shape::{OUTPUTS, ROVER_CONTEXT, ROVER_WHEELS, WHEEL_FEATURES, WHEEL_INPUTS};
 
 /// Golden pairs of each network.
 pub const GOLDEN_PAIRS: usize = 32;
@@ -27,7 +27,7 @@ pub struct RoverGolden {
     /// Number of wheels, 1 … 6.
     pub count: f32,
     /// Inputs that the wheels share.
-    pub context: [f32; CONTEXT_FEATURES],
+    pub context: [f32; ROVER_CONTEXT],
     /// Inputs of each wheel; those beyond `count` are of no account.
     pub wheels: [[f32; WHEEL_FEATURES]; ROVER_WHEELS],
     /// Outputs.
@@ -39,7 +39,7 @@ impl RoverGolden {
     /// All zero, for a table that is about to be filled.
     pub const ZERO: Self = Self {
         count: 0.0,
-        context: [0.0; CONTEXT_FEATURES],
+        context: [0.0; ROVER_CONTEXT],
         wheels: [[0.0; WHEEL_FEATURES]; ROVER_WHEELS],
         output: [0.0; OUTPUTS],
     };

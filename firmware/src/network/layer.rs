@@ -1,9 +1,7 @@
 //! One layer of weighted sums, equation 12.
 
-use super::Numbers;
-
-/// Sums that are worked on at once: as many as stay in the target's registers beside their operands.
-const TILE: usize = 8;
+use super::multiply_accumulate::{TILE, add_to_tile};
+use super::{Numbers, activate};
 
 /// Weights from `I` inputs to `O` sums; one row an input, so that sums run in parallel and their order is fixed.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,22 +11,15 @@ impl<const I: usize, const O: usize> Weights<I, O> {
     /// All weights zero.
     pub const ZERO: Self = Self([[0.0; O]; I]);
 
-    /// `sums` with the weighted inputs added, each sum over the inputs in their order.
-    pub fn add_to(&self, mut sums: [f32; O], input: &[f32; I]) -> [f32; O] {
+    /// Adds the weighted inputs to `sums`, each sum over the inputs in their order.
+    pub fn add_to(&self, sums: &mut [f32; O], input: &[f32; I]) {
         let (tiles, rest) = sums.as_chunks_mut::<TILE>();
         for (place, tile) in tiles.iter_mut().enumerate() {
-            let mut held = *tile;
-            for (x, row) in input.iter().zip(&self.0) {
-                if let Some(weights) = row.as_chunks::<TILE>().0.get(place) {
-                    held.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += x * weight);
-                }
-            }
-            *tile = held;
+            add_to_tile(tile, input, &self.0, place);
         }
         for (x, row) in input.iter().zip(&self.0) {
             rest.iter_mut().zip(row.as_chunks::<TILE>().1).for_each(|(sum, weight)| *sum += x * weight);
         }
-        sums
     }
 }
 
@@ -54,9 +45,19 @@ impl<const I: usize, const O: usize> Layer<I, O> {
     /// All weights zero.
     pub const ZERO: Self = Self { weights: Weights::ZERO, bias: [0.0; O] };
 
+    /// What the neurons put out: the bipolar sigmoid of their sums, `gradient` being its coefficient A.
+    pub fn run(&self, input: &[f32; I], gradient: f32) -> [f32; O] {
+        let mut outputs = self.bias;
+        self.weights.add_to(&mut outputs, input);
+        activate(&mut outputs, gradient);
+        outputs
+    }
+
     /// The weighted sums of the inputs.
     pub fn apply(&self, input: &[f32; I]) -> [f32; O] {
-        self.weights.add_to(self.bias, input)
+        let mut sums = self.bias;
+        self.weights.add_to(&mut sums, input);
+        sums
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod golden;
 mod layer;
+mod multiply_accumulate;
 mod normalisation;
 mod parts;
 mod posterior;
@@ -66,8 +67,24 @@ macro_rules! numbers {
 }
 use numbers;
 
+/// Lists one behind the other; what lacks at the end is zero.
+pub fn joined<const N: usize, const PARTS: usize>(parts: [&[f32]; PARTS]) -> [f32; N] {
+    let mut all = [0.0; N];
+    let mut places = all.iter_mut();
+    // Loop in loop: a chained iterator that is asked for one value after the other costs the target three times as much.
+    for part in parts {
+        for (value, place) in part.iter().zip(&mut places) {
+            *place = *value;
+        }
+    }
+    all
+}
+
 /// The bipolar sigmoid of equation 13 on every neuron of a layer; `gradient` is its coefficient A.
-fn activate<const N: usize>(mut sums: [f32; N], gradient: f32) -> [f32; N] {
-    sums.iter_mut().for_each(|sum| *sum = math::bipolar_sigmoid(*sum, gradient));
-    sums
+fn activate<const N: usize>(sums: &mut [f32; N], gradient: f32) {
+    let sigmoid = |sum| math::bipolar_sigmoid(sum, gradient);
+    // Several in a turn of the loop, which costs a tenth less than one.
+    let (tiles, rest) = sums.as_chunks_mut::<8>();
+    tiles.iter_mut().for_each(|tile| *tile = tile.map(sigmoid));
+    rest.iter_mut().for_each(|sum| *sum = sigmoid(*sum));
 }

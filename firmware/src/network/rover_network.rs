@@ -1,40 +1,43 @@
 //! The rover network: any one to six wheels of one instant to the soil under all of them.
 //!
-//! Each wheel passes through the same layers; mean and variance over the wheels go on, so that neither their order nor
+//! Each wheel passes through the same layer; mean and variance over the wheels go on, so that neither their order nor
 //! their number matters to the shape (Zaheer et al. 2017, "Deep Sets", is the pattern).
 
 use heapless::Vec;
 
 use super::shape::{
-    CONTEXT_FEATURES, OUTPUTS, ROVER_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_POOLED, ROVER_WHEELS, WHEEL_FEATURES,
+    OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_WHEELS,
+    WHEEL_FEATURES,
 };
-use super::{Layer, Weights, activate, numbers};
+use super::{Layer, Weights, activate, joined, numbers};
 
-/// Shared per-wheel layers, a pool, and a head.
+/// A shared layer for each wheel, a pool, and a head of two layers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoverNetwork {
-    /// The shared inputs' part in the first layer; the same for each wheel, so it is summed once.
-    pub context: Layer<CONTEXT_FEATURES, ROVER_HIDDEN>,
-    /// A wheel's own part in the first layer.
+    /// The shared inputs' part in the wheels' layer; the same for each wheel, so it is summed once.
+    pub context: Layer<ROVER_CONTEXT, ROVER_HIDDEN>,
+    /// A wheel's own part in that layer.
     pub wheel: Weights<WHEEL_FEATURES, ROVER_HIDDEN>,
-    /// Second layer of each wheel, the one that is pooled.
-    pub embedding: Layer<ROVER_HIDDEN, ROVER_POOLED>,
-    /// Layer behind the pool.
-    pub head: Layer<ROVER_HEAD_INPUTS, ROVER_HEAD>,
+    /// First layer behind the pool.
+    pub first: Layer<ROVER_HEAD_INPUTS, ROVER_FIRST_HEAD>,
+    /// Second layer behind the pool.
+    pub second: Layer<ROVER_FIRST_HEAD, ROVER_SECOND_HEAD>,
     /// Linear output: means, then log-variances.
-    pub output: Layer<ROVER_HEAD, OUTPUTS>,
+    pub output: Layer<ROVER_SECOND_HEAD, OUTPUTS>,
 }
-numbers!(RoverNetwork: context, wheel, embedding, head, output);
+numbers!(RoverNetwork: context, wheel, first, second, output);
 
 /// What the neurons put out for one rover; a trainer needs it to propagate errors back.
 #[derive(Debug, Clone)]
 pub struct RoverActivations {
-    /// First layer and pooled layer of each wheel.
-    pub wheels: Vec<([f32; ROVER_HIDDEN], [f32; ROVER_POOLED]), ROVER_WHEELS>,
+    /// Of each wheel's layer.
+    pub wheels: Vec<[f32; ROVER_HIDDEN], ROVER_WHEELS>,
     /// Inputs of the head: means, variances, shared inputs, number of wheels.
     pub pool: [f32; ROVER_HEAD_INPUTS],
-    /// Of the head.
-    pub head: [f32; ROVER_HEAD],
+    /// Of the first layer behind the pool.
+    pub first: [f32; ROVER_FIRST_HEAD],
+    /// Of the second layer behind the pool.
+    pub second: [f32; ROVER_SECOND_HEAD],
     /// Of the output layer.
     pub output: [f32; OUTPUTS],
 }
@@ -44,28 +47,31 @@ impl RoverNetwork {
     pub const ZERO: Self = Self {
         context: Layer::ZERO,
         wheel: Weights::ZERO,
-        embedding: Layer::ZERO,
-        head: Layer::ZERO,
+        first: Layer::ZERO,
+        second: Layer::ZERO,
         output: Layer::ZERO,
     };
 
     /// Runs the network on normalised inputs; wheels beyond the sixth are left out, `gradient` is A of equation 13.
     pub fn run(
         &self,
-        context: &[f32; CONTEXT_FEATURES],
-        wheels: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
+        context: &[f32; ROVER_CONTEXT],
+        inputs: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
         gradient: f32,
     ) -> RoverActivations {
         let shared = self.context.apply(context);
-        let mut activations = Vec::<_, ROVER_WHEELS>::new();
-        for features in wheels.into_iter().take(ROVER_WHEELS) {
-            let hidden = activate(self.wheel.add_to(shared, &features), gradient);
+        let mut wheels = Vec::<_, ROVER_WHEELS>::new();
+        for features in inputs.into_iter().take(ROVER_WHEELS) {
+            let mut hidden = shared;
+            self.wheel.add_to(&mut hidden, &features);
+            activate(&mut hidden, gradient);
             // Not `collect`: heapless panics where it overflows, which the bound above rules out.
-            let _ = activations.push((hidden, activate(self.embedding.apply(&hidden), gradient)));
+            let _ = wheels.push(hidden);
         }
-        let pool = pool(activations.iter().map(|(_, embedded)| embedded), context);
-        let head = activate(self.head.apply(&pool), gradient);
-        RoverActivations { wheels: activations, pool, head, output: self.output.apply(&head) }
+        let pool = pool(&wheels, context);
+        let first = self.first.run(&pool, gradient);
+        let second = self.second.run(&first, gradient);
+        RoverActivations { wheels, pool, first, second, output: self.output.apply(&second) }
     }
 }
 
@@ -74,27 +80,35 @@ pub(super) fn count_feature(count: f32) -> f32 {
     count * (1.0 / ROVER_WHEELS as f32)
 }
 
-/// Mean and variance of each pooled neuron over the wheels, then the shared inputs and the number of wheels.
-fn pool<'a>(
-    embedded: impl Iterator<Item = &'a [f32; ROVER_POOLED]> + Clone,
-    context: &[f32; CONTEXT_FEATURES],
-) -> [f32; ROVER_HEAD_INPUTS] {
-    let mut count = 0.0_f32;
-    let mut mean = [0.0_f32; ROVER_POOLED];
-    for wheel in embedded.clone() {
-        count += 1.0;
-        mean.iter_mut().zip(wheel).for_each(|(m, x)| *m += x);
-    }
+/// Mean and variance of each neuron over the wheels, then the shared inputs and the number of wheels.
+fn pool(wheels: &[[f32; ROVER_HIDDEN]], context: &[f32; ROVER_CONTEXT]) -> [f32; ROVER_HEAD_INPUTS] {
+    let count = wheels.len() as f32;
     let share = if count > 0.0 { 1.0 / count } else { 0.0 };
+    let (mut mean, mut variance) = ([0.0; ROVER_HIDDEN], [0.0; ROVER_HIDDEN]);
+    let places = mean.as_chunks_mut().0.iter_mut().zip(variance.as_chunks_mut().0);
+    for (place, (mean, variance)) in places.enumerate() {
+        let of_wheels = wheels.iter().filter_map(|wheel| wheel.as_chunks().0.get(place));
+        (*mean, *variance) = moments(of_wheels, share);
+    }
+    joined([&mean, &variance, context, &[count_feature(count)]])
+}
+
+/// Neurons whose means and variances stay in registers together.
+const POOL_TILE: usize = 8;
+
+/// Mean and variance of a few neurons over the wheels, of which each has the same `share`.
+fn moments<'a>(
+    wheels: impl Iterator<Item = &'a [f32; POOL_TILE]> + Clone,
+    share: f32,
+) -> ([f32; POOL_TILE], [f32; POOL_TILE]) {
+    let mut mean = [0.0_f32; POOL_TILE];
+    wheels.clone().for_each(|wheel| mean.iter_mut().zip(wheel).for_each(|(m, x)| *m += x));
     mean.iter_mut().for_each(|m| *m *= share);
-    let mut variance = [0.0_f32; ROVER_POOLED];
-    for wheel in embedded {
+    let mut variance = [0.0_f32; POOL_TILE];
+    for wheel in wheels {
         for ((v, x), m) in variance.iter_mut().zip(wheel).zip(&mean) {
             *v += share * (x - m) * (x - m);
         }
     }
-    let mut pool = [0.0; ROVER_HEAD_INPUTS];
-    let values = mean.iter().chain(&variance).chain(context).copied().chain([count_feature(count)]);
-    pool.iter_mut().zip(values).for_each(|(place, value)| *place = value);
-    pool
+    (mean, variance)
 }

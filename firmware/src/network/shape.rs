@@ -4,6 +4,10 @@
 pub const WHEEL_FEATURES: usize = 5;
 /// Inputs that all wheels share: wheel geometry (2) and how noisy the states are (5).
 pub const CONTEXT_FEATURES: usize = 7;
+/// Inputs of the rover network that say how the wheels' states go with slip and load.
+pub const TREND_FEATURES: usize = 20;
+/// Inputs that all wheels of the rover network share.
+pub const ROVER_CONTEXT: usize = CONTEXT_FEATURES + TREND_FEATURES;
 /// Inputs of the per-wheel network: a wheel's own and the shared ones.
 pub const WHEEL_INPUTS: usize = WHEEL_FEATURES + CONTEXT_FEATURES;
 /// What is estimated: ln c, φ, ln K.
@@ -16,16 +20,17 @@ pub const WHEEL_HIDDEN: usize = 16;
 
 /// The most wheels that the rover network takes.
 pub const ROVER_WHEELS: usize = 6;
-/// Neurons in the first layer that the wheels share.
-pub const ROVER_HIDDEN: usize = 24;
-/// Neurons whose mean and variance over the wheels are pooled.
-pub const ROVER_POOLED: usize = 16;
+/// Neurons in the layer of each wheel, whose mean and variance over the wheels are pooled.
+pub const ROVER_HIDDEN: usize = 16;
 /// Inputs of the layer behind the pool: means, variances, the shared inputs and the number of wheels.
-pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_POOLED + CONTEXT_FEATURES + 1;
-/// Neurons in the layer behind the pool.
-pub const ROVER_HEAD: usize = 16;
+pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_HIDDEN + ROVER_CONTEXT + 1;
+/// Neurons in the first layer behind the pool.
+pub const ROVER_FIRST_HEAD: usize = 64;
+/// Neurons in the second layer behind the pool.
+pub const ROVER_SECOND_HEAD: usize = 32;
 
 /// Layer sizes of the per-wheel network, as its frozen table states them.
 pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];
 /// Layer sizes of the rover network, as its frozen table states them.
-pub const ROVER_SHAPE: [usize; 6] = [CONTEXT_FEATURES, WHEEL_FEATURES, ROVER_HIDDEN, ROVER_POOLED, ROVER_HEAD, OUTPUTS];
+pub const ROVER_SHAPE: [usize; 6] =
+    [ROVER_CONTEXT, WHEEL_FEATURES, ROVER_HIDDEN, ROVER_FIRST_HEAD, ROVER_SECOND_HEAD, OUTPUTS];

@@ -1,6 +1,6 @@
 //! The frozen tables: a network with all that is needed to use it.
 
-use super::shape::{CONTEXT_FEATURES, OUTPUTS, WHEEL_FEATURES, WHEEL_INPUTS};
+use super::shape::{OUTPUTS, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPUTS};
 use super::{
     GOLDEN_PAIRS, Normalisation, Numbers, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden, WheelNetwork, numbers,
 };
@@ -27,7 +27,7 @@ pub struct RoverTable {
     /// Coefficient A of the bipolar sigmoid, equation 13.
     pub gradient: f32,
     /// Of the inputs that the wheels share.
-    pub context: Normalisation<CONTEXT_FEATURES>,
+    pub context: Normalisation<ROVER_CONTEXT>,
     /// Of each wheel's own inputs.
     pub wheel: Normalisation<WHEEL_FEATURES>,
     /// Weights.
@@ -74,7 +74,7 @@ impl RoverTable {
     /// The network's outputs for inputs in their own units.
     pub fn outputs(
         &self,
-        context: &[f32; CONTEXT_FEATURES],
+        context: &[f32; ROVER_CONTEXT],
         wheels: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
     ) -> [f32; OUTPUTS] {
         let wheels = wheels.into_iter().map(|features| self.wheel.apply(&features));

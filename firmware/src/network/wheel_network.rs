@@ -1,7 +1,7 @@
 //! The per-wheel network of the seed: one wheel's state to the soil under it.
 
 use super::shape::{OUTPUTS, WHEEL_HIDDEN, WHEEL_INPUTS};
-use super::{Layer, activate, numbers};
+use super::{Layer, numbers};
 
 /// Two hidden layers on the inputs of one wheel.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +32,8 @@ impl WheelNetwork {
 
     /// Runs the network on normalised inputs; `gradient` is A of equation 13.
     pub fn run(&self, input: &[f32; WHEEL_INPUTS], gradient: f32) -> WheelActivations {
-        let first = activate(self.first.apply(input), gradient);
-        let second = activate(self.second.apply(&first), gradient);
+        let first = self.first.run(input, gradient);
+        let second = self.second.run(&first, gradient);
         WheelActivations { first, second, output: self.output.apply(&second) }
     }
 }

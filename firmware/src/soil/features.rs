@@ -1,16 +1,23 @@
 //! The networks' inputs: dimensionless groups, so that one table serves wheels of many sizes and loads.
 
+use heapless::Vec;
+
 use crate::math;
-use crate::network::{CONTEXT_FEATURES, WHEEL_FEATURES, WHEEL_INPUTS};
+use crate::network::{CONTEXT_FEATURES, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPUTS, joined};
 use crate::terramechanics::Wheel;
-use crate::wheel_state::{Slope, SoilQuery, WheelNoise, WheelState};
+use crate::wheel_state::{Slope, SoilQuery, WHEELS, WheelNoise, WheelState};
+
+use super::trend::trend;
 
 /// Inputs of one wheel: DP/W, T/(rW), slip, the fifth input and ln(W/(rb) / 10 kPa).
 pub type WheelFeatures = [f32; WHEEL_FEATURES];
 
 /// Inputs that the wheels share: ln(r / 0.1 m), ln(b/r), and the logarithms of the standard deviations of DP/W̄, W/W̄,
 /// T/(rW̄), slip and the fifth input, W̄ being the mean load.
-pub type ContextFeatures = [f32; CONTEXT_FEATURES];
+type ContextFeatures = [f32; CONTEXT_FEATURES];
+
+/// Inputs that the wheels of the rover network share: those above, and the trend over the wheels.
+pub type RoverContext = [f32; ROVER_CONTEXT];
 
 /// The input that a network may do without.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,29 +78,32 @@ impl SoilQuery {
         self.wheels.iter().map(|state| state.load_n).sum::<f32>() / self.wheels.len() as f32
     }
 
-    /// The fifth input of a wheel in the rover network: unknown for all where it is not known of all.
-    pub fn sinkage_input(&self, state: &WheelState) -> FifthInput {
-        if self.wheels.iter().all(|state| state.sinkage_m.is_some()) {
-            FifthInput::sinkage(&self.wheel, state, &self.noise)
-        } else {
-            FifthInput::UNKNOWN
-        }
+    /// The fifth input of each wheel in the rover network: unknown for all where it is not known of all.
+    pub fn sinkage_inputs(&self) -> impl Iterator<Item = FifthInput> + '_ {
+        let seen = self.wheels.iter().all(|state| state.sinkage_m.is_some());
+        self.wheels.iter().map(move |state| {
+            if seen { FifthInput::sinkage(&self.wheel, state, &self.noise) } else { FifthInput::UNKNOWN }
+        })
     }
 
     /// The rover network's inputs: the shared ones, then those of each wheel.
-    pub fn rover_features(&self) -> (ContextFeatures, impl Iterator<Item = WheelFeatures> + Clone + '_) {
-        let fifth = self.wheels.first().map_or(FifthInput::UNKNOWN, |state| self.sinkage_input(state));
-        let context = context_features(&self.wheel, &self.noise, self.mean_load_n(), fifth);
-        let wheels = self.wheels.iter().map(|state| wheel_features(&self.wheel, state, self.sinkage_input(state)));
-        (context, wheels)
+    pub fn rover_features(&self) -> (RoverContext, Vec<WheelFeatures, WHEELS>) {
+        let mean_load_n = self.mean_load_n();
+        let fifth = self.sinkage_inputs().next().unwrap_or(FifthInput::UNKNOWN);
+        let context = context_features(&self.wheel, &self.noise, mean_load_n, fifth);
+        let mut wheels = Vec::new();
+        for (state, fifth) in self.wheels.iter().zip(self.sinkage_inputs()) {
+            // Not `collect`: heapless panics where it overflows.
+            let _ = wheels.push(wheel_features(&self.wheel, state, fifth));
+        }
+        let torque_noise = self.noise.torque_nm / (self.wheel.radius_m * mean_load_n);
+        (joined([&context, &trend(&wheels, torque_noise)]), wheels)
     }
 
     /// The per-wheel network's inputs for one wheel.
     pub fn wheel_inputs(&self, state: &WheelState, fifth: FifthInput) -> [f32; WHEEL_INPUTS] {
         let own = wheel_features(&self.wheel, state, fifth);
         let shared = context_features(&self.wheel, &self.noise, state.load_n, fifth);
-        let mut input = [0.0; WHEEL_INPUTS];
-        input.iter_mut().zip(own.iter().chain(&shared)).for_each(|(place, value)| *place = *value);
-        input
+        joined([&own, &shared])
     }
 }

@@ -4,9 +4,10 @@ mod answer;
 mod estimate;
 mod features;
 mod query;
+mod trend;
 
 pub use answer::QueryAnswer;
 pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};
-pub use features::{ContextFeatures, FifthInput, WheelFeatures};
+pub use features::{FifthInput, RoverContext, WheelFeatures};
 pub use query::answer;
 pub(crate) use query::{rover_outputs, wheel_soil};

@@ -39,15 +39,14 @@ pub(crate) fn rover_outputs(query: &SoilQuery) -> Result<([f32; OUTPUTS], bool),
     if query.wheels.is_empty() {
         return Err(Refusal::NoWheels);
     }
-    for state in &query.wheels {
+    for (state, fifth) in query.wheels.iter().zip(query.sinkage_inputs()) {
         check_state(state)?;
-        let fifth = query.sinkage_input(state);
         check(fifth.std.is_finite(), fifth.std > 0.0)?;
     }
     let (context, wheels) = query.rover_features();
     let table = &frozen::ROVER;
-    let outputs = table.outputs(&context, wheels.clone());
-    let inside = table.context.contains(&context) && wheels.into_iter().all(|wheel| table.wheel.contains(&wheel));
+    let outputs = table.outputs(&context, wheels.iter().copied());
+    let inside = table.context.contains(&context) && wheels.iter().all(|wheel| table.wheel.contains(wheel));
     Ok((outputs, inside))
 }
 

@@ -1,7 +1,7 @@
 //! Examples for the trainers: normalised inputs, standardised targets.
 
-use kapvik_firmware::network::{CONTEXT_FEATURES, Normalisation, ROVER_WHEELS, TARGETS, WHEEL_FEATURES, WHEEL_INPUTS};
-use kapvik_firmware::soil::{ContextFeatures, WheelFeatures};
+use kapvik_firmware::network::{Normalisation, ROVER_CONTEXT, ROVER_WHEELS, TARGETS, WHEEL_FEATURES, WHEEL_INPUTS};
+use kapvik_firmware::soil::{RoverContext, WheelFeatures};
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::SoilQuery;
 
@@ -14,7 +14,7 @@ pub type WheelInput = [f32; WHEEL_INPUTS];
 #[derive(Debug, Clone)]
 pub struct RoverInput {
     /// Those that the wheels share.
-    pub context: ContextFeatures,
+    pub context: RoverContext,
     /// Those of each wheel.
     pub wheels: heapless::Vec<WheelFeatures, ROVER_WHEELS>,
 }
@@ -41,7 +41,7 @@ pub fn soil_targets(soil: &Soil<f64>) -> [f64; TARGETS] {
 /// The rover network's inputs for a query, in their own units.
 pub fn rover_features(query: &SoilQuery) -> RoverInput {
     let (context, wheels) = query.rover_features();
-    RoverInput { context, wheels: wheels.collect() }
+    RoverInput { context, wheels }
 }
 
 /// Normalisation of a set of inputs: mean, standard deviation, and the range that all but one in 5000 lie in, each side
@@ -70,7 +70,7 @@ pub fn normalisation<'a, const N: usize>(inputs: impl Iterator<Item = &'a [f32; 
 #[derive(Debug, Clone)]
 pub struct RoverNormalisation {
     /// Of those that the wheels share.
-    pub context: Normalisation<CONTEXT_FEATURES>,
+    pub context: Normalisation<ROVER_CONTEXT>,
     /// Of each wheel's own.
     pub wheel: Normalisation<WHEEL_FEATURES>,
 }

@@ -1,7 +1,7 @@
 //! What the trainers need of a network: outputs, and a loss's way back to the weights.
 
 use kapvik_firmware::network::{
-    Layer, Numbers, OUTPUTS, ROVER_HEAD_INPUTS, ROVER_POOLED, RoverActivations, RoverNetwork, Weights,
+    Layer, Numbers, OUTPUTS, ROVER_HEAD_INPUTS, ROVER_HIDDEN, RoverActivations, RoverNetwork, Weights,
     WheelActivations, WheelNetwork,
 };
 
@@ -104,9 +104,14 @@ fn through_layer<const I: usize, const O: usize>(
     slope: &[f32; O],
     gradient: &mut Layer<I, O>,
 ) -> [f32; I] {
+    through_first_layer(input, slope, gradient);
+    input_slope(&layer.weights, slope)
+}
+
+/// The same where nothing lies before the layer but inputs.
+fn through_first_layer<const I: usize, const O: usize>(input: &[f32; I], slope: &[f32; O], gradient: &mut Layer<I, O>) {
     through_weights(input, slope, &mut gradient.weights);
     gradient.bias.iter_mut().zip(slope).for_each(|(g, s)| *g += s);
-    input_slope(&layer.weights, slope)
 }
 
 fn layer_fan_in<const I: usize, const O: usize>(fan_in: usize) -> Layer<I, O> {
@@ -139,7 +144,7 @@ impl Trainable for WheelNetwork {
         let slope = through_activation(slope, &run.second);
         let slope = through_layer(&self.second, &run.first, &slope, &mut gradient.second);
         let slope = through_activation(slope, &run.first);
-        through_layer(&self.first, input, &slope, &mut gradient.first);
+        through_first_layer(input, &slope, &mut gradient.first);
     }
 }
 
@@ -151,14 +156,14 @@ impl Trainable for RoverNetwork {
         Self::ZERO
     }
     fn fan_in() -> Self {
-        use kapvik_firmware::network::{CONTEXT_FEATURES, ROVER_HEAD, ROVER_HIDDEN, WHEEL_FEATURES};
-        let first = CONTEXT_FEATURES + WHEEL_FEATURES;
+        use kapvik_firmware::network::{ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_SECOND_HEAD, WHEEL_FEATURES};
+        let wheel = ROVER_CONTEXT + WHEEL_FEATURES;
         Self {
-            context: layer_fan_in(first),
-            wheel: Weights([[first as f32; ROVER_HIDDEN]; WHEEL_FEATURES]),
-            embedding: layer_fan_in(ROVER_HIDDEN),
-            head: layer_fan_in(ROVER_HEAD_INPUTS),
-            output: layer_fan_in(ROVER_HEAD),
+            context: layer_fan_in(wheel),
+            wheel: Weights([[wheel as f32; ROVER_HIDDEN]; WHEEL_FEATURES]),
+            first: layer_fan_in(ROVER_HEAD_INPUTS),
+            second: layer_fan_in(ROVER_FIRST_HEAD),
+            output: layer_fan_in(ROVER_SECOND_HEAD),
         }
     }
     fn run(&self, input: &Self::Input) -> Self::Activations {
@@ -168,22 +173,24 @@ impl Trainable for RoverNetwork {
         &activations.output
     }
     fn backward(&self, input: &RoverInput, run: &RoverActivations, slope: &[f32; OUTPUTS], gradient: &mut Self) {
-        let slope = through_layer(&self.output, &run.head, slope, &mut gradient.output);
-        let slope = through_activation(slope, &run.head);
-        let pool_slope = through_layer(&self.head, &run.pool, &slope, &mut gradient.head);
+        let slope = through_layer(&self.output, &run.second, slope, &mut gradient.output);
+        let slope = through_activation(slope, &run.second);
+        let slope = through_layer(&self.second, &run.first, &slope, &mut gradient.second);
+        let slope = through_activation(slope, &run.first);
+        let pool_slope = through_layer(&self.first, &run.pool, &slope, &mut gradient.first);
         let share = 1.0 / run.wheels.len() as f32;
-        for (features, (hidden, embedded)) in input.wheels.iter().zip(&run.wheels) {
-            let mut slope = [0.0; ROVER_POOLED];
+        let mut context_slope = [0.0; ROVER_HIDDEN];
+        for (features, hidden) in input.wheels.iter().zip(&run.wheels) {
+            let mut slope = [0.0; ROVER_HIDDEN];
             for (k, s) in slope.iter_mut().enumerate() {
                 // The variance's slope by way of the mean vanishes, since deviations add up to zero.
-                *s = share * (pool_slope[k] + 2.0 * pool_slope[ROVER_POOLED + k] * (embedded[k] - run.pool[k]));
+                *s = share * (pool_slope[k] + 2.0 * pool_slope[ROVER_HIDDEN + k] * (hidden[k] - run.pool[k]));
             }
-            let slope = through_activation(slope, embedded);
-            let slope = through_layer(&self.embedding, hidden, &slope, &mut gradient.embedding);
             let slope = through_activation(slope, hidden);
             through_weights(features, &slope, &mut gradient.wheel);
-            through_layer(&self.context, &input.context, &slope, &mut gradient.context);
+            context_slope.iter_mut().zip(slope).for_each(|(sum, s)| *sum += s);
         }
+        through_first_layer(&input.context, &context_slope, &mut gradient.context);
     }
 }
 
