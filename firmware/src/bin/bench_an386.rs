@@ -2,6 +2,7 @@
 #![no_std]
 #![no_main]
 
+use core::cell::{Cell, RefCell};
 use core::hint::black_box;
 
 use heapless::Vec;
