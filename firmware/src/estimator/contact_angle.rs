@@ -6,7 +6,7 @@
 //! from a quotient of noisy rates.
 
 use super::walk_rate::WalkRate;
-use super::watch::Watch;
+use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise};
 use crate::scalar::Scalar;
@@ -73,6 +73,8 @@ pub(super) struct SideReadings<S> {
 /// wider, and the filter might take a wheel that rolls forward for one that hangs from a ceiling and rolls back.
 const UNKNOWN_RATIO: f64 = 0.3;
 const UNKNOWN_ANGLE: f64 = 0.2;
+/// The part of that which is added where the state has moved faster than it drifts.
+const LOOSENED: f64 = 0.2;
 /// A contact angle farther from the pitch of its link is given up, rad.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
 /// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
@@ -197,8 +199,13 @@ impl<S: Scalar> ContactAngleFilter<S> {
         ];
         let model = self.model;
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
-        if self.watch.contradicted(&told) {
-            let _ = self.filter.random_walk(&Self::unknown_std());
+        let loosened = match self.watch.judge(&told) {
+            Contradiction::Passing => None,
+            Contradiction::Moved => Some(Self::unknown_std().map(|std| std * S::constant(LOOSENED))),
+            Contradiction::Wrong => Some(Self::unknown_std()),
+        };
+        if let Some(stds) = loosened {
+            let _ = self.filter.random_walk(&stds);
         }
         self.give_up_impossible();
         told

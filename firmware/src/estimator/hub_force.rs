@@ -7,7 +7,7 @@
 //! Normal load and drawbar pull are these forces seen along the contact ([`super::drawbar_split`]).
 
 use super::walk_rate::WalkRate;
-use super::watch::Watch;
+use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, Rover};
 use crate::scalar::Scalar;
@@ -138,7 +138,11 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// A wheel stands or has just started: the forces are not what they were a frame ago.
     pub fn unsettle(&mut self) {
-        let _ = self.filter.random_walk(&[S::constant(UNSETTLED_N); STATES]);
+        self.loosen(S::constant(UNSETTLED_N));
+    }
+
+    fn loosen(&mut self, std_n: S) {
+        let _ = self.filter.random_walk(&[std_n; STATES]);
     }
 
     /// The wheels roll as they will.
@@ -184,8 +188,10 @@ impl<S: Scalar> HubForceFilter<S> {
             ],
             Gate::one_in_a_thousand(),
         );
-        if self.watch.contradicted(&told) {
-            let _ = self.filter.random_walk(&[self.unknown_n; STATES]);
+        match self.watch.judge(&told) {
+            Contradiction::Passing => {}
+            Contradiction::Moved => self.unsettle(),
+            Contradiction::Wrong => self.loosen(self.unknown_n),
         }
         told
     }

@@ -4,7 +4,7 @@
 //! with the rate of its link added, and the speed of the hub along its contact.
 
 use super::walk_rate::WalkRate;
-use super::watch::Watch;
+use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
@@ -67,7 +67,7 @@ pub(super) struct WheelReadings<S> {
 }
 
 /// One standard deviation of what is not known at all.
-const UNKNOWN: [f64; STATES] = [1.0, 5.0, 0.5];
+const UNKNOWN: [f64; STATES] = [1.0, 3.0, 0.3];
 /// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
 const TORQUE_DRIFT_NM: f64 = 1.1;
 const SLIP_DRIFT: f64 = 0.37;
@@ -79,6 +79,9 @@ const UNSEEN_TORQUE_NM: f64 = 2.0;
 /// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose
 /// within one frame.
 const UNSETTLED_TORQUE_NM: f64 = 1.0;
+/// What is added to what is not known of a state that has moved, as standard deviations: where the rims change speed, torque
+/// and slip follow within a second.
+const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
 /// The slip that a wheel starts with, and its standard deviation.
 const STARTING_SLIP: [f64; 2] = [0.2, 0.4];
 
@@ -134,7 +137,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     /// The wheel stands, or has just started: its torque is not what it was a frame ago.
     pub fn unsettle(&mut self) {
-        let _ = self.filter.random_walk(&[S::zero(), S::constant(UNSETTLED_TORQUE_NM), S::zero()]);
+        self.loosen(&[0.0, UNSETTLED_TORQUE_NM, 0.0]);
+    }
+
+    fn loosen(&mut self, stds: &[f64; STATES]) {
+        let _ = self.filter.random_walk(&stds.map(S::constant));
     }
 
     /// The wheel rolls as it will: what it was like before is of no account for how fast it wanders.
@@ -162,8 +169,10 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             Gate::one_in_a_thousand(),
         );
         self.share_camera_error(readings);
-        if self.watch.contradicted(&told) {
-            let _ = self.filter.random_walk(&UNKNOWN.map(S::constant));
+        match self.watch.judge(&told) {
+            Contradiction::Passing => {}
+            Contradiction::Moved => self.loosen(&LOOSENED),
+            Contradiction::Wrong => self.loosen(&UNKNOWN),
         }
         told
     }

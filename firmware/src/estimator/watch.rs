@@ -1,11 +1,24 @@
-//! Notices when measurements contradict a filter for long: then the filter is wrong, not they.
+//! Notices when measurements contradict a filter: for a frame they are wrong, for several the filter is.
 
 use crate::filter::{Fate, Innovation};
 
-/// Frames in a row with a rejected measurement after which the filter gives up what it believes.
-const PATIENCE: u8 = 8;
+/// Frames in a row with a rejected measurement after which the state is taken to have moved faster than it drifts.
+const MOVED: u8 = 2;
+/// Frames in a row after which the filter gives up what it believes.
+const WRONG: u8 = 12;
 /// Frames in which a filter that gave up does not give up again: else one bad sensor would keep it from ever learning.
 const REST: u8 = 50;
+
+/// What a filter is to make of its contradictions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Contradiction {
+    /// None, or one that may be a bad measurement.
+    Passing,
+    /// The state has moved: loosen it.
+    Moved,
+    /// The filter is wrong: give up what it believes.
+    Wrong,
+}
 
 /// The count of contradictions of one filter.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,17 +29,20 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Takes what an update told. Whether the filter must now give up what it believes.
-    pub fn contradicted<S, const M: usize>(&mut self, told: &Innovation<S, M>) -> bool {
+    /// Takes what an update told.
+    pub fn judge<S, const M: usize>(&mut self, told: &Innovation<S, M>) -> Contradiction {
         self.rest = self.rest.saturating_sub(1);
         let rejected = told.residuals.iter().any(|residual| residual.fate == Fate::Rejected);
         self.in_a_row = if rejected { self.in_a_row.saturating_add(1) } else { 0 };
-        let gives_up = self.in_a_row >= PATIENCE && self.rest == 0;
-        if gives_up {
+        if self.in_a_row >= WRONG && self.rest == 0 {
             (self.in_a_row, self.rest) = (0, REST);
             self.relearned = self.relearned.saturating_add(1);
+            Contradiction::Wrong
+        } else if self.in_a_row >= MOVED {
+            Contradiction::Moved
+        } else {
+            Contradiction::Passing
         }
-        gives_up
     }
 
     /// How often the filter gave up.
