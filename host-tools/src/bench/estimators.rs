@@ -40,8 +40,9 @@ fn print(trial: &Trial) {
     println!("\n{:?}, {} drives", trial.scenario, trial.drives.len());
     trial.failures.iter().for_each(|failure| println!("  no drive: {failure}"));
     println!("  {:16} {:>9} {:>9} {:>6} {:>9}   within 1 σ, 2 σ", "", "RMSE", "raw", "ratio", "bias");
-    for (quantity, tally) in Quantity::ALL.into_iter().zip(trial.tallies()) {
-        print_tally(quantity, &tally);
+    let errors = trial.errors();
+    for quantity in Quantity::ALL {
+        print_tally(quantity, errors.of(quantity));
     }
     let names = ["NEES filter 1", "NEES filter 2", "NIS filter 1", "NIS angles", "NIS forces"];
     for (name, squares) in names.into_iter().zip(trial.squares()) {
@@ -67,7 +68,7 @@ fn print_tally(quantity: Quantity, tally: &Tally) {
         Quantity::LoadSplitPull => ("split by load", 1.0),
     };
     let [one, two] = tally.coverage();
-    let ratio = tally.rmse() / tally.naive_rmse();
+    let ratio = tally.over_naive();
     let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
     let bias = unit * tally.bias();
     println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.2} {bias:9.4}   {:5.1} {:5.1}", 100.0 * one, 100.0 * two);

@@ -6,6 +6,7 @@ use crate::trial::{Drive, SoilPoint, Trial};
 const LOOK_S: f64 = 31.0;
 
 /// Errors of one drive's estimate, with what it stated.
+#[derive(Debug, Clone, Copy)]
 struct Errors {
     friction_angle_deg: f64,
     friction_angle_std_deg: f64,
@@ -13,29 +14,70 @@ struct Errors {
     ln_shear_modulus_std: f64,
 }
 
+/// Errors of the soil estimate thirty seconds after the start, drive by drive.
+#[derive(Debug, Clone)]
+pub struct SoilErrors {
+    drives: Vec<Errors>,
+}
+
+impl SoilErrors {
+    /// The errors of a trial's drives.
+    pub fn after_30_s(trial: &Trial) -> Self {
+        Self { drives: trial.drives.iter().filter_map(|drive| errors(after_30_s(drive)?)).collect() }
+    }
+
+    /// Share of the drives in which the friction angle is within two of its stated standard deviations.
+    pub fn within_two_std(&self) -> f64 {
+        let within = |row: &&Errors| row.friction_angle_deg.abs() <= 2.0 * row.friction_angle_std_deg;
+        self.drives.iter().filter(within).count() as f64 / self.drives.len().max(1) as f64
+    }
+
+    fn root_mean_square(&self, pick: fn(&Errors) -> f64) -> f64 {
+        (self.drives.iter().map(|row| pick(row).powi(2)).sum::<f64>() / self.drives.len().max(1) as f64).sqrt()
+    }
+}
+
+/// Soil changes of a trial's drives, and what was said of them.
+#[derive(Debug, Clone, Copy)]
+pub struct SoilChanges {
+    /// Drives on which the soil changed.
+    pub real: usize,
+    /// Changes that were noticed.
+    pub noticed: usize,
+    /// The longest travel from the front wheels' arrival to the notice, m.
+    pub latest_m: f64,
+    /// Changes that were said beside these.
+    pub claimed_beside: usize,
+}
+
+impl SoilChanges {
+    /// Those of a trial.
+    pub fn of(trial: &Trial) -> Self {
+        let noticed: Vec<f64> = trial.drives.iter().filter_map(noticed_after_m).collect();
+        let claims = |drive: &Drive| drive.soils.last().map_or(0, |point| usize::from(point.said.changes));
+        Self {
+            real: trial.drives.iter().filter(|drive| changed_at(drive).is_some()).count(),
+            noticed: noticed.len(),
+            latest_m: noticed.iter().copied().fold(0.0, f64::max),
+            claimed_beside: trial.drives.iter().map(claims).sum::<usize>() - noticed.len(),
+        }
+    }
+}
+
 /// Prints both.
-pub fn print(trial: &Trial) {
-    let errors: Vec<Errors> = trial.drives.iter().filter_map(|drive| errors(after_30_s(drive)?)).collect();
-    let count = errors.len().max(1) as f64;
-    let rms = |pick: fn(&Errors) -> f64| (errors.iter().map(|row| pick(row).powi(2)).sum::<f64>() / count).sqrt();
-    let within = errors.iter().filter(|row| row.friction_angle_deg.abs() <= 2.0 * row.friction_angle_std_deg).count();
+pub(super) fn print(trial: &Trial) {
+    let errors = SoilErrors::after_30_s(trial);
     println!(
-        "  soil after 30 s: φ RMSE {:.2}°, stated {:.2}°, within 2 σ in {:.0} % of {count} drives; ln K RMSE {:.3}, stated {:.3}",
-        rms(|row| row.friction_angle_deg),
-        rms(|row| row.friction_angle_std_deg),
-        100.0 * within as f64 / count,
-        rms(|row| row.ln_shear_modulus),
-        rms(|row| row.ln_shear_modulus_std),
+        "  soil after 30 s: φ RMSE {:.2}°, stated {:.2}°, within 2 σ in {:.0} % of the drives; ln K RMSE {:.3}, stated {:.3}",
+        errors.root_mean_square(|row| row.friction_angle_deg),
+        errors.root_mean_square(|row| row.friction_angle_std_deg),
+        100.0 * errors.within_two_std(),
+        errors.root_mean_square(|row| row.ln_shear_modulus),
+        errors.root_mean_square(|row| row.ln_shear_modulus_std),
     );
-    let noticed: Vec<f64> = trial.drives.iter().filter_map(noticed_after_m).collect();
-    let changed = trial.drives.iter().filter(|drive| changed_at(drive).is_some()).count();
-    let claimed: usize =
-        trial.drives.iter().map(|drive| drive.soils.last().map_or(0, |point| usize::from(point.said.changes))).sum();
-    let latest = noticed.iter().copied().fold(0.0, f64::max);
+    let SoilChanges { real, noticed, latest_m, claimed_beside } = SoilChanges::of(trial);
     println!(
-        "  soil changes: {changed} true, {} noticed, the latest after {latest:.2} m; {} claimed beside",
-        noticed.len(),
-        claimed - noticed.len(),
+        "  soil changes: {real} real, {noticed} noticed, the latest after {latest_m:.2} m; {claimed_beside} claimed beside"
     );
 }
 

@@ -1,7 +1,7 @@
 //! Measurements, one subject a file.
 
 pub mod estimators;
-mod estimators_soil;
+pub mod estimators_soil;
 pub mod forward;
 pub mod limit;
 pub mod network;

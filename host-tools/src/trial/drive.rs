@@ -1,16 +1,16 @@
 //! One simulated drive through the estimators.
 
-use kapvik_firmware::estimator::{Estimate, WheelEstimate};
+use kapvik_firmware::estimator::WheelEstimate;
 use kapvik_firmware::filter::{Fate, Innovation};
 use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
-use kapvik_firmware::rover::{PerSide, PerWheel, Rover};
+use kapvik_firmware::rover::Rover;
 
 use super::consistency::{NormalisedSquares, normalised_square};
-use super::tally::Tally;
-use crate::data::truth_file::Truth;
+use super::errors::Errors;
+use crate::data::truth_file::{Truth, WheelTruth};
 use crate::error::HostError;
-use crate::replay::naive::{NaiveWheel, TrailingMean, naive};
+use crate::replay::naive::{TrailingMean, naive};
 use crate::simulate::{Options, Scenario, Traverse};
 
 /// What is compared with the truth.
@@ -51,8 +51,8 @@ impl Quantity {
 /// What a drive came to.
 #[derive(Debug, Clone, Default)]
 pub struct Drive {
-    /// Errors, in the order of [`Quantity::ALL`].
-    pub tallies: [Tally; 8],
+    /// Errors.
+    pub errors: Errors,
     /// Squared errors of filter 1: torque and slip of each wheel.
     pub filter_1: NormalisedSquares,
     /// Squared errors of filter 2: contact angle, load and drawbar pull of each front wheel.
@@ -96,57 +96,11 @@ impl Drive {
             let second = trailing.push(frame.time_us, now);
             drive.soils.extend(estimate.soil.ok().map(|said| SoilPoint { said, truth }));
             if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
-                drive.take_errors(&estimate, &now, &second, &truth);
+                drive.errors.take(&estimate, &now, &second, &truth);
                 drive.take_squares(index, &pipeline, &estimate, &truth);
             }
         }
         Ok(drive)
-    }
-
-    fn tally(&mut self, quantity: Quantity) -> &mut Tally {
-        &mut self.tallies[quantity as usize]
-    }
-
-    fn take_errors(
-        &mut self,
-        estimate: &FrameEstimate,
-        now: &PerWheel<NaiveWheel>,
-        second: &PerWheel<NaiveWheel>,
-        truth: &Truth,
-    ) {
-        for (place, wheel) in estimate.wheels.iter_wheels().enumerate() {
-            let nth = |wheels: &PerWheel<NaiveWheel>| wheels.iter_wheels().nth(place).copied().unwrap_or_default();
-            let (now, second) = (nth(now), nth(second));
-            let Some(truth) = truth.wheels.iter_wheels().nth(place) else { continue };
-            if let (Some(slip), Some(true_slip)) = (wheel.slip, truth.slip) {
-                self.tally(Quantity::Slip).take(slip, now.slip, second.slip, true_slip);
-            }
-            let both = |value: fn(&NaiveWheel) -> Option<f64>| (value(&now), value(&second));
-            let mut take = |quantity, estimate, (now, second), truth| {
-                self.tally(quantity).take(estimate, now, second, truth);
-            };
-            let torque = both(|wheel| wheel.resistive_torque_nm);
-            take(Quantity::Torque, wheel.resistive_torque_nm, torque, truth.resistive_torque_nm);
-            let angle = both(|wheel| wheel.contact_angle_rad);
-            take(Quantity::ContactAngle, wheel.contact_angle_rad, angle, truth.contact_angle_rad);
-            let load = both(|wheel| wheel.normal_load_n);
-            take(Quantity::Load, wheel.normal_load_n, load, truth.normal_load_n);
-            let pull = both(|wheel| wheel.drawbar_pull_n);
-            let by_load = Estimate { value: wheel.drawbar_pull_by_load_n, std: 0.0 };
-            if place % 3 == 0 {
-                take(Quantity::FrontPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
-            } else {
-                take(Quantity::SplitPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
-                take(Quantity::LoadSplitPull, by_load, pull, truth.drawbar_pull_n);
-            }
-        }
-        let sums = |pulls: PerWheel<Option<f64>>| pulls.map(|side| Some(side.middle? + side.rear?));
-        let (now, second) = (sums(now.map_wheels(|w| w.drawbar_pull_n)), sums(second.map_wheels(|w| w.drawbar_pull_n)));
-        let truth = truth.wheels.map(|side| side.middle.drawbar_pull_n + side.rear.drawbar_pull_n);
-        let PerSide { left, right } = estimate.bogie_drawbar_pull_n.zip(now.zip(second)).zip(truth);
-        for ((estimate, (now, second)), truth) in [left, right] {
-            self.tally(Quantity::BogiePull).take(estimate, now, second, truth);
-        }
     }
 
     fn take_squares(&mut self, index: usize, pipeline: &Pipeline, estimate: &FrameEstimate, truth: &Truth) {
@@ -183,7 +137,7 @@ impl Drive {
     }
 }
 
-fn errors_of_contact(wheel: &WheelEstimate, truth: &crate::data::truth_file::WheelTruth) -> [f64; 3] {
+fn errors_of_contact(wheel: &WheelEstimate, truth: &WheelTruth) -> [f64; 3] {
     [
         f64::from(wheel.contact_angle_rad.value) - truth.contact_angle_rad,
         f64::from(wheel.normal_load_n.value) - truth.normal_load_n,

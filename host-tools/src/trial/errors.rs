@@ -21,6 +21,11 @@ impl Errors {
         &self.tallies[quantity as usize]
     }
 
+    /// Adds the errors of another drive.
+    pub fn add(&mut self, other: &Self) {
+        self.tallies.iter_mut().zip(&other.tallies).for_each(|(sum, part)| sum.add(part));
+    }
+
     /// Takes the estimates of a frame, what that frame and the last second of the raw sensors say, and the truth.
     pub fn take(
         &mut self,

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::consistency::NormalisedSquares;
 use super::drive::Drive;
-use super::tally::Tally;
+use super::errors::Errors;
 use super::whiteness::ljung_box;
 use crate::error::HostError;
 use crate::simulate::{Options, Scenario};
@@ -39,13 +39,12 @@ pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>
 }
 
 impl Trial {
-    /// Errors of all drives, in the order of [`super::Quantity::ALL`].
-    pub fn tallies(&self) -> [Tally; 8] {
-        let mut sums = [Tally::default(); 8];
-        for drive in &self.drives {
-            sums.iter_mut().zip(&drive.tallies).for_each(|(sum, part)| sum.add(part));
-        }
-        sums
+    /// Errors of all drives.
+    pub fn errors(&self) -> Errors {
+        self.drives.iter().fold(Errors::default(), |mut sum, drive| {
+            sum.add(&drive.errors);
+            sum
+        })
     }
 
     /// Squares of all drives, frame by frame: errors of filters 1 and 2, then innovations of filter 1 and of both halves

@@ -9,32 +9,41 @@ pub struct Tally {
     squares: f64,
     within: [u64; 2],
     count: u64,
-    naive: Squares,
-    naive_mean: Squares,
+    frame: Raw,
+    second: Raw,
 }
 
+/// Squared errors of the raw sensors, and of the estimate in the frames where they said something.
 #[derive(Debug, Clone, Copy, Default)]
-struct Squares {
-    sum: f64,
+struct Raw {
+    squares: f64,
+    of_estimate: f64,
     count: u64,
 }
 
-impl Squares {
-    fn take(&mut self, error: Option<f64>) {
+impl Raw {
+    fn take(&mut self, error: Option<f64>, of_estimate: f64) {
         if let Some(error) = error {
-            self.sum += error * error;
+            self.squares += error * error;
+            self.of_estimate += of_estimate * of_estimate;
             self.count += 1;
         }
     }
 
-    fn rmse(&self) -> f64 {
-        (self.sum / self.count.max(1) as f64).sqrt()
+    fn add(&mut self, other: &Self) {
+        self.squares += other.squares;
+        self.of_estimate += other.of_estimate;
+        self.count += other.count;
+    }
+
+    fn mean_square(&self) -> f64 {
+        self.squares / self.count.max(1) as f64
     }
 }
 
 impl Tally {
     /// Takes an estimate, what one frame and the last second of the raw sensors say, and the truth.
-    pub fn take(&mut self, estimate: Estimate, naive: Option<f64>, naive_mean: Option<f64>, truth: f64) {
+    pub fn take(&mut self, estimate: Estimate, frame: Option<f64>, second: Option<f64>, truth: f64) {
         let (error, std) = (f64::from(estimate.value) - truth, f64::from(estimate.std));
         self.sum += error;
         self.squares += error * error;
@@ -42,8 +51,8 @@ impl Tally {
         for (within, stds) in self.within.iter_mut().zip([1.0, 2.0]) {
             *within += u64::from(error.abs() <= stds * std);
         }
-        self.naive.take(naive.map(|value| value - truth));
-        self.naive_mean.take(naive_mean.map(|value| value - truth));
+        self.frame.take(frame.map(|value| value - truth), error);
+        self.second.take(second.map(|value| value - truth), error);
     }
 
     /// Adds what another tally counted.
@@ -52,10 +61,8 @@ impl Tally {
         self.squares += other.squares;
         self.count += other.count;
         self.within.iter_mut().zip(other.within).for_each(|(sum, part)| *sum += part);
-        for (sum, part) in [(&mut self.naive, other.naive), (&mut self.naive_mean, other.naive_mean)] {
-            sum.sum += part.sum;
-            sum.count += part.count;
-        }
+        self.frame.add(&other.frame);
+        self.second.add(&other.second);
     }
 
     /// How many estimates were counted.
@@ -73,9 +80,19 @@ impl Tally {
         (self.squares / self.count.max(1) as f64).sqrt()
     }
 
-    /// Root mean square error of the raw sensors: frame by frame or as a mean of a second, whichever is better.
+    /// The raw sensors frame by frame or as a mean of a second, whichever is better.
+    fn raw(&self) -> &Raw {
+        if self.second.mean_square() < self.frame.mean_square() { &self.second } else { &self.frame }
+    }
+
+    /// Root mean square error of the raw sensors.
     pub fn naive_rmse(&self) -> f64 {
-        self.naive.rmse().min(self.naive_mean.rmse())
+        self.raw().mean_square().sqrt()
+    }
+
+    /// Root mean square error over that of the raw sensors, in the frames where these said something.
+    pub fn over_naive(&self) -> f64 {
+        (self.raw().of_estimate / self.raw().squares).sqrt()
     }
 
     /// Shares of the errors within one and within two stated standard deviations.

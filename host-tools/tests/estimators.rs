@@ -1,0 +1,77 @@
+//! What the estimators of wheel forces and soil must reach on simulated drives that took no part in their development.
+
+use kapvik_firmware::rover::Rover;
+use kapvik_host::bench::estimators_soil::{SoilChanges, SoilErrors};
+use kapvik_host::simulate::Scenario;
+use kapvik_host::trial::{Quantity, Trial, trial};
+
+/// Development used seeds below 1000.
+const SEEDS: std::ops::Range<u64> = 1000..1020;
+
+fn drives(scenario: Scenario) -> Trial {
+    let trial = trial(scenario, SEEDS, &Rover::assumed());
+    assert_eq!(trial.drives.len(), 20, "{:?}", trial.failures);
+    trial
+}
+
+fn ratio(trial: &Trial, quantity: Quantity) -> f64 {
+    trial.errors().of(quantity).over_naive()
+}
+
+#[test]
+fn on_hills_and_rocks_angle_and_pulls_err_by_less_than_half_of_the_raw_sensors() {
+    for scenario in [Scenario::Hills, Scenario::Rock, Scenario::Dropout] {
+        let trial = drives(scenario);
+        for quantity in [Quantity::ContactAngle, Quantity::FrontPull, Quantity::BogiePull] {
+            let ratio = ratio(&trial, quantity);
+            assert!(ratio <= 0.5, "{scenario:?} {quantity:?}: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn slip_load_and_torque_are_never_worse_than_the_raw_sensors() {
+    let scenarios =
+        [Scenario::Level, Scenario::Spread, Scenario::Slope, Scenario::Hills, Scenario::Rock, Scenario::Dropout];
+    for scenario in scenarios {
+        let trial = drives(scenario);
+        for quantity in [Quantity::Slip, Quantity::Load, Quantity::Torque] {
+            let ratio = ratio(&trial, quantity);
+            let bound = if quantity == Quantity::Slip && scenario != Scenario::Level { 0.7 } else { 1.0 };
+            assert!(ratio <= bound, "{scenario:?} {quantity:?}: {ratio}");
+        }
+    }
+}
+
+/// One and two standard deviations of a normal error cover 68 and 95 %; drives differ, so that 63–73 and 92–98 % will do.
+#[test]
+fn with_slips_spread_on_the_level_the_filters_are_as_sure_as_they_may_be() {
+    let trial = drives(Scenario::Spread);
+    for quantity in [Quantity::Slip, Quantity::Torque, Quantity::Load] {
+        let [one, two] = trial.errors().of(quantity).coverage();
+        assert!((0.63..=0.73).contains(&one) && (0.92..=0.98).contains(&two), "{quantity:?}: {one} {two}");
+    }
+}
+
+#[test]
+fn a_split_by_torque_beats_the_split_by_load() {
+    let errors = drives(Scenario::Spread).errors();
+    assert!(errors.of(Quantity::SplitPull).rmse() < 0.2 * errors.of(Quantity::LoadSplitPull).rmse());
+}
+
+#[test]
+fn after_thirty_seconds_of_spread_slips_the_friction_angle_lies_within_two_standard_deviations() {
+    let errors = SoilErrors::after_30_s(&drives(Scenario::Spread));
+    assert!(errors.within_two_std() >= 0.93, "{}", errors.within_two_std());
+}
+
+/// The rover is 0.85 m long.
+#[test]
+fn a_change_of_soil_is_noticed_within_a_rover_length_and_none_is_invented() {
+    let changes = SoilChanges::of(&drives(Scenario::SoilChange));
+    assert_eq!((changes.real, changes.noticed), (20, 20));
+    assert!(changes.latest_m < 0.85, "{}", changes.latest_m);
+    for scenario in [Scenario::Level, Scenario::Hills, Scenario::Rock] {
+        assert_eq!(SoilChanges::of(&drives(scenario)).claimed_beside, 0, "{scenario:?}");
+    }
+}
