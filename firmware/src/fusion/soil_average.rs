@@ -1,74 +1,110 @@
 //! The average of what the rover network says along the way.
 
-use super::travel_mean::TravelMean;
+use super::travel_mean::{TravelMean, WeightedTravelMean};
 use crate::math;
 use crate::network::{OUTPUTS, TARGETS};
 
-/// Travel over which instants are averaged, m.
-const LENGTH_M: f32 = 2.0;
+/// Travel over which instants are remembered, m.
+const LENGTH_M: f32 = 3.0;
 /// Travel between instants that count as independent, m: what the filters remember where the ground changes nothing.
 const INDEPENDENT_M: f32 = 0.3;
+/// What an instant outside the training range counts, over one inside.
+const OUTSIDE_COUNTS: f32 = 0.05;
+/// Variance over that of the prior below which an instant counts no more than at it.
+const LEAST_VARIANCE: f32 = 0.01;
 
 /// A running average of network outputs: means and log-variances over those of the prior.
 ///
-/// The error of an instant has two parts. That of the sensors' white noise averages away. What no amount of averaging
-/// removes — the soil's other parameters, the camera's bias, the network's own error — is what the network leaves when it
-/// is told of hardly any noise; it stays.
+/// Instants are weighed by the inverse square of their variance: while the wheels slip alike, little is said and little
+/// changes; what a minute of spread slips taught stays. The error of an instant has two parts. That of the sensors' white
+/// noise averages away. What no amount of averaging removes — the soil's other parameters, the camera's bias, the network's
+/// own error — is what the network leaves when it is told of hardly any noise; it is taken to be common to all instants,
+/// so that standard deviations average, not variances.
 #[derive(Debug, Clone)]
 pub(super) struct SoilAverage {
-    means: [TravelMean; TARGETS],
-    variances: [TravelMean; TARGETS],
-    lasting: [TravelMean; TARGETS],
+    targets: [TargetAverage; TARGETS],
+    inside: WeightedTravelMean,
+    travel: TravelMean,
+}
+
+/// The average of one target.
+#[derive(Debug, Clone, Copy)]
+struct TargetAverage {
+    mean: WeightedTravelMean,
+    std: WeightedTravelMean,
+    lasting_std: WeightedTravelMean,
+    /// The weight of the last instant.
+    weight: f32,
+}
+
+impl TargetAverage {
+    const EMPTY: Self = Self {
+        mean: WeightedTravelMean::new(LENGTH_M),
+        std: WeightedTravelMean::new(LENGTH_M),
+        lasting_std: WeightedTravelMean::new(LENGTH_M),
+        weight: 1.0,
+    };
 }
 
 impl SoilAverage {
     /// An empty average.
     pub const fn new() -> Self {
-        let empty = [TravelMean::new(LENGTH_M); TARGETS];
-        Self { means: empty, variances: empty, lasting: empty }
+        Self {
+            targets: [TargetAverage::EMPTY; TARGETS],
+            inside: WeightedTravelMean::new(LENGTH_M),
+            travel: TravelMean::new(LENGTH_M),
+        }
     }
 
-    /// Takes the outputs of an instant that held over some travel, m.
-    pub fn take(&mut self, outputs: &[f32; OUTPUTS], travel_m: f32) {
+    /// Takes the outputs of an instant that held over some travel, m, with its inputs inside the training range or not.
+    pub fn take(&mut self, outputs: &[f32; OUTPUTS], inside: bool, travel_m: f32) {
         let [m0, m1, m2, v0, v1, v2] = *outputs;
-        let places = self.means.iter_mut().zip(&mut self.variances);
-        for ((mean, variance), (m, v)) in places.zip([(m0, v0), (m1, v1), (m2, v2)]) {
-            mean.take(m, travel_m);
-            variance.take(math::exp(v), travel_m);
+        let counts = if inside { 1.0 } else { OUTSIDE_COUNTS };
+        for (target, (m, v)) in self.targets.iter_mut().zip([(m0, v0), (m1, v1), (m2, v2)]) {
+            let variance = math::exp(math::limit(v, -16.0, 0.0)) + LEAST_VARIANCE;
+            target.weight = counts / (variance * variance);
+            target.mean.take(m, target.weight, travel_m);
+            target.std.take(math::sqrt(variance), target.weight, travel_m);
         }
+        let [_, friction_angle, _] = &self.targets;
+        self.inside.take(if inside { 1.0 } else { 0.0 }, friction_angle.weight, travel_m);
+        self.travel.take(0.0, travel_m);
     }
 
     /// Takes the outputs for the same wheels, had they been seen almost without noise.
     pub fn take_noiseless(&mut self, outputs: &[f32; OUTPUTS], travel_m: f32) {
         let [.., v0, v1, v2] = *outputs;
-        for (lasting, v) in self.lasting.iter_mut().zip([v0, v1, v2]) {
-            lasting.take(math::exp(v), travel_m);
+        for (target, v) in self.targets.iter_mut().zip([v0, v1, v2]) {
+            let variance = math::exp(math::limit(v, -16.0, 0.0)) + LEAST_VARIANCE;
+            target.lasting_std.take(math::sqrt(variance), target.weight, travel_m);
         }
     }
 
     /// How many independent instants the average is worth.
     pub fn instants(&self) -> f32 {
-        let [first, ..] = &self.means;
-        let travel = if first.travel_m() < LENGTH_M { first.travel_m() } else { LENGTH_M };
-        1.0 + travel / INDEPENDENT_M
+        let travel = self.travel.travel_m();
+        1.0 + if travel < LENGTH_M { travel } else { LENGTH_M } / INDEPENDENT_M
+    }
+
+    /// Whether most of what was learned came from inputs inside the training range.
+    pub fn inside_training_range(&self) -> bool {
+        self.inside.mean() > 0.5
     }
 
     /// The average as outputs; none before the first instant.
     pub fn outputs(&self) -> Option<[f32; OUTPUTS]> {
-        let [m0, m1, m2] = &self.means;
-        if m0.travel_m() <= 0.0 {
+        if self.travel.travel_m() <= 0.0 {
             return None;
         }
         let share = 1.0 / self.instants();
-        let mut log_variances = [0.0; TARGETS];
-        let parts = self.variances.iter().zip(&self.lasting);
-        for (place, (variance, lasting)) in log_variances.iter_mut().zip(parts) {
-            let whole = variance.mean();
+        let [(m0, v0), (m1, v1), (m2, v2)] = self.targets.map(|target| {
+            let square = |std: f32| std * std;
+            let whole = square(target.std.mean());
             // Until it is known what lasts, everything does.
-            let lasting = if lasting.travel_m() > 0.0 && lasting.mean() < whole { lasting.mean() } else { whole };
-            *place = math::ln(lasting + share * (whole - lasting));
-        }
-        let [v0, v1, v2] = log_variances;
-        Some([m0.mean(), m1.mean(), m2.mean(), v0, v1, v2])
+            let lasting = if target.lasting_std.is_empty() { whole } else { square(target.lasting_std.mean()) };
+            let lasting = if lasting < whole { lasting } else { whole };
+            (target.mean.mean(), math::ln(lasting + share * (whole - lasting)))
+        });
+        Some([m0, m1, m2, v0, v1, v2])
     }
 }

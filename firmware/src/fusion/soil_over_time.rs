@@ -25,7 +25,6 @@ pub struct SoilOverTime {
     wheel: Wheel<f32>,
     average: SoilAverage,
     changes: SoilChangeDetector,
-    inside_training_range: bool,
     /// Every other frame the rover network is asked what would last without noise.
     asks_what_lasts: bool,
 }
@@ -39,7 +38,6 @@ impl SoilOverTime {
             wheel: rover.wheel,
             average: SoilAverage::new(),
             changes: SoilChangeDetector::new(rover.wheel.radius_m, wheelbase_m),
-            inside_training_range: true,
             asks_what_lasts: false,
         }
     }
@@ -110,8 +108,7 @@ impl SoilOverTime {
             self.average.take_noiseless(&outputs, travel_m);
         } else {
             let (outputs, inside) = rover_outputs(&query)?;
-            self.inside_training_range = inside;
-            self.average.take(&outputs, travel_m);
+            self.average.take(&outputs, inside, travel_m);
         }
         Ok(())
     }
@@ -120,7 +117,7 @@ impl SoilOverTime {
         let outputs = self.average.outputs()?;
         let posterior = frozen::ROVER.posterior.read(&outputs);
         Some(RoverSoil {
-            estimate: SoilEstimate::new(&posterior, self.inside_training_range),
+            estimate: SoilEstimate::new(&posterior, self.average.inside_training_range()),
             wheels,
             instants: self.average.instants(),
             changes: self.changes.changes(),

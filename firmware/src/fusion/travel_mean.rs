@@ -39,3 +39,62 @@ impl TravelMean {
         Self { length_m: self.length_m, travel_m: recent.length_m, mean: recent.mean }
     }
 }
+
+/// A mean of weighed values that forgets with travel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct WeightedTravelMean {
+    length_m: f32,
+    weight_m: f32,
+    mean: f32,
+}
+
+impl WeightedTravelMean {
+    /// An empty mean over a length, m.
+    pub const fn new(length_m: f32) -> Self {
+        Self { length_m, weight_m: 0.0, mean: 0.0 }
+    }
+
+    /// Takes a value of some weight (> 0) that held over some travel, m.
+    pub fn take(&mut self, value: f32, weight: f32, travel_m: f32) {
+        let forgotten = travel_m / self.length_m;
+        let kept = if forgotten < 1.0 { 1.0 - forgotten } else { 0.0 };
+        let added = weight * travel_m;
+        self.weight_m = kept * self.weight_m + added;
+        if added > 0.0 {
+            self.mean += added / self.weight_m * (value - self.mean);
+        }
+    }
+
+    /// The mean.
+    pub fn mean(&self) -> f32 {
+        self.mean
+    }
+
+    /// Whether it has taken nothing yet.
+    pub fn is_empty(&self) -> bool {
+        self.weight_m <= 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TravelMean, WeightedTravelMean};
+
+    #[test]
+    fn a_mean_weighs_equally_until_its_length_is_full_and_forgets_then() {
+        let mut mean = TravelMean::new(1.0);
+        (0..10).for_each(|step| mean.take(if step < 5 { 0.0 } else { 2.0 }, 0.1));
+        assert!((mean.mean() - 1.0).abs() < 1.0e-6);
+        (0..100).for_each(|_| mean.take(2.0, 0.1));
+        assert!((mean.mean() - 2.0).abs() < 1.0e-3);
+    }
+
+    #[test]
+    fn what_weighs_little_changes_little() {
+        let mut mean = WeightedTravelMean::new(1.0e6);
+        assert!(mean.is_empty());
+        mean.take(1.0, 100.0, 0.5);
+        mean.take(0.0, 1.0, 0.5);
+        assert!((mean.mean() - 100.0 / 101.0).abs() < 1.0e-5);
+    }
+}
