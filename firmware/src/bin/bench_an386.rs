@@ -2,7 +2,6 @@
 #![no_std]
 #![no_main]
 
-use core::cell::{Cell, RefCell};
 use core::hint::black_box;
 
 use heapless::Vec;
@@ -13,9 +12,6 @@ use kapvik_firmware::fingerprint::{FINGERPRINTS, SOILS};
 use kapvik_firmware::frozen::{ROVER, WHEEL as WHEEL_TABLE};
 use kapvik_firmware::math;
 use kapvik_firmware::network::RoverGolden;
-use kapvik_firmware::pipeline::Pipeline;
-use kapvik_firmware::rover::{Axes, PerAxle, PerSide, Rover};
-use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load, wheel_forces};
 use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
@@ -47,9 +43,8 @@ fn main() -> ! {
     let [first, ..] = &ROVER.golden;
     let six_wheels = ROVER.golden.iter().find(|pair| pair.count == 6.0).unwrap_or(first);
     bench.kernel("rover_network", 0.02, 0.6, |slip| rover_outputs(six_wheels, slip));
-    let query = RefCell::new(six_wheels_query());
+    let mut query = six_wheels_query();
     bench.kernel("rover_features", 0.02, 0.6, |slip| {
-        let mut query = query.borrow_mut();
         query.wheels.iter_mut().take(1).for_each(|state| state.slip = slip);
         black_box(&query.rover_features());
     });
@@ -57,13 +52,6 @@ fn main() -> ! {
     filter_step::<12, 18>(&bench, "filter_12_18", predicted);
     filter_step::<9, 12>(&bench, "filter_9_12_random_walk", drifted);
     filter_step::<3, 2>(&bench, "filter_3_2", predicted);
-    if let Ok(mut pipeline) = Pipeline::new(&Rover::assumed()) {
-        let mut time_us = 0;
-        bench.kernel("tick", -1.0, 1.0, |wobble| {
-            time_us += 100_000;
-            pipeline.tick(&drive::frame(time_us, wobble))
-        });
-    }
     for print in &FINGERPRINTS {
         bench.fingerprint(print.name, (print.compute)());
     }
@@ -91,7 +79,7 @@ fn six_wheels_query() -> SoilQuery {
 fn rover_outputs(pair: &RoverGolden, slip: f32) -> [f32; 6] {
     let mut wheels = pair.wheels;
     wheels[0][2] = slip;
-    ROVER.outputs(&pair.context, wheels)
+    ROVER.outputs(&pair.context, wheels.iter().copied())
 }
 
 /// One step of a filter of `N` states and `M` measurements that runs on, measurement after measurement.
@@ -125,27 +113,4 @@ fn update<const N: usize, const M: usize>(
     measured: &[Option<f32>; M],
 ) -> Innovation<f32, M> {
     filter.update(trial::measurement, measured, &[SCALES.noise_std; M], Gate::one_in_a_thousand())
-}
-
-/// A frame of a rover that drives over level ground, no two readings alike.
-mod drive {
-    use super::*;
-
-    pub fn frame(time_us: u64, wobble: f32) -> SensorFrame {
-        let wheel = |share: f32| WheelSensors {
-            rate_rad_s: Some(0.3 + 0.05 * share + 0.002 * wobble),
-            motor_torque_nm: Some(1.4 + 0.3 * share + 0.05 * wobble),
-            load_cell_n: Some(67.0 - 3.0 * share + 0.5 * wobble),
-        };
-        let side = |share: f32| PerAxle { front: wheel(share), middle: wheel(-share), rear: wheel(0.5 * share) };
-        SensorFrame {
-            time_us,
-            wheels: PerSide { left: side(1.0), right: side(-0.7) },
-            bogie_angle_rad: PerSide { left: Some(0.001 * wobble), right: Some(-0.001 * wobble) },
-            rocker_angle_rad: Some(0.0007 * wobble),
-            accel_m_s2: Axes { x: Some(0.02 * wobble), y: Some(-0.02 * wobble), z: Some(9.81 + 0.01 * wobble) },
-            gyro_rad_s: Axes { x: Some(0.001 * wobble), y: Some(-0.001 * wobble), z: Some(0.0005 * wobble) },
-            velocity_m_s: Axes { x: Some(0.018 + 0.0005 * wobble), y: Some(0.0), z: Some(0.0005 * wobble) },
-        }
-    }
 }

@@ -44,6 +44,8 @@ impl Numbers for f32 {
 }
 
 impl<T: Numbers, const N: usize> Numbers for [T; N] {
+    // Unrolled through all layers of a table, the checksum's walk would take 5 KB of the image.
+    #[cfg_attr(target_arch = "arm", inline(never))]
     fn for_each(&self, see: &mut impl FnMut(f32)) {
         self.iter().for_each(|part| part.for_each(see));
     }

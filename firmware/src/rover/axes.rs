@@ -4,12 +4,16 @@ use serde::{Deserialize, Serialize};
 
 /// One value along each axis of the body: x forward, y left, z up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Axes<T> {
     /// Forward.
+    #[serde(with = "super::outlined")]
     pub x: T,
     /// Left.
+    #[serde(with = "super::outlined")]
     pub y: T,
     /// Up.
+    #[serde(with = "super::outlined")]
     pub z: T,
 }
 

@@ -36,21 +36,28 @@ impl Axle {
 
 /// One value for each side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct PerSide<T> {
     /// Of the left side.
+    #[serde(with = "super::outlined")]
     pub left: T,
     /// Of the right side.
+    #[serde(with = "super::outlined")]
     pub right: T,
 }
 
 /// One value for each wheel of a side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct PerAxle<T> {
     /// Of the front wheel.
+    #[serde(with = "super::outlined")]
     pub front: T,
     /// Of the middle wheel.
+    #[serde(with = "super::outlined")]
     pub middle: T,
     /// Of the rear wheel.
+    #[serde(with = "super::outlined")]
     pub rear: T,
 }
 

@@ -60,7 +60,9 @@ impl TargetBench {
     /// # Errors
     /// Where it does not build, does not end well, or prints what is not understood.
     pub fn run(toolchain: &Toolchain, patience: Duration) -> Result<Self, HostError> {
-        Self::of(toolchain, Binary::Bench, patience)
+        let mut bench = Self::of(toolchain, Binary::Bench, patience)?;
+        bench.kernels.extend(Self::of(toolchain, Binary::Tick, patience)?.kernels);
+        Ok(bench)
     }
 
     /// Builds a measuring image and runs it to its end.

@@ -15,6 +15,8 @@ pub enum Binary {
     Flight,
     /// Counts instructions and stack, and fingerprints the numerics.
     Bench,
+    /// Counts the instructions of a whole tick.
+    Tick,
     /// The filter alone.
     Filter,
     /// The filter beside those of others: a package of its own, which only the comparison builds.
@@ -28,6 +30,7 @@ impl Binary {
         match self {
             Self::Flight => "kapvik_an386",
             Self::Bench => "bench_an386",
+            Self::Tick => "tick_an386",
             Self::Filter => "filter_an386",
             Self::Contenders => "contenders_an386",
             Self::Fault => "fault_an386",
