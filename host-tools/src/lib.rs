@@ -9,6 +9,7 @@ pub mod identify;
 pub mod limit;
 pub mod process;
 pub mod qemu;
+pub mod reference;
 pub mod replay;
 pub mod report;
 pub mod setup;

@@ -8,7 +8,7 @@
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
-use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise};
+use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
 use crate::scalar::Scalar;
 
 /// States: κ, γ front, γ middle, γ rear, rocker pitch, bogie pitch.
@@ -101,6 +101,8 @@ pub(super) struct ContactAngleFilter<S> {
     bogie_rate: WalkRate<S>,
     watch: Watch,
     begun: bool,
+    /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
+    speed_slopes: PerAxle<[S; STATES]>,
 }
 
 impl<S: Scalar> ContactAngleFilter<S> {
@@ -119,6 +121,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
             bogie_rate: WalkRate::new(phase + 3),
             watch: Watch::default(),
             begun: false,
+            speed_slopes: hub_speed_slopes(rover)
+                .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero]),
         })
     }
 
@@ -157,6 +161,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// The motion at the mean.
     pub fn motion(&self) -> RollingMotion<S> {
         self.model.motion(self.filter.estimate().mean())
+    }
+
+    /// What the errors of the contact angles make of the hubs' speeds against that of the axis, of a side at this speed, as
+    /// variances, m²/s².
+    pub fn hub_speed_variances(&self, speed_m_s: S) -> PerAxle<S> {
+        self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().weighted_sum(&slopes).1)
     }
 
     /// How often the filter fell back to its floor.
@@ -246,17 +256,26 @@ impl<S: Scalar> ContactAngleFilter<S> {
         }
         let travel = speed.abs() * step_s;
         let nominal = |drift: f64| S::constant(drift * drift) * travel;
-        if let (Some(rocker), Some(bogie)) = (readings.rocker_angle_rad, readings.bogie_angle_rad) {
-            let pitch = self.model.body_pitch_rad + rocker;
-            let variance = noise.angle_rad * noise.angle_rad;
-            self.rocker_rate.see(pitch, variance + variance, nominal(LINK_DRIFT));
-            self.bogie_rate.see(pitch + bogie, variance + variance + variance, nominal(LINK_DRIFT));
+        let pitch = readings.rocker_angle_rad.map(|rocker| self.model.body_pitch_rad + rocker);
+        let variance = noise.angle_rad * noise.angle_rad;
+        match pitch {
+            Some(pitch) => self.rocker_rate.see(pitch, variance + variance, nominal(LINK_DRIFT)),
+            None => self.rocker_rate.miss(nominal(LINK_DRIFT)),
+        }
+        match (pitch, readings.bogie_angle_rad) {
+            (Some(pitch), Some(bogie)) => {
+                self.bogie_rate.see(pitch + bogie, variance + variance + variance, nominal(LINK_DRIFT));
+            }
+            _ => self.bogie_rate.miss(nominal(LINK_DRIFT)),
         }
         if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
             let velocity = Planar { x, z }.turned(self.model.body_pitch);
             let std = readings.velocity_std_m_s.z / speed.abs();
             self.ratio_rate.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
             self.direction_rate.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
+        } else {
+            self.ratio_rate.miss(nominal(RATIO_DRIFT));
+            self.direction_rate.miss(nominal(ANGLE_DRIFT));
         }
     }
 }

@@ -202,11 +202,16 @@ impl<S: Scalar> HubForceFilter<S> {
         let variance = readings.cell_std_n * readings.cell_std_n;
         let cells = self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array());
         for (rate, cell) in cells {
-            if let Some(force) = cell {
-                rate.see(*force, variance, nominal);
+            match cell {
+                Some(force) => rate.see(*force, variance, nominal),
+                None => rate.miss(nominal),
             }
         }
-        let PerAxle { front: Some(front), middle: Some(middle), rear: Some(rear) } = readings.cells_n else { return };
+        let PerAxle { front: Some(front), middle: Some(middle), rear: Some(rear) } = readings.cells_n else {
+            self.bogie_rate.miss(nominal);
+            self.rocker_rate.miss(nominal);
+            return;
+        };
         let square = |value: S| value * value;
         // The bogie's moment without the forces along it is what the cells' arms make; their height is the lever arm.
         let without = [front, middle, rear, S::zero(), S::zero()];

@@ -3,8 +3,9 @@
 use super::health::{PerSensor, SensorHealth};
 use crate::rover::{Axes, PerAxle, PerSide, Rover};
 
-/// The same bits for so many frames: no noisy sensor says that.
-const STUCK_FRAMES: u8 = 8;
+/// The same bits again for so many frames: no noisy sensor says that. A coarse one that does loses little with a reading that
+/// tells nothing new; one that is stuck and believed leads the filters astray.
+const STUCK_FRAMES: u8 = 3;
 /// Bad readings in a row after which a sensor is out of use.
 const DROPPED_AFTER: u8 = 10;
 /// Good readings in a row that bring it back.

@@ -181,21 +181,23 @@ impl<S: Scalar> SideEstimator<S> {
             Planar { x: Some(x), z: Some(z) } => Some(Planar { x, z }.turned(body_pitch)),
             _ => None,
         };
-        let frame = |hub: Planar<S>, tangent: Planar<S>, link_rate_rad_s: S| {
+        let velocity_variance = readings.velocity_std_m_s.x * readings.velocity_std_m_s.x;
+        let variances = self.angles.hub_speed_variances(self.speed_m_s());
+        let frame = |hub: Planar<S>, tangent: Planar<S>, link_rate_rad_s: S, variance: S| {
             let hub_speed_m_s = hub.dot(tangent);
             let correction = measured.map(|axis| (axis - motion.axis_velocity_m_s).dot(tangent));
             WheelFrame {
                 link_rate_rad_s,
                 hub_speed_m_s,
                 measured_hub_speed_m_s: correction.map(|correction| hub_speed_m_s + correction),
-                hub_speed_std_m_s: readings.velocity_std_m_s.x,
+                hub_speed_std_m_s: (velocity_variance + variance).sqrt(),
             }
         };
         let (hubs, tangents) = (&motion.hub_velocities_m_s, &motion.tangents);
         PerAxle {
-            front: frame(hubs.front, tangents.front, motion.rocker_rate_rad_s),
-            middle: frame(hubs.middle, tangents.middle, motion.bogie_rate_rad_s),
-            rear: frame(hubs.rear, tangents.rear, motion.bogie_rate_rad_s),
+            front: frame(hubs.front, tangents.front, motion.rocker_rate_rad_s, variances.front),
+            middle: frame(hubs.middle, tangents.middle, motion.bogie_rate_rad_s, variances.middle),
+            rear: frame(hubs.rear, tangents.rear, motion.bogie_rate_rad_s, variances.rear),
         }
     }
 

@@ -205,12 +205,13 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         if let Some(torque) = readings.motor_torque_nm {
             let std = readings.motor_torque_std_nm;
             self.torque_rate.see(torque, std * std, nominal(TORQUE_DRIFT_NM));
+        } else {
+            self.torque_rate.miss(nominal(TORQUE_DRIFT_NM));
         }
         let [rate, _, _] = *self.filter.estimate().mean();
         let rim = self.model.radius_m * rate;
-        if let Some(hub) = readings.hub_speed_m_s
-            && rim.abs() > S::constant(2.0e-3)
-        {
+        let Some(hub) = readings.hub_speed_m_s else { return self.slip_rate.miss(nominal(SLIP_DRIFT)) };
+        if rim.abs() > S::constant(2.0e-3) {
             let std = readings.hub_speed_std_m_s / rim;
             self.slip_rate.see(S::one() - hub / rim, std * std, nominal(SLIP_DRIFT));
         }

@@ -61,6 +61,16 @@ impl<S: Scalar> WalkRate<S> {
         }
     }
 
+    /// Lets the quantity wander unseen: nothing tells then that it wanders less than nominally.
+    pub fn miss(&mut self, nominal_variance: S) {
+        let mut factor = S::constant(LEAST);
+        for trial in &mut self.trials {
+            trial.filter.variance += factor * nominal_variance;
+            factor = factor * S::constant(STEP);
+        }
+        self.factor = self.factor.max(S::one());
+    }
+
     /// The rate over the nominal one, as a variance.
     pub fn factor(&self) -> S {
         self.factor

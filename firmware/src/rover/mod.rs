@@ -18,7 +18,7 @@ pub use axes::Axes;
 pub use geometry::{Drive, GeometryError, Rover, Suspension};
 pub use kinematics::{BodyMotion, Link, LinkAngles, SideLayout};
 pub use planar::Planar;
-pub use rolling::{RollingMotion, RollingSide, RollingState};
+pub use rolling::{RollingMotion, RollingSide, RollingState, hub_speed_slopes};
 pub use sensor_noise::SensorNoise;
 pub use sides::{Axle, PerAxle, PerSide, PerWheel, Side};
 pub use statics::{Contact, body_moment_nm, bogie_moment_nm, rocker_moment_nm};

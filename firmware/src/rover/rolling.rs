@@ -5,7 +5,7 @@
 //! contact angles and the links' pitches tell the motion of the whole side. Sinking, which is slow, is left out: it passes
 //! for a contact angle.
 
-use super::{PerAxle, Planar, Rover};
+use super::{PerAxle, Planar, Rover, Suspension};
 use crate::scalar::Scalar;
 
 /// The shape of a side, as its motion depends on it.
@@ -104,6 +104,31 @@ impl<S: Scalar> RollingSide<S> {
     }
 }
 
+/// How much faster than the differential axis each hub goes along its contact, in parts of the speed of the side for each
+/// radian of the front, middle and rear contact angle: to first order, of links near the level.
+///
+/// A contact that is steeper than the others turns its link, and the hubs hang below what the link turns about.
+pub fn hub_speed_slopes<S: Scalar>(rover: &Rover<S>) -> PerAxle<PerAxle<S>> {
+    let Suspension { front_hub, bogie_pivot, middle_hub, rear_hub, .. } = rover.suspension;
+    let bogie_length = middle_hub.x - rear_hub.x;
+    let rocker_length = front_hub.x - bogie_pivot.x;
+    // The pivot's path is between those of the bogie's hubs.
+    let of_middle = -rear_hub.x / bogie_length;
+    let slopes = |below_axis: S, below_pivot: S| {
+        let (by_rocker, by_bogie) = (below_axis / rocker_length, below_pivot / bogie_length);
+        PerAxle {
+            front: by_rocker,
+            middle: by_bogie - of_middle * by_rocker,
+            rear: -by_bogie - (S::one() - of_middle) * by_rocker,
+        }
+    };
+    PerAxle {
+        front: slopes(-front_hub.z, S::zero()),
+        middle: slopes(-bogie_pivot.z, -middle_hub.z),
+        rear: slopes(-bogie_pivot.z, -rear_hub.z),
+    }
+}
+
 /// The direction square to `along`, on its nose-up side.
 fn across<S: Scalar>(along: Planar<S>) -> Planar<S> {
     along.swept(S::one())
@@ -116,7 +141,7 @@ fn along_path<S: Scalar>(link: Planar<S>, speed_m_s: S, tangent: Planar<S>) -> P
 
 #[cfg(test)]
 mod tests {
-    use super::{RollingSide, RollingState};
+    use super::{RollingSide, RollingState, hub_speed_slopes};
     use crate::rover::{Axes, BodyMotion, Link, LinkAngles, PerAxle, Rover, Side, SideLayout};
 
     /// The kinematics of the joints, given the rates found here, must move each hub along its contact.
@@ -139,6 +164,30 @@ mod tests {
         for ((by_joints, found), angle) in hubs.as_array().into_iter() {
             assert!((*by_joints - *found).length() < 1.0e-12, "{by_joints:?} {found:?}");
             assert!((by_joints.z / by_joints.x - angle.tan()).abs() < 1.0e-12);
+        }
+    }
+
+    /// Small changes of the contact angles of a level side, one at a time, must change the speeds as the slopes say.
+    #[test]
+    fn a_steeper_contact_changes_the_speeds_of_the_hubs_by_its_slope() {
+        let rover = Rover::<f64>::assumed();
+        let (side, step, speed_m_s) = (RollingSide::new(&rover), 1.0e-6, 0.02);
+        let relative_speeds = |angles: [f64; 3]| {
+            let contact_angles_rad = PerAxle::from_array(angles);
+            let state = RollingState { speed_m_s, contact_angles_rad, rocker_pitch_rad: 0.0, bogie_pitch_rad: 0.0 };
+            let motion = side.motion(&state);
+            let along = |(hub, tangent): (crate::rover::Planar<f64>, _)| (hub - motion.axis_velocity_m_s).dot(tangent);
+            motion.hub_velocities_m_s.zip(motion.tangents).map(along).into_array()
+        };
+        let slopes = hub_speed_slopes(&rover).map(PerAxle::into_array).into_array();
+        for contact in 0..3 {
+            let [mut ahead, mut behind] = [[0.0; 3]; 2];
+            (ahead[contact], behind[contact]) = (step, -step);
+            let (ahead, behind) = (relative_speeds(ahead), relative_speeds(behind));
+            for hub in 0..3 {
+                let slope = (ahead[hub] - behind[hub]) / (2.0 * step * speed_m_s);
+                assert!((slope - slopes[hub][contact]).abs() < 1.0e-6, "{hub} {contact}: {slope} {slopes:?}");
+            }
         }
     }
 }

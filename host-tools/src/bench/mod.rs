@@ -2,6 +2,7 @@
 
 pub mod estimators;
 pub mod estimators_soil;
+pub mod faults;
 pub mod forward;
 pub mod limit;
 pub mod network;

@@ -6,6 +6,7 @@ mod target;
 use clap::{Args, Subcommand};
 
 use crate::bench::estimators::{self, EstimatorArguments};
+use crate::bench::faults::{self, FaultArguments};
 use crate::bench::limit::{self, LimitArguments};
 use crate::bench::{forward, network, training};
 use crate::error::HostError;
@@ -15,6 +16,8 @@ use crate::error::HostError;
 pub enum Subject {
     /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
     Estimators(EstimatorArguments),
+    /// How soon the estimators are back after each fault of each sensor
+    Faults(FaultArguments),
     /// The sigma-point filter beside kfilter, multicalc and minikalman: instructions, stack, survival of faults
     Filter,
     /// Evaluations of equations 1–11 per second, beside a Simpson loop and SciPy's quad
@@ -48,6 +51,7 @@ impl Subject {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Estimators(arguments) => estimators::run(&arguments),
+            Self::Faults(arguments) => faults::run(&arguments),
             Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,

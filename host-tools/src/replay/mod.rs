@@ -1,7 +1,7 @@
 //! Recorded sensor frames through a flight computer.
 
 mod estimate_file;
-mod health;
+pub mod health;
 pub mod naive;
 mod outcome;
 mod recording;

@@ -4,6 +4,7 @@
 pub mod consistency;
 mod drive;
 pub mod errors;
+pub mod faults;
 mod report;
 pub mod tally;
 pub mod whiteness;

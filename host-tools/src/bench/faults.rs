@@ -1,0 +1,106 @@
+//! How soon the estimators are back after a fault of a sensor.
+
+use clap::Args;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use kapvik_firmware::estimator::Sensor;
+use kapvik_firmware::rover::Rover;
+
+use crate::simulate::Scenario;
+use crate::simulate::faults::Failure;
+use crate::trial::faults::{
+    ALLOWED_FRAMES, Case, Catalogue, FAULT_S, Outcome, SENSOR_FAILURES, WATCHED_FRAMES, catalogue,
+};
+
+/// Which drives.
+#[derive(Args)]
+pub struct FaultArguments {
+    /// Drives of each scenario
+    #[arg(long, default_value_t = 8)]
+    drives: u64,
+    /// Seed of the first drive; development has used those below 1000
+    #[arg(long, default_value_t = 1000)]
+    seed: u64,
+    /// Scenarios; without: spread and hills
+    #[arg(long, value_enum)]
+    scenario: Vec<Scenario>,
+}
+
+/// The scenarios that are reported.
+pub const REPORTED: [Scenario; 2] = [Scenario::Spread, Scenario::Hills];
+
+/// Drives and prints.
+pub fn run(arguments: &FaultArguments) {
+    let scenarios = if arguments.scenario.is_empty() { REPORTED.to_vec() } else { arguments.scenario.clone() };
+    let seeds = arguments.seed..arguments.seed + arguments.drives;
+    let catalogue = catalogue(&scenarios, seeds, &Rover::assumed());
+    catalogue.failures.iter().for_each(|failure| println!("no drive: {failure}"));
+    let seconds = FAULT_S.1 - FAULT_S.0;
+    println!(
+        "\nFrames after a fault of {seconds} s until every estimate is back, the slowest of {} drives",
+        catalogue.drives
+    );
+    println!("{}\n{}", table(&catalogue), summary(&catalogue));
+}
+
+fn summary(catalogue: &Catalogue) -> String {
+    let count = |holds: fn(&Outcome) -> bool| catalogue.outcomes.iter().filter(|(.., outcome)| holds(outcome)).count();
+    let back = count(|outcome| outcome.frames_to_recover.is_some_and(|frames| frames <= ALLOWED_FRAMES));
+    let finite = count(|outcome| outcome.not_finite == 0);
+    let counted = count(|outcome| outcome.miscounted.is_empty());
+    let cases = catalogue.outcomes.len();
+    format!(
+        "of {cases} cases: every number finite in {finite}, sensor and reason counted in {counted}, back within \
+         {ALLOWED_FRAMES} frames in {back} ({:.2} %)",
+        100.0 * back as f64 / cases.max(1) as f64
+    )
+}
+
+fn table(catalogue: &Catalogue) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header(["", "NaN", "infinity", "outlier 1e6", "stuck", "absent"]);
+    for kind in KINDS {
+        let cell = |failure: Failure| {
+            slowest(
+                catalogue,
+                |case| matches!(case, Case::Sensor(sensor, how) if name(sensor) == kind && how == failure),
+            )
+        };
+        table.add_row([kind.to_owned()].into_iter().chain(SENSOR_FAILURES.map(cell)));
+    }
+    let of_frames = [
+        ("all readings repeat", Case::RepeatedReadings),
+        ("frames come twice", Case::RepeatedFrames),
+        ("frames are missing", Case::SkippedFrames),
+    ];
+    for (title, wanted) in of_frames {
+        table.add_row([title.to_owned(), slowest(catalogue, |case| case == wanted)]);
+    }
+    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    table
+}
+
+/// The most frames that any drive took to recover from any of these cases.
+fn slowest(catalogue: &Catalogue, belongs: impl Fn(Case) -> bool) -> String {
+    let outcomes = catalogue.outcomes.iter().filter(|(.., outcome)| belongs(outcome.case));
+    let frames: Option<Vec<usize>> = outcomes.map(|(.., outcome)| outcome.frames_to_recover).collect();
+    let most = frames.map(|frames| frames.into_iter().max().unwrap_or(0));
+    most.map_or_else(|| format!("> {WATCHED_FRAMES}"), |frames| frames.to_string())
+}
+
+const KINDS: [&str; 8] =
+    ["encoder", "drive torque", "load cell", "bogie angle", "rocker angle", "accelerometer", "gyro", "velocimeter"];
+
+fn name(sensor: Sensor) -> &'static str {
+    let [encoder, torque, cell, bogie, rocker, accelerometer, gyro, velocimeter] = KINDS;
+    match sensor {
+        Sensor::WheelRate(..) => encoder,
+        Sensor::MotorTorque(..) => torque,
+        Sensor::LoadCell(..) => cell,
+        Sensor::BogieAngle(_) => bogie,
+        Sensor::RockerAngle => rocker,
+        Sensor::Accel(_) => accelerometer,
+        Sensor::Gyro(_) => gyro,
+        Sensor::Velocity(_) => velocimeter,
+    }
+}

@@ -1,0 +1,39 @@
+//! How far the estimates of a frame are from the truth, in their own standard deviations.
+
+use kapvik_firmware::estimator::{Estimate, WheelEstimate};
+use kapvik_firmware::pipeline::FrameEstimate;
+use kapvik_firmware::rover::PerWheel;
+
+use crate::data::truth_file::{Truth, WheelTruth};
+
+/// |Estimate − truth| over the stated standard deviation, of slip, torque, contact angle, load and drawbar pull of each
+/// wheel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviations(pub PerWheel<[f64; 5]>);
+
+impl Deviations {
+    /// Those of a frame. A quantity that the truth does not define deviates by nothing, one that only the estimate lacks by
+    /// infinity.
+    pub fn new(estimate: &FrameEstimate, truth: &Truth) -> Self {
+        Self(estimate.wheels.zip_wheels(truth.wheels).map_wheels(|(wheel, truth)| of_wheel(&wheel, &truth)))
+    }
+
+    /// Whether each is at most `limit`, or at most what it is in `others`.
+    pub fn within(&self, limit: f64, others: &Self) -> bool {
+        let pairs = self.0.iter_wheels().flatten().zip(others.0.iter_wheels().flatten());
+        pairs.into_iter().all(|(deviation, other)| *deviation <= limit.max(*other))
+    }
+}
+
+fn of_wheel(wheel: &WheelEstimate, truth: &WheelTruth) -> [f64; 5] {
+    let deviation =
+        |estimate: Estimate, truth: f64| (f64::from(estimate.value) - truth).abs() / f64::from(estimate.std);
+    let slip = truth.slip.map_or(0.0, |truth| wheel.slip.map_or(f64::INFINITY, |slip| deviation(slip, truth)));
+    [
+        slip,
+        deviation(wheel.resistive_torque_nm, truth.resistive_torque_nm),
+        deviation(wheel.contact_angle_rad, truth.contact_angle_rad),
+        deviation(wheel.normal_load_n, truth.normal_load_n),
+        deviation(wheel.drawbar_pull_n, truth.drawbar_pull_n),
+    ]
+}

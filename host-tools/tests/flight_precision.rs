@@ -1,0 +1,76 @@
+//! The estimators in the flight's single precision against themselves in double precision, on the same frames.
+
+use kapvik_firmware::estimator::{Estimate, RoverEstimator, SideEstimate, WheelEstimate};
+use kapvik_firmware::rover::{PerSide, Rover};
+use kapvik_firmware::sensor_frame::SensorFrame;
+use kapvik_host::simulate::{Options, Scenario, Traverse};
+
+/// Until then the estimators know next to nothing.
+const WARM_UP_US: u64 = 2_000_000;
+
+/// What is published of a wheel or a bogie.
+const QUANTITIES: [&str; 6] = ["slip", "torque", "contact angle", "load", "drawbar pull", "bogie's pull"];
+
+fn frames(scenario: Scenario, seed: u64) -> Vec<SensorFrame> {
+    let traverse = Traverse::new(scenario, seed, &Rover::assumed(), &Options::default()).expect("a drive");
+    traverse.run().expect("frames").into_iter().map(|(frame, _)| frame).collect()
+}
+
+/// The difference of two estimates, and that of their standard deviations, over the standard deviation.
+fn difference(single: Estimate, double: Estimate) -> [f64; 2] {
+    let std = f64::from(double.std);
+    [single.value - double.value, single.std - double.std].map(|part| f64::from(part).abs() / std)
+}
+
+fn of_wheel(single: &WheelEstimate, double: &WheelEstimate) -> [[f64; 2]; 5] {
+    assert_eq!(single.activity, double.activity);
+    let slip = match (single.slip, double.slip) {
+        (Some(single), Some(double)) => difference(single, double),
+        (None, None) => [0.0; 2],
+        _ => [f64::INFINITY; 2],
+    };
+    [
+        slip,
+        difference(single.resistive_torque_nm, double.resistive_torque_nm),
+        difference(single.contact_angle_rad, double.contact_angle_rad),
+        difference(single.normal_load_n, double.normal_load_n),
+        difference(single.drawbar_pull_n, double.drawbar_pull_n),
+    ]
+}
+
+/// The greatest differences over a drive, in the order of [`QUANTITIES`].
+fn worst(scenario: Scenario, seed: u64) -> [[f64; 2]; 6] {
+    let rover = Rover::<f32>::assumed();
+    let mut single = RoverEstimator::<f32>::new(&rover).expect("a rover");
+    let mut double = RoverEstimator::<f64>::new(&rover.map(f64::from)).expect("a rover");
+    let mut worst = [[0.0_f64; 2]; 6];
+    for frame in frames(scenario, seed) {
+        let _ = (single.tick(&frame), double.tick(&frame));
+        if frame.time_us < WARM_UP_US {
+            continue;
+        }
+        let sides: PerSide<(SideEstimate, SideEstimate)> = single.estimate().zip(double.estimate());
+        for (single, double) in sides.as_array() {
+            let bogie = difference(single.bogie_drawbar_pull_n, double.bogie_drawbar_pull_n);
+            for (single, double) in single.wheels.zip(double.wheels).as_array() {
+                let found = of_wheel(single, double).into_iter().chain([bogie]);
+                for (worst, found) in worst.iter_mut().flatten().zip(found.flatten()) {
+                    *worst = worst.max(found);
+                }
+            }
+        }
+    }
+    for (name, [of_value, of_std]) in QUANTITIES.into_iter().zip(worst) {
+        println!("{scenario:?} {seed}, {name}: values differ by {of_value:.1e} σ, standard deviations by {of_std:.1e}");
+    }
+    worst
+}
+
+#[test]
+fn single_precision_is_within_a_thousandth_of_a_standard_deviation() {
+    for (scenario, seed) in [(Scenario::Level, 40), (Scenario::Hills, 40), (Scenario::Level, 41), (Scenario::Hills, 41)]
+    {
+        let worst = worst(scenario, seed);
+        assert!(worst.iter().flatten().all(|part| *part <= 1.0e-3), "{scenario:?} {seed}: {worst:?}");
+    }
+}
