@@ -234,6 +234,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
             + S::constant(ANGLE_FROM_ROUGHNESS) * self.roughness()
     }
 
+    /// How far the hubs go in a step: wheels that spin on the spot meet no other ground.
+    fn travel_m(&self, step_s: S) -> S {
+        let [ratio, ..] = *self.filter.estimate().mean();
+        (ratio * self.model.rim_speed_m_s).abs() * step_s
+    }
+
     fn predict(&mut self, step_s: S) {
         let model = self.model;
         let process = |state: &[S; STATES]| {
@@ -241,8 +247,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
             next.iter_mut().zip(model.rates(state)).for_each(|(number, rate)| *number += step_s * rate);
             next
         };
-        let root_travel = (self.model.rim_speed_m_s.abs() * step_s).sqrt();
-        let ratio = S::constant(RATIO_DRIFT) * self.ratio_rate.factor().sqrt() * root_travel;
+        let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
+        let root_travel = self.travel_m(step_s).sqrt();
+        let ratio = S::constant(RATIO_DRIFT) * self.ratio_rate.factor().sqrt() * rim_travel.sqrt();
         let angle = S::constant(ANGLE_DRIFT) * self.angle_factor().sqrt() * root_travel;
         let pitch = S::constant(PITCH_DRIFT) * root_travel;
         let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch]);

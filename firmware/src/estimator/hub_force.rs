@@ -64,6 +64,8 @@ pub(super) struct ForceReadings<S> {
     pub cells_n: PerAxle<Option<S>>,
     /// One standard deviation of a cell, N.
     pub cell_std_n: S,
+    /// Whether a wheel of the bogie hangs in the air. Then a stop holds the bogie, and no moment about its pivot is known.
+    pub bogie_is_held: bool,
     /// Moment of the soil's forces on the bogie, N·m, with one standard deviation: what its resistive torques balance.
     pub bogie_moment_nm: (S, S),
     /// Moment of the soil's forces on the rocker, N·m, with one standard deviation: what the front wheel's torque and half
@@ -77,6 +79,11 @@ const UNKNOWN_SHARE: f64 = 0.3;
 const FORCE_DRIFT_N: f64 = 21.0;
 /// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
 const UNSETTLED_N: f64 = 3.0;
+
+/// The greatest force along a bogie over the forces on its cells: more is no soil's doing.
+const GREATEST_SHARE: f64 = 0.8;
+/// What is known of a pull of which nothing is told: none, give or take this much, N.
+const FORGOTTEN_PULL_N: f64 = 15.0;
 
 /// The filter of one side.
 #[derive(Debug, Clone)]
@@ -164,7 +171,12 @@ impl<S: Scalar> HubForceFilter<S> {
         readings: &ForceReadings<S>,
     ) -> Innovation<S, MEASUREMENTS> {
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
-        self.learn_rates(travel_m, readings);
+        let along_bogie = self.along_bogie(readings);
+        let held = readings.bogie_is_held || along_bogie.is_some_and(|(force, _)| self.is_impossible(force, readings));
+        if held {
+            self.give_up_moments();
+        }
+        self.learn_rates(travel_m, readings, along_bogie.filter(|_| !held));
         let drift = S::constant(FORCE_DRIFT_N) * travel_m.sqrt();
         let PerAxle { front, middle, rear } = self.cell_rates.as_ref();
         let rates = [front, middle, rear, &self.rocker_rate, &self.bogie_rate];
@@ -176,8 +188,8 @@ impl<S: Scalar> HubForceFilter<S> {
                 readings.cells_n.front,
                 readings.cells_n.middle,
                 readings.cells_n.rear,
-                Some(readings.bogie_moment_nm.0),
-                Some(readings.rocker_moment_nm.0),
+                Some(readings.bogie_moment_nm.0).filter(|_| !held),
+                Some(readings.rocker_moment_nm.0).filter(|_| !held),
             ],
             &[
                 readings.cell_std_n,
@@ -196,8 +208,36 @@ impl<S: Scalar> HubForceFilter<S> {
         told
     }
 
+    /// The force along the bogie on its two hubs together that the moment on it and its cells make necessary, N, and its
+    /// variance.
+    fn along_bogie(&self, readings: &ForceReadings<S>) -> Option<(S, S)> {
+        let (middle, rear) = (readings.cells_n.middle?, readings.cells_n.rear?);
+        // The moment without the forces along it is what the cells' arms make; their height is the lever arm.
+        let [_, _, _, by_cells, _] = self.model.measure(&[S::zero(), middle, rear, S::zero(), S::zero()]);
+        let arm = S::constant(0.5) * (self.model.middle_hub.z + self.model.rear_hub.z);
+        let force = (readings.bogie_moment_nm.0 - by_cells) / arm;
+        let square = |value: S| value * value;
+        let cells = square(self.model.middle_hub.x) + square(self.model.rear_hub.x);
+        let variance = square(readings.cell_std_n) * cells + square(readings.bogie_moment_nm.1);
+        Some((force, variance / square(arm)))
+    }
+
+    /// Whether no two wheels under such loads are pushed so along their bogie: then something else holds the bogie.
+    fn is_impossible(&self, along_bogie_n: S, readings: &ForceReadings<S>) -> bool {
+        let load = |cell: Option<S>| cell.unwrap_or(S::zero()).abs();
+        let loads = load(readings.cells_n.middle) + load(readings.cells_n.rear);
+        along_bogie_n.abs() > S::constant(GREATEST_SHARE) * loads.max(S::constant(FORGOTTEN_PULL_N))
+    }
+
+    /// Forgets the forces that only the moments tell.
+    fn give_up_moments(&mut self) {
+        for index in [3, 4] {
+            let _ = self.filter.forget(index, S::zero(), S::constant(FORGOTTEN_PULL_N));
+        }
+    }
+
     /// Learns how fast the forces wander, from the cells, and from the moments with the forces that the cells tell.
-    fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>) {
+    fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, along_bogie: Option<(S, S)>) {
         let nominal = S::constant(FORCE_DRIFT_N * FORCE_DRIFT_N) * travel_m;
         let variance = readings.cell_std_n * readings.cell_std_n;
         let cells = self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array());
@@ -207,29 +247,27 @@ impl<S: Scalar> HubForceFilter<S> {
                 None => rate.miss(nominal),
             }
         }
+        match along_bogie {
+            Some((force, variance)) => self.bogie_rate.see(force, variance, nominal),
+            None => self.bogie_rate.miss(nominal),
+        }
+        match along_bogie.and_then(|force| self.along_rocker(readings, force)) {
+            Some((force, variance)) => self.rocker_rate.see(force, variance, nominal),
+            None => self.rocker_rate.miss(nominal),
+        }
+    }
+
+    /// The force along the rocker on the front hub that the moment on it makes necessary, N, and its variance.
+    fn along_rocker(&self, readings: &ForceReadings<S>, along_bogie: (S, S)) -> Option<(S, S)> {
         let PerAxle { front: Some(front), middle: Some(middle), rear: Some(rear) } = readings.cells_n else {
-            self.bogie_rate.miss(nominal);
-            self.rocker_rate.miss(nominal);
-            return;
+            return None;
         };
+        let [_, _, _, _, by_others] = self.model.measure(&[front, middle, rear, S::zero(), along_bogie.0]);
+        let (arm, pivot) = (self.model.front_hub.z, self.model.bogie_pivot);
         let square = |value: S| value * value;
-        // The bogie's moment without the forces along it is what the cells' arms make; their height is the lever arm.
-        let without = [front, middle, rear, S::zero(), S::zero()];
-        let [_, _, _, by_cells, _] = self.model.measure(&without);
-        let arm = S::constant(0.5) * (self.model.middle_hub.z + self.model.rear_hub.z);
-        let along_bogie = (readings.bogie_moment_nm.0 - by_cells) / arm;
-        let spread = (variance * (square(self.model.middle_hub.x) + square(self.model.rear_hub.x))
-            + square(readings.bogie_moment_nm.1))
-            / square(arm);
-        self.bogie_rate.see(along_bogie, spread, nominal);
-        let [_, _, _, _, by_others] = self.model.measure(&[front, middle, rear, S::zero(), along_bogie]);
-        let arm = self.model.front_hub.z;
-        let along_rocker = (readings.rocker_moment_nm.0 - by_others) / arm;
-        let pivot = self.model.bogie_pivot;
-        let spread = (variance * (square(self.model.front_hub.x) + square(pivot.x) + square(pivot.x))
-            + square(readings.rocker_moment_nm.1)
-            + spread * square(pivot.z))
-            / square(arm);
-        self.rocker_rate.see(along_rocker, spread, nominal);
+        let cells = square(self.model.front_hub.x) + square(pivot.x) + square(pivot.x);
+        let variance =
+            square(readings.cell_std_n) * cells + square(readings.rocker_moment_nm.1) + along_bogie.1 * square(pivot.z);
+        Some(((readings.rocker_moment_nm.0 - by_others) / arm, variance / square(arm)))
     }
 }

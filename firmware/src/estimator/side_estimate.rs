@@ -9,9 +9,6 @@ use super::slip_torque::SlipTorqueFilter;
 use crate::rover::{Axle, PerAxle, Planar};
 use crate::scalar::Scalar;
 
-/// Below this load a wheel is lifted, N; or below three standard deviations.
-const LIFTED_N: f32 = 2.0;
-
 /// How the errors of one wheel's estimates belong together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WheelCovariance<S> {
@@ -44,10 +41,14 @@ impl<S: Scalar> SideEstimator<S> {
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
         let bogie_drawbar_pull_n = self.sum_of_pulls(&middle, &rear);
         let contacts = PerAxle { front, middle, rear };
-        let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).map(
-            |((contact, by_load), (filter, activity))| WheelEstimate {
-                drawbar_pull_by_load_n: by_load.to_f32(),
-                ..self.wheel(&contact, filter, activity)
+        let lifted = Axle::ALL.map(|axle| self.is_lifted(axle));
+        let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).zip(lifted).map(
+            |(((contact, by_load), (filter, activity)), lifted)| {
+                let wheel = WheelEstimate {
+                    drawbar_pull_by_load_n: by_load.to_f32(),
+                    ..self.wheel(&contact, filter, activity)
+                };
+                if lifted { in_the_air(&wheel) } else { wheel }
             },
         );
         SideEstimate { wheels, bogie_drawbar_pull_n }
@@ -73,10 +74,9 @@ impl<S: Scalar> SideEstimator<S> {
         let [_, torque, _] = *filter.estimate().mean();
         let [_, torque_std, _] = filter.estimate().stds();
         let normal_load_n = published(contact.load_n, load_std);
-        let lifted = normal_load_n.value < LIFTED_N || normal_load_n.value < 3.0 * normal_load_n.std;
         let [_, _, split_std] = contact.by_split;
         WheelEstimate {
-            activity: if lifted { WheelActivity::Lifted } else { activity },
+            activity,
             slip: slip(filter, activity),
             shared_slip_std: filter.shared_slip_variance().sqrt().to_f32(),
             resistive_torque_nm: published(torque, torque_std),
@@ -134,6 +134,19 @@ impl<S: Scalar> SideEstimator<S> {
         let by_forces = self.forces.estimate().weighted_sum(&sums(middle_forces, rear_forces)).1;
         let split = middle_split + rear_split;
         published(middle.pull_n + rear.pull_n, (by_angles + by_forces + split * split).sqrt())
+    }
+}
+
+/// What is known of a wheel in the air: nothing pushes it, as surely as its cell says that nothing carries it.
+fn in_the_air(wheel: &WheelEstimate) -> WheelEstimate {
+    let none = Estimate { value: 0.0, std: wheel.normal_load_n.std };
+    WheelEstimate {
+        activity: WheelActivity::Lifted,
+        normal_load_n: none,
+        drawbar_pull_n: none,
+        split_std_n: 0.0,
+        drawbar_pull_by_load_n: 0.0,
+        ..*wheel
     }
 }
 

@@ -8,7 +8,7 @@ use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use crate::filter::{Innovation, InvalidNumber};
-use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
+use crate::rover::{Axes, Axle, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
 /// What the sensors of a side, and those of the body, say in a frame; what cannot be used is absent.
@@ -34,6 +34,9 @@ pub(super) struct SideFrame<S> {
 const STANDING: f64 = 1.5e-3;
 /// A wheel whose rim moves at less than this part of its hub's speed is blocked.
 pub(super) const BLOCKED: f64 = 0.08;
+/// Below this force on its cell a wheel is lifted, N; or below three standard deviations, but not above the other.
+const LIFTED_N: f64 = 2.0;
+const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
 /// Frames after which its wandering is learned afresh.
@@ -275,6 +278,7 @@ impl<S: Scalar> SideEstimator<S> {
         let readings = ForceReadings {
             cells_n: frame.load_cell_n,
             cell_std_n: noise.load_cell_n,
+            bogie_is_held: self.is_lifted(Axle::Middle) || self.is_lifted(Axle::Rear),
             bogie_moment_nm: (torques.middle.0 + torques.rear.0, (torques.middle.1 + torques.rear.1).sqrt()),
             rocker_moment_nm: (
                 torques.front.0 - half * body,
@@ -286,6 +290,18 @@ impl<S: Scalar> SideEstimator<S> {
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
         self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, &readings);
         surprises.of_cells(&self.told.forces);
+    }
+
+    /// Whether a wheel bears no load that its cell can tell from none.
+    pub(super) fn is_lifted(&self, axle: Axle) -> bool {
+        let [front, middle, rear, ..] = *self.forces.estimate().mean();
+        let [front_std, middle_std, rear_std, ..] = self.forces.estimate().stds();
+        let (force, std) = match axle {
+            Axle::Front => (front, front_std),
+            Axle::Middle => (middle, middle_std),
+            Axle::Rear => (rear, rear_std),
+        };
+        force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
     }
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
