@@ -1,5 +1,7 @@
 //! How soon the estimators are back after a fault of a sensor.
 
+use std::collections::BTreeMap;
+
 use clap::Args;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
@@ -41,11 +43,27 @@ pub fn run(arguments: &FaultArguments) {
         catalogue.drives
     );
     println!("{}\n{}", table(&catalogue), summary(&catalogue));
+    for (drive, cases) in late_drives(&catalogue) {
+        println!("  late on {drive}: {cases} cases");
+    }
+}
+
+fn is_late(outcome: &Outcome) -> bool {
+    outcome.frames_to_recover.is_none_or(|frames| frames > ALLOWED_FRAMES)
+}
+
+/// The drives on which estimates were late, with the number of cases.
+fn late_drives(catalogue: &Catalogue) -> BTreeMap<String, usize> {
+    let mut drives = BTreeMap::new();
+    for (scenario, seed, _) in catalogue.outcomes.iter().filter(|(.., outcome)| is_late(outcome)) {
+        *drives.entry(format!("{scenario:?} {seed}")).or_default() += 1;
+    }
+    drives
 }
 
 fn summary(catalogue: &Catalogue) -> String {
     let count = |holds: fn(&Outcome) -> bool| catalogue.outcomes.iter().filter(|(.., outcome)| holds(outcome)).count();
-    let back = count(|outcome| outcome.frames_to_recover.is_some_and(|frames| frames <= ALLOWED_FRAMES));
+    let back = count(|outcome| !is_late(outcome));
     let finite = count(|outcome| outcome.not_finite == 0);
     let counted = count(|outcome| outcome.miscounted.is_empty());
     let cases = catalogue.outcomes.len();
