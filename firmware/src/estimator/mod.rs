@@ -1,5 +1,19 @@
 //! The seed's estimators, section 5: slip and resistive torque of each wheel, then contact angle, normal load and
 //! drawbar pull.
+//!
+//! What happens at the edges:
+//!
+//! - *Standing* ([`WheelActivity::Standing`], rim and hub below 1.5 mm/s): slip is undefined and absent; contact angles stay as
+//!   they were, since nothing rolls; torque follows the drive.
+//! - *Starting* and *stopping*: torque and forces may jump within a frame, so for eight frames they are not held to drift; how
+//!   fast they wander is learned afresh after twenty.
+//! - *Turning back*: rates and speeds change sign together; slip is positive when the rim is faster than the hub, in either
+//!   direction. In between the wheel stands.
+//! - *Blocked* ([`WheelActivity::Blocked`], a rim at less than a twelfth of its hub's speed): slip is −1. The side's speed is taken
+//!   from the median of its rims, so that one blocked wheel does not matter.
+//! - *Lifted* ([`WheelActivity::Lifted`], a cell that cannot tell its load from none): load and pull are zero, as surely as the cell
+//!   says. A bogie with a wheel in the air, or one whose balance would take more pull than there is load, is held by a stop, and
+//!   its moments tell nothing until it is free.
 
 mod attitude;
 pub mod contact_angle;

@@ -1,0 +1,65 @@
+//! Starting, stopping, standing, turning back, a wheel in the air: what the estimators say must be what is defined.
+
+use kapvik_firmware::estimator::WheelActivity;
+use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
+use kapvik_firmware::rover::Rover;
+use kapvik_host::data::truth_file::Truth;
+use kapvik_host::simulate::{Options, Scenario, Traverse};
+
+fn drive(scenario: Scenario, seed: u64) -> Vec<(FrameEstimate, Truth)> {
+    let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
+    let traverse =
+        Traverse::new(scenario, seed, &Rover::assumed(), &Options::default()).expect("there is such a drive");
+    traverse
+        .map(|step| {
+            let (frame, truth) = step.expect("the rover drives on");
+            (pipeline.tick(&frame), truth)
+        })
+        .collect()
+}
+
+/// A wheel that has stood for a second has no slip, and one that has moved for a second has one, in either direction.
+#[test]
+fn a_wheel_that_stands_has_no_slip_and_one_that_turns_back_has() {
+    for seed in 1000..1004 {
+        let frames = drive(Scenario::StartStop, seed);
+        let (mut standing, mut back) = (0, 0);
+        for window in frames.windows(11) {
+            let Some((estimate, _)) = window.last() else { continue };
+            let moved = |truth: &Truth| truth.wheels.left.front.slip.is_some();
+            let slip = estimate.wheels.left.front.slip;
+            if window.iter().all(|(_, truth)| !moved(truth)) {
+                assert!(slip.is_none(), "seed {seed}, {} µs", estimate.time_us);
+                standing += 1;
+            }
+            let [(_, before), .., (_, after)] = window else { continue };
+            if window.iter().all(|(_, truth)| moved(truth)) && after.x_m < before.x_m - 0.01 {
+                assert!(slip.is_some(), "seed {seed}, {} µs", estimate.time_us);
+                back += 1;
+            }
+        }
+        assert!(standing > 20 && back > 20, "seed {seed}: {standing} standing, {back} backing up");
+    }
+}
+
+#[test]
+fn a_wheel_in_the_air_is_told_and_bears_nothing() {
+    for seed in 1000..1004 {
+        let frames = drive(Scenario::WheelLift, seed);
+        let mut in_the_air = 0;
+        for window in frames.windows(6) {
+            let Some((estimate, _)) = window.last() else { continue };
+            let loads = |truth: &Truth| truth.wheels.map_wheels(|wheel| wheel.normal_load_n);
+            for (place, wheel) in estimate.wheels.iter_wheels().enumerate() {
+                let lifted =
+                    window.iter().all(|(_, truth)| loads(truth).iter_wheels().nth(place).is_some_and(|n| *n < 0.5));
+                if lifted {
+                    assert_eq!(wheel.activity, WheelActivity::Lifted, "seed {seed}, {} µs", estimate.time_us);
+                    assert_eq!((wheel.normal_load_n.value, wheel.drawbar_pull_n.value), (0.0, 0.0));
+                    in_the_air += 1;
+                }
+            }
+        }
+        assert!(in_the_air > 50, "seed {seed}: {in_the_air}");
+    }
+}
