@@ -165,15 +165,7 @@ impl Side {
         };
         let [forward, up] = readings.velocity;
         self.angles.tick(&model, [forward, up, readings.rocker, readings.bogie]);
-        let suspension = &rover.suspension;
-        let model = HubForceModel {
-            front_hub: suspension.front_hub,
-            bogie_pivot: suspension.bogie_pivot,
-            middle_hub: suspension.middle_hub,
-            rear_hub: suspension.rear_hub,
-            bogie_angle: readings.bogie.sin_cos(),
-            difference_n: 0.0,
-        };
+        let model = HubForceModel::new(&rover.suspension, readings.bogie.sin_cos());
         let body = body_moment_nm(rover, &readings.specific_force);
         let ([front, middle, rear], [on_front, on_middle, on_rear]) = (readings.cells, readings.torques);
         self.forces.tick(&model, [front, middle, rear, on_middle + on_rear, on_front - 0.5 * body]);

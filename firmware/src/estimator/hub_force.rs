@@ -9,7 +9,7 @@
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
-use crate::rover::{PerAxle, Planar, Rover};
+use crate::rover::{PerAxle, Planar, Rover, Suspension};
 use crate::scalar::Scalar;
 
 /// States: cell forces of front, middle and rear; along the rocker on the front hub; along the bogie on both its hubs, N.
@@ -35,6 +35,19 @@ pub struct HubForceModel<S> {
 }
 
 impl<S: Scalar> HubForceModel<S> {
+    /// The model of either side, with its bogie at an angle to the rocker of which sine and cosine are given, and no
+    /// difference between its wheels.
+    pub fn new(suspension: &Suspension<S>, bogie_angle: (S, S)) -> Self {
+        Self {
+            front_hub: suspension.front_hub,
+            bogie_pivot: suspension.bogie_pivot,
+            middle_hub: suspension.middle_hub,
+            rear_hub: suspension.rear_hub,
+            bogie_angle,
+            difference_n: S::zero(),
+        }
+    }
+
     /// What the sensors see of the forces: the cells, then the moments of the soil's forces on bogie and rocker about pivot
     /// and axis, positive nose-down.
     pub fn measure(&self, state: &[S; STATES]) -> [S; MEASUREMENTS] {
@@ -103,15 +116,7 @@ impl<S: Scalar> HubForceFilter<S> {
         let weight = rover.mass_kg * rover.gravity_m_s2;
         let (load, unknown_n) = (weight * S::constant(1.0 / 6.0), weight * S::constant(UNKNOWN_SHARE));
         let estimate = Gaussian::independent([load, load, load, S::zero(), S::zero()], [unknown_n; STATES])?;
-        let suspension = &rover.suspension;
-        let model = HubForceModel {
-            front_hub: suspension.front_hub,
-            bogie_pivot: suspension.bogie_pivot,
-            middle_hub: suspension.middle_hub,
-            rear_hub: suspension.rear_hub,
-            bogie_angle: (S::zero(), S::one()),
-            difference_n: S::zero(),
-        };
+        let model = HubForceModel::new(&rover.suspension, (S::zero(), S::one()));
         Ok(Self {
             filter: SigmaPointFilter::new(estimate, [unknown_n; STATES])?,
             model,
