@@ -158,6 +158,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.filter.estimate()
     }
 
+    /// Sine and cosine of the body's pitch that the last frame was taken with.
+    pub fn body_pitch(&self) -> (S, S) {
+        self.model.body_pitch
+    }
+
     /// The motion at the mean.
     pub fn motion(&self) -> RollingMotion<S> {
         self.model.motion(self.filter.estimate().mean())

@@ -41,8 +41,7 @@ impl<S: Scalar> SideEstimator<S> {
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
         let bogie_drawbar_pull_n = self.sum_of_pulls(&middle, &rear);
         let contacts = PerAxle { front, middle, rear };
-        let lifted = Axle::ALL.map(|axle| self.is_lifted(axle));
-        let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).zip(lifted).map(
+        let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).zip(self.lifted()).map(
             |(((contact, by_load), (filter, activity)), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
@@ -71,13 +70,13 @@ impl<S: Scalar> SideEstimator<S> {
         activity: WheelActivity,
     ) -> WheelEstimate {
         let [angle_std, load_std, pull_std] = self.variances(contact).map(S::sqrt);
-        let [_, torque, _] = *filter.estimate().mean();
-        let [_, torque_std, _] = filter.estimate().stds();
+        let [_, torque, slip] = *filter.estimate().mean();
+        let [_, torque_std, slip_std] = filter.estimate().stds();
         let normal_load_n = published(contact.load_n, load_std);
         let [_, _, split_std] = contact.by_split;
         WheelEstimate {
             activity,
-            slip: slip(filter, activity),
+            slip: published_slip(slip, slip_std, activity),
             shared_slip_std: filter.shared_slip_variance().sqrt().to_f32(),
             resistive_torque_nm: published(torque, torque_std),
             contact_angle_rad: published(contact.contact_angle_rad, angle_std),
@@ -186,9 +185,7 @@ fn published<S: Scalar>(value: S, std: S) -> Estimate {
     Estimate { value: value.to_f32(), std: std.to_f32() }
 }
 
-fn slip<S: Scalar>(filter: &SlipTorqueFilter<S>, activity: WheelActivity) -> Option<Estimate> {
-    let [_, _, slip] = *filter.estimate().mean();
-    let [_, _, std] = filter.estimate().stds();
+fn published_slip<S: Scalar>(slip: S, std: S, activity: WheelActivity) -> Option<Estimate> {
     match activity {
         WheelActivity::Standing => None,
         WheelActivity::Blocked => Some(Estimate { value: -1.0, std: BLOCKED as f32 }),

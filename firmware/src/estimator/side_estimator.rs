@@ -8,7 +8,7 @@ use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use crate::filter::{Innovation, InvalidNumber};
-use crate::rover::{Axes, Axle, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
+use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
 /// What the sensors of a side, and those of the body, say in a frame; what cannot be used is absent.
@@ -137,7 +137,7 @@ impl<S: Scalar> SideEstimator<S> {
         surprises.of_side(&told);
         self.told.angles = told;
         self.motion = self.angles.motion();
-        let wheels = self.wheel_frames(&readings, attitude.pitch_rad().sin_cos());
+        let wheels = self.wheel_frames(&readings, self.angles.body_pitch());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
         self.tick_forces(step_s, frame, attitude, &mut surprises);
         surprises
@@ -275,10 +275,11 @@ impl<S: Scalar> SideEstimator<S> {
         let arm_squared = centre.x * centre.x + centre.z * centre.z;
         let half = S::constant(0.5);
         let body_std = half * self.rover.mass_kg * noise.accel_m_s2;
+        let lifted = self.lifted();
         let readings = ForceReadings {
             cells_n: frame.load_cell_n,
             cell_std_n: noise.load_cell_n,
-            bogie_is_held: self.is_lifted(Axle::Middle) || self.is_lifted(Axle::Rear),
+            bogie_is_held: lifted.middle || lifted.rear,
             bogie_moment_nm: (torques.middle.0 + torques.rear.0, (torques.middle.1 + torques.rear.1).sqrt()),
             rocker_moment_nm: (
                 torques.front.0 - half * body,
@@ -292,16 +293,15 @@ impl<S: Scalar> SideEstimator<S> {
         surprises.of_cells(&self.told.forces);
     }
 
-    /// Whether a wheel bears no load that its cell can tell from none.
-    pub(super) fn is_lifted(&self, axle: Axle) -> bool {
+    /// Which wheels bear no load that their cells can tell from none.
+    pub(super) fn lifted(&self) -> PerAxle<bool> {
         let [front, middle, rear, ..] = *self.forces.estimate().mean();
         let [front_std, middle_std, rear_std, ..] = self.forces.estimate().stds();
-        let (force, std) = match axle {
-            Axle::Front => (front, front_std),
-            Axle::Middle => (middle, middle_std),
-            Axle::Rear => (rear, rear_std),
-        };
-        force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
+        PerAxle { front: (front, front_std), middle: (middle, middle_std), rear: (rear, rear_std) }.map(
+            |(force, std)| {
+                force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
+            },
+        )
     }
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.

@@ -1,6 +1,6 @@
 //! The average of what the rover network says along the way.
 
-use super::travel_mean::{TravelMean, WeightedTravelMean};
+use super::travel_mean::WeightedTravelMean;
 use crate::math;
 use crate::network::{OUTPUTS, TARGETS};
 
@@ -24,7 +24,7 @@ const LEAST_VARIANCE: f32 = 0.01;
 pub(super) struct SoilAverage {
     targets: [TargetAverage; TARGETS],
     inside: WeightedTravelMean,
-    travel: TravelMean,
+    travel_m: f32,
 }
 
 /// The average of one target.
@@ -49,11 +49,7 @@ impl TargetAverage {
 impl SoilAverage {
     /// An empty average.
     pub const fn new() -> Self {
-        Self {
-            targets: [TargetAverage::EMPTY; TARGETS],
-            inside: WeightedTravelMean::new(LENGTH_M),
-            travel: TravelMean::new(LENGTH_M),
-        }
+        Self { targets: [TargetAverage::EMPTY; TARGETS], inside: WeightedTravelMean::new(LENGTH_M), travel_m: 0.0 }
     }
 
     /// Takes the outputs of an instant that held over some travel, m, with its inputs inside the training range or not.
@@ -61,29 +57,28 @@ impl SoilAverage {
         let [m0, m1, m2, v0, v1, v2] = *outputs;
         let counts = if inside { 1.0 } else { OUTSIDE_COUNTS };
         for (target, (m, v)) in self.targets.iter_mut().zip([(m0, v0), (m1, v1), (m2, v2)]) {
-            let variance = math::exp(math::limit(v, -16.0, 0.0)) + LEAST_VARIANCE;
+            let variance = variance_over_prior(v);
             target.weight = counts / (variance * variance);
             target.mean.take(m, target.weight, travel_m);
             target.std.take(math::sqrt(variance), target.weight, travel_m);
         }
         let [_, friction_angle, _] = &self.targets;
         self.inside.take(if inside { 1.0 } else { 0.0 }, friction_angle.weight, travel_m);
-        self.travel.take(0.0, travel_m);
+        self.travel_m += travel_m;
     }
 
     /// Takes the outputs for the same wheels, had they been seen almost without noise.
     pub fn take_noiseless(&mut self, outputs: &[f32; OUTPUTS], travel_m: f32) {
         let [.., v0, v1, v2] = *outputs;
         for (target, v) in self.targets.iter_mut().zip([v0, v1, v2]) {
-            let variance = math::exp(math::limit(v, -16.0, 0.0)) + LEAST_VARIANCE;
+            let variance = variance_over_prior(v);
             target.lasting_std.take(math::sqrt(variance), target.weight, travel_m);
         }
     }
 
     /// How many independent instants the average is worth.
     pub fn instants(&self) -> f32 {
-        let travel = self.travel.travel_m();
-        1.0 + if travel < LENGTH_M { travel } else { LENGTH_M } / INDEPENDENT_M
+        1.0 + if self.travel_m < LENGTH_M { self.travel_m } else { LENGTH_M } / INDEPENDENT_M
     }
 
     /// Whether most of what was learned came from inputs inside the training range.
@@ -93,7 +88,7 @@ impl SoilAverage {
 
     /// The average as outputs; none before the first instant.
     pub fn outputs(&self) -> Option<[f32; OUTPUTS]> {
-        if self.travel.travel_m() <= 0.0 {
+        if self.travel_m <= 0.0 {
             return None;
         }
         let share = 1.0 / self.instants();
@@ -107,4 +102,9 @@ impl SoilAverage {
         });
         Some([m0, m1, m2, v0, v1, v2])
     }
+}
+
+/// The variance over that of the prior which an output says, kept from promising too much.
+fn variance_over_prior(log_variance: f32) -> f32 {
+    math::exp(math::limit(log_variance, -16.0, 0.0)) + LEAST_VARIANCE
 }

@@ -18,7 +18,7 @@ use super::response::{QUANTITIES, Response};
 use super::verdict::Verdict;
 
 /// How the page looks.
-pub(super) const PAGE_CSS: &str = include_str!("page.css");
+const PAGE_CSS: &str = include_str!("page.css");
 /// How the pictures look.
 pub(super) const DRAW_CSS: &str = include_str!("draw/draw.css");
 
@@ -32,12 +32,7 @@ pub fn page(findings: &Findings) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Soil from wheels: " (campaign.name) }
-                style { (PreEscaped(PAGE_CSS)) (PreEscaped(DRAW_CSS)) }
-            }
+            (head(&format!("Soil from wheels: {}", campaign.name), &[]))
             body {
                 header {
                     h1 { "Soil from wheels: " (campaign.name) }
@@ -71,6 +66,18 @@ pub fn page(findings: &Findings) -> String {
         }
     };
     page.into_string()
+}
+
+/// The head of a page of its own: nothing is fetched. `styles` come after those that all pages share.
+pub(super) fn head(title: &str, styles: &[&str]) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            title { (title) }
+            style { (PreEscaped(PAGE_CSS)) (PreEscaped(DRAW_CSS)) @for style in styles { (PreEscaped(style)) } }
+        }
+    }
 }
 
 fn run_section(findings: &Findings, run: &IdentifiedRun, named: bool) -> Markup {

@@ -1,6 +1,6 @@
 //! The report of a drive: one HTML file that needs nothing else.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, html};
 
 use super::CHART_CSS;
 use super::caveats::caveats;
@@ -14,7 +14,7 @@ use crate::replay::{REASONS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
-use crate::report::page::{DRAW_CSS, PAGE_CSS};
+use crate::report::page::head;
 use crate::report::parameter::Parameter;
 use crate::trial::errors::Errors;
 
@@ -23,12 +23,7 @@ pub fn page(findings: &TraverseFindings) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Soil along " (findings.name()) }
-                style { (PreEscaped(PAGE_CSS)) (PreEscaped(DRAW_CSS)) (PreEscaped(CHART_CSS)) }
-            }
+            (head(&format!("Soil along {}", findings.name()), &[CHART_CSS]))
             body class="wide" {
                 (header(findings))
                 main {
