@@ -33,6 +33,7 @@ mod row_terms;
 mod run_terms;
 mod start;
 mod state;
+mod variance_share;
 mod variances;
 
 #[cfg(test)]
