@@ -60,7 +60,7 @@ fn everything_that_the_format_names_is_read() {
     assert_eq!(campaign.noise.of_column("camera_c"), Some(0.1));
     assert_eq!(campaign.noise.of(Channel::Torque), None);
     assert_eq!(campaign.declared.ids(), ["slip-sinkage", "rear-contact"]);
-    assert_eq!(campaign.declared.effects[0].1.get("n1"), Some(&0.3));
+    assert_eq!(campaign.declared.effects[0].known.get("n1"), Some(&Knowledge::Value { value: 0.3, std: 0.0 }));
 }
 
 #[test]
