@@ -138,7 +138,10 @@ fn mistakes_in_the_description_are_told_by_line_and_column() {
             "effects = []",
             "test.toml:22:11: parameters of slip-sinkage",
         ),
-        ("n1 = 0.3", "n1 = \"x\"", "test.toml:23:6: invalid type: string"),
+        ("n1 = 0.3", "n1 = \"x\"", "test.toml:23:6: n1: a text: expected a number"),
+        ("n1 = 0.3", "n1 = 9.0", "test.toml:23:6: n1: 9: expected a number from -0.5 to 2"),
+        ("n1 = 0.3", "n9 = 0.3", "test.toml:23:1: no parameter `n9` of slip-sinkage: expected n1"),
+        ("n1 = 0.3", "form = \"x\"", "test.toml:23:8: no form `x` of slip-sinkage: expected one of exponent"),
         ("kind =", "kind", "test.toml:2:"),
     ];
     for (good, bad, message) in cases {

@@ -97,10 +97,14 @@ fn find_form(
     entry: &Spanned<Entry>,
     file: &TomlFile,
 ) -> Result<&'static Form, HostError> {
+    if key.get_ref() != "form" {
+        let message = format!("{}: a text: expected a number, {{ value, std }} or {{ min, max }}", key.get_ref());
+        return Err(file.error_at(entry, message));
+    }
     let names: Vec<_> = info.forms.iter().map(|form| form.name).collect();
-    let found = info.forms.iter().find(|known| key.get_ref() == "form" && known.name == form);
+    let found = info.forms.iter().find(|known| known.name == form);
     found.ok_or_else(|| {
-        let message = format!("{} of {}: expected form = one of {}", key.get_ref(), info.id, names.join(" | "));
+        let message = format!("no form `{form}` of {}: expected one of {}", info.id, names.join(" | "));
         file.error_at(entry, message)
     })
 }
