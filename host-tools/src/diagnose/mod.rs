@@ -1,3 +1,4 @@
-//! Diagnosis of a model by measured data: what it lacks, and how sure that is.
+//! The residual loop: what a model leaves over of measured data, traced to an effect that it lacks, and how sure that is.
 
+pub mod document;
 pub mod fit;
