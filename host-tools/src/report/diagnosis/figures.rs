@@ -42,7 +42,7 @@ pub fn bound(value: f64) -> String {
 
 /// A probability: `0.03`, `4 × 10⁻⁷`.
 pub fn probability(value: f64) -> String {
-    if !(value < 1e-3) {
+    if value.is_nan() || value >= 1e-3 {
         return significant(value, 2);
     }
     if value <= 0.0 {

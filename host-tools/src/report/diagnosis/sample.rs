@@ -144,7 +144,8 @@ fn candidates() -> Vec<Candidate> {
         ("crosstalk", "drawbar_pull_n into load_n"),
         ("pitch-misalignment", "constant"),
     ];
-    let second = [("guide-friction", ""), ("crosstalk", "drawbar_pull_n into load_n"), ("rear-contact", "")];
+    let second =
+        [("guide-friction", "guide-friction"), ("crosstalk", "drawbar_pull_n into load_n"), ("rear-contact", "")];
     let candidate = |step, (place, (id, form)): (usize, (&str, &str)), best: f64| {
         let gain_per_row = best * (1.0 - 0.32 * place as f64).max(-3.0) / (1.0 + 0.25 * place as f64);
         Candidate {
