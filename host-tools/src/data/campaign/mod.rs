@@ -22,7 +22,7 @@ use super::wheel_file::Grousers;
 pub use about::Provenance;
 pub use carried::Carried;
 pub use channel::Channel;
-pub use declared::{Declared, EFFECT_IDS};
+pub use declared::{Declared, DeclaredEffect};
 pub use ground::{Ground, Knowledge};
 pub use noise::ChannelNoise;
 
