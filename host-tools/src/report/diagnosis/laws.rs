@@ -1,13 +1,12 @@
 //! The effects in numbers, what tells rivals apart, and what is left that has no name.
 
-use std::collections::BTreeMap;
-
+use kapvik_firmware::terramechanics::effects::effect_info;
 use maud::{Markup, html};
 
 use super::figures::{probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
-use crate::diagnose::document::{Diagnosis, Estimate, FoundEffect, Unexplained};
+use crate::diagnose::document::{Diagnosis, FoundEffect, Unexplained};
 
 /// Below the verdict: each effect found, rivals, a law without a name.
 pub fn cards(findings: &DiagnosisFindings) -> Markup {
@@ -33,7 +32,8 @@ fn effect_card(effect: &FoundEffect) -> Markup {
         div class="answer told" {
             h3 { "Effect" @if !effect.form.is_empty() && effect.form != effect.id { ", form " (effect.form) } }
             div class="value" { (effect.id) }
-            p class="verdict" { (parameters(&effect.parameters)) }
+            @if let Some(info) = effect_info(&effect.id) { p { (info.summary) } }
+            p class="verdict" { (parameters(effect)) }
             p { "gains " (significant(effect.gain_per_row, 2)) " nats a row on held-out runs, p = " (probability(effect.p_value)) }
         }
     }
@@ -52,9 +52,14 @@ fn rivals(diagnosis: &Diagnosis) -> Markup {
     }
 }
 
-/// `n1 = 0.30 ± 0.03, …`
-pub fn parameters(parameters: &BTreeMap<String, Estimate>) -> String {
-    let each = parameters.iter().map(|(name, estimate)| format!("{name} = {}", with_std(*estimate, 1.0)));
+/// `length_m = 0.060 ± 0.010 m, …`, with the units of the effect's parameters.
+pub fn parameters(effect: &FoundEffect) -> String {
+    let info = effect_info(&effect.id);
+    let each = effect.parameters.iter().map(|(name, estimate)| {
+        let unit = info.and_then(|info| info.parameter(name)).map_or("-", |parameter| parameter.unit);
+        let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+        format!("{name} = {}{unit}", with_std(*estimate, 1.0))
+    });
     each.collect::<Vec<_>>().join(", ")
 }
 
@@ -80,5 +85,26 @@ pub fn unexplained(unexplained: &[Unexplained]) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::diagnose::document::Estimate;
+
+    #[test]
+    fn parameters_have_the_units_of_their_effect() {
+        let value = |name: &str, value, std| (name.to_owned(), Estimate { value, std });
+        let effect = FoundEffect {
+            id: "sinkage-lag".to_owned(),
+            form: String::new(),
+            parameters: BTreeMap::from([value("length_m", 0.06, 0.01), value("start", 0.1, 0.04)]),
+            gain_per_row: 1.0,
+            p_value: 0.01,
+        };
+        assert_eq!(parameters(&effect), "length_m = 0.060 ± 0.010 m, start = 0.10 ± 0.04");
     }
 }

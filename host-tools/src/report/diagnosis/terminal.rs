@@ -17,7 +17,7 @@ pub fn terminal(findings: &DiagnosisFindings) -> String {
     let diagnosis = &findings.diagnosis;
     let mut text = format!("{} · {}\n\n{}", diagnosis.campaign, findings.provenance, wrapped("", &diagnosis.sentence));
     for effect in &diagnosis.effects {
-        text += &wrapped(" ", &format!("{}: {}", effect.id, parameters(&effect.parameters)));
+        text += &wrapped(" ", &format!("{}: {}", effect.id, parameters(effect)));
     }
     if let Some(measurement) = &diagnosis.deciding_measurement {
         text += &wrapped(" ", &format!("what would decide: {measurement}"));
