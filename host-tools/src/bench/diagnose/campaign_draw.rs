@@ -1,5 +1,7 @@
 //! A campaign drawn from a seed: site, layout, instruments, and what nobody declares.
 
+use std::fmt;
+
 use super::chance::Chance;
 use super::instruments::Instruments;
 use super::knowledge::Knowledge;
@@ -26,14 +28,13 @@ pub enum Subject {
     Unlisted(&'static Unlisted),
 }
 
-impl Subject {
-    /// The name of its stream of random numbers.
-    fn stream(&self) -> String {
+impl fmt::Display for Subject {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Clean => "clean".to_owned(),
-            Self::One(id) => (*id).to_owned(),
-            Self::Two(first, second) => format!("{first} and {second}"),
-            Self::Unlisted(unlisted) => unlisted.law.to_owned(),
+            Self::Clean => formatter.write_str("clean"),
+            Self::One(id) => formatter.write_str(id),
+            Self::Two(first, second) => write!(formatter, "{first} and {second}"),
+            Self::Unlisted(unlisted) => formatter.write_str(unlisted.law),
         }
     }
 }
@@ -73,11 +74,11 @@ const LEFT_BESIDE: f64 = 0.7;
 /// The campaign of a number for a subject; every second one has its n, k, c₁ and c₂ known by other means. None where all
 /// attempts failed.
 pub fn draw(subject: Subject, seed: u64, number: u64) -> Option<Drawn> {
-    let stream = subject.stream();
+    let stream = subject.to_string();
     let mut chance = Chance::new(seed, &stream, number);
     let known_soil = number.is_multiple_of(2);
     let drawn = (0..ATTEMPTS).find_map(|_| attempt(&mut chance, subject, known_soil))?;
-    Some(Drawn { name: format!("{}-{number:03}", stream.replace([' ', '\''], "-")), ..drawn })
+    Some(Drawn { name: format!("{}-{number:03}", stream.replace(|c: char| !c.is_ascii_alphanumeric(), "-")), ..drawn })
 }
 
 /// What is to be undeclared, before its size is known.
