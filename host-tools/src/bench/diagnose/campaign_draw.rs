@@ -65,9 +65,11 @@ pub struct Drawn {
     pub truth: Truth,
 }
 
-/// Draws that are thrown away before a subject is given up: soils that do not carry their wheels, effects that no campaign
-/// of that kind could show.
-const ATTEMPTS: usize = 300;
+/// Campaigns that are thrown away before a law is given up: soils that do not carry their wheels, instruments and layouts in
+/// which it does not show.
+const ATTEMPTS: usize = 40;
+/// Laws that are given up before a subject is.
+const LAWS: usize = 10;
 /// What must be left of the smaller of two effects beside a multiple of the other, in units of the noise.
 const LEFT_BESIDE: f64 = 0.7;
 
@@ -77,7 +79,10 @@ pub fn draw(subject: Subject, seed: u64, number: u64) -> Option<Drawn> {
     let stream = subject.to_string();
     let mut chance = Chance::new(seed, &stream, number);
     let known_soil = number.is_multiple_of(2);
-    let drawn = (0..ATTEMPTS).find_map(|_| attempt(&mut chance, subject, known_soil))?;
+    let drawn = (0..LAWS).find_map(|_| {
+        let cause = Cause::draw(&mut chance, subject)?;
+        (0..ATTEMPTS).find_map(|_| attempt(&mut chance, subject, &cause, known_soil))
+    })?;
     Some(Drawn { name: format!("{}-{number:03}", stream.replace(|c: char| !c.is_ascii_alphanumeric(), "-")), ..drawn })
 }
 
@@ -111,8 +116,7 @@ impl Cause {
     }
 }
 
-fn attempt(chance: &mut Chance, subject: Subject, known_soil: bool) -> Option<Drawn> {
-    let cause = Cause::draw(chance, subject)?;
+fn attempt(chance: &mut Chance, subject: Subject, cause: &Cause, known_soil: bool) -> Option<Drawn> {
     let wants = cause.wants();
     let site = Site::draw(chance, wants.grousers);
     let layout = Layout::draw(chance, &site, &wants);
@@ -124,7 +128,7 @@ fn attempt(chance: &mut Chance, subject: Subject, known_soil: bool) -> Option<Dr
     } else {
         let refit = Refit::new(&site, &layout, &instruments, &knowledge.std())?;
         let size = chance.between(SIZES.0, SIZES.1);
-        (act(&cause, &site, &layout, &refit, size)?, size)
+        (act(cause, &site, &layout, &refit, size)?, size)
     };
     let truth = Truth {
         subject,

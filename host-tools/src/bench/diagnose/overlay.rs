@@ -87,28 +87,44 @@ fn softened(site: &Site, row: &Row, sinkage_m: f64) -> Option<WheelForces<f64>> 
     if factor > 0.0 { forces(factor) } else { None }
 }
 
-/// The least sinkage (m) at which `forces` carries a load (N), and the forces there; by bisection on a bracket that is
-/// found from the surface downward.
+/// The least sinkage (m) at which `forces` carries a load (N), and the forces there: a bracket is found from the surface
+/// downward, and narrowed by the Illinois method on the logarithms of load and sinkage.
 fn balance(
     site: &Site,
     load_n: f64,
     forces: impl Fn(f64) -> Option<WheelForces<f64>>,
 ) -> Option<(f64, WheelForces<f64>)> {
-    const DOWNWARD: f64 = 1.5;
-    const HALVINGS: usize = 45;
-    let deepest_m = 0.9 * site.wheel.radius_m;
-    let mut low = 1e-4 * site.wheel.radius_m;
-    let mut high = low * DOWNWARD;
-    while forces(high)?.load_n < load_n {
-        (low, high) = (high, high * DOWNWARD);
-        if high > deepest_m {
+    const DOWNWARD: f64 = 2.0;
+    const STEPS: usize = 60;
+    let excess = |ln_m: f64| forces(libm::exp(ln_m)).map(|forces| libm::log(forces.load_n.max(1e-9) / load_n));
+    let bottom = libm::log(0.9 * site.wheel.radius_m);
+    let mut low = libm::log(3e-3 * site.wheel.radius_m);
+    let (mut at_low, mut high) = (excess(low)?, low);
+    let mut at_high = at_low;
+    while at_high < 0.0 {
+        (low, at_low) = (high, at_high);
+        high += libm::log(DOWNWARD);
+        if high > bottom {
             return None;
         }
+        at_high = excess(high)?;
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if forces(middle)?.load_n < load_n { low = middle } else { high = middle }
+    if at_low >= 0.0 {
+        return None;
     }
-    let sinkage_m = 0.5 * (low + high);
-    Some((sinkage_m, forces(sinkage_m)?))
+    for _ in 0..STEPS {
+        let middle = (low * at_high - high * at_low) / (at_high - at_low);
+        let at_middle = excess(middle)?;
+        if at_middle.abs() < 1e-10 {
+            let sinkage_m = libm::exp(middle);
+            return Some((sinkage_m, forces(sinkage_m)?));
+        }
+        if at_middle * at_high < 0.0 {
+            (low, at_low) = (high, at_high);
+        } else {
+            at_low *= 0.5;
+        }
+        (high, at_high) = (middle, at_middle);
+    }
+    None
 }

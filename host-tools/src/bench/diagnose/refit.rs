@@ -55,11 +55,6 @@ impl Refit {
         Some(Self { clean, rows, information: Cholesky::new(information)? })
     }
 
-    /// The readings without any effect.
-    pub fn clean(&self) -> &[State] {
-        &self.clean
-    }
-
     /// What of the readings of an effect no refit can explain: in each row and channel, in units of the noise there, that
     /// of slip and load included.
     pub fn residual(&self, readings: &[State]) -> Residual {

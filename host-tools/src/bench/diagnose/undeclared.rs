@@ -182,19 +182,29 @@ pub struct Sized {
 /// The least size at which an effect leaves `wanted` units of noise after a refit; none where it never does.
 pub fn sized(refit: &Refit, wanted: f64, readings: impl Fn(f64) -> Option<Vec<State>>) -> Option<Sized> {
     const LEAST: f64 = 1e-5;
-    const GROWTH: f64 = 1.6;
-    const HALVINGS: usize = 10;
-    let too_small = |size: f64| readings(size).map(|readings| refit.residual(&readings).size() < wanted);
-    let (mut low, mut high) = (0.0, LEAST);
-    while too_small(high)? {
+    const GROWTH: f64 = 1.5;
+    const NEAR: f64 = 0.02;
+    let left = |size: f64| readings(size).map(|readings| refit.residual(&readings).size());
+    // A first guess as if what is left grew with the size; then up from well below it.
+    let probe = 1e-3;
+    let mut high = (0.3 * probe * wanted / left(probe)?.max(1e-12)).clamp(LEAST, 1.0);
+    if left(high)? >= wanted {
+        high = LEAST;
+    }
+    let mut low = 0.0;
+    loop {
+        let reached = left(high)?;
+        if reached >= wanted {
+            break;
+        }
         if high >= 1.0 {
             return None;
         }
         (low, high) = (high, (high * GROWTH).min(1.0));
     }
-    for _ in 0..HALVINGS {
+    while high - low > NEAR * high {
         let middle = 0.5 * (low + high);
-        if too_small(middle)? { low = middle } else { high = middle }
+        if left(middle)? < wanted { low = middle } else { high = middle }
     }
     Some(Sized { size: high, readings: readings(high)? })
 }
