@@ -4,25 +4,12 @@ use serde::Deserialize;
 
 use super::campaign_draw::{Subject, Truth};
 use crate::data::campaign::Channel;
+use crate::diagnose::document::{Diagnosis, Unexplained, Verdict};
 
 /// Most effects that a diagnosis may leave open between and still be right.
 const OPEN_BETWEEN: usize = 3;
 
-/// What came of a diagnosis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// At least one effect earned its place.
-    Effect,
-    /// Nothing is missing.
-    None,
-    /// Structure is left that no known effect explains.
-    Unexplained,
-    /// Candidates explain the data equally well.
-    Ambiguous,
-}
-
-/// The part of a diagnosis that is scored; reads from what `diagnose` prints.
+/// The part of a diagnosis that is scored; reads from what `diagnose` prints as well.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Answer {
     /// The verdict.
@@ -49,6 +36,19 @@ pub struct Structure {
     pub channel: String,
     /// The column that it follows, or a product of columns with `*` between them.
     pub regressor: String,
+}
+
+impl From<&Diagnosis> for Answer {
+    fn from(diagnosis: &Diagnosis) -> Self {
+        let structure =
+            |found: &Unexplained| Structure { channel: found.channel.clone(), regressor: found.regressor.clone() };
+        Self {
+            verdict: diagnosis.verdict,
+            effects: diagnosis.effects.iter().map(|effect| Named { id: effect.id.clone() }).collect(),
+            ambiguous_with: diagnosis.ambiguous_with.clone(),
+            unexplained: diagnosis.unexplained.iter().map(structure).collect(),
+        }
+    }
 }
 
 impl Answer {

@@ -26,10 +26,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-pub use answer::{Answer, Named, Structure, Verdict};
+pub use answer::{Answer, Named, Structure};
 pub use trial::Diagnoser;
 
-use crate::data::campaign::EFFECT_IDS;
 use crate::error::HostError;
 use trial::{Counts, Plan, diagnose_all, draw_all, plan, save_all};
 
@@ -52,7 +51,7 @@ pub struct DiagnoseArguments {
     #[arg(long, default_value_t = 40)]
     pub unlisted: u64,
     /// Only campaigns in which this effect is
-    #[arg(long, value_name = "ID", value_parser = clap::builder::PossibleValuesParser::new(EFFECT_IDS))]
+    #[arg(long, value_name = "ID", value_parser = clap::builder::PossibleValuesParser::new(undeclared::effect_ids()))]
     pub only: Option<String>,
     /// Also write the campaigns here, each with NAME.truth.txt
     #[arg(long, value_name = "DIR")]

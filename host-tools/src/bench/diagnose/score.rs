@@ -3,11 +3,12 @@
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 
-use super::answer::{Answer, Verdict};
+use super::answer::Answer;
 use super::campaign_draw::{Drawn, Subject};
 use super::share::Share;
 use super::trial::Trial;
-use crate::data::campaign::EFFECT_IDS;
+use super::undeclared::effect_ids;
+use crate::diagnose::document::Verdict;
 
 /// Prints all of it.
 pub fn print(trials: &[Trial]) {
@@ -50,14 +51,14 @@ fn singles(trials: &[Trial]) -> Vec<(&'static str, &Trial)> {
 }
 
 /// What stands in a column of the confusion table: a first effect, or why there is none.
-fn column_of(trial: &Trial) -> usize {
-    let others = EFFECT_IDS.len();
+fn column_of(trial: &Trial, ids: &[&str]) -> usize {
+    let others = ids.len();
     match &trial.answer {
         Err(_) => others + 2,
         Ok(answer) => match (answer.verdict, answer.first()) {
             (Verdict::None, _) => others,
             (Verdict::Unexplained, _) => others + 1,
-            (_, Some(first)) => EFFECT_IDS.iter().position(|id| *id == first).unwrap_or(others + 2),
+            (_, Some(first)) => ids.iter().position(|id| *id == first).unwrap_or(others + 2),
             (_, None) => others + 1,
         },
     }
@@ -68,12 +69,13 @@ fn print_confusion(trials: &[Trial]) {
     if singles.is_empty() {
         return;
     }
-    let columns = EFFECT_IDS.len() + 3;
+    let ids = effect_ids();
+    let columns = ids.len() + 3;
     let mut table = Table::new();
     let header = ["", "right", "alone"].map(str::to_owned).into_iter();
-    let header = header.chain((1..=EFFECT_IDS.len()).map(|number| number.to_string()));
+    let header = header.chain((1..=ids.len()).map(|number| number.to_string()));
     table.load_style(NOTHING).set_header(header.chain(["none", "unexp.", "error"].map(str::to_owned)));
-    for (number, id) in EFFECT_IDS.iter().enumerate() {
+    for (number, id) in ids.iter().enumerate() {
         let own: Vec<&Trial> = singles.iter().filter(|(of, _)| of == id).map(|(_, trial)| *trial).collect();
         if own.is_empty() {
             continue;
@@ -82,10 +84,12 @@ fn print_confusion(trials: &[Trial]) {
         let alone = Share::of(&own, |trial| holds(trial, |answer| answer.first_alone(id)));
         let mut row =
             vec![format!("{} {id}", number + 1), format!("{}/{}", right.hits, right.of), alone.hits.to_string()];
-        row.extend((0..columns).map(|column| match own.iter().filter(|trial| column_of(trial) == column).count() {
-            0 => "·".to_owned(),
-            count => count.to_string(),
-        }));
+        row.extend((0..columns).map(
+            |column| match own.iter().filter(|trial| column_of(trial, &ids) == column).count() {
+                0 => "·".to_owned(),
+                count => count.to_string(),
+            },
+        ));
         table.add_row(row);
     }
     for (place, column) in table.column_iter_mut().enumerate() {

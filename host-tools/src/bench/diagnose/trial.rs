@@ -9,8 +9,9 @@ use rayon::prelude::*;
 use super::answer::Answer;
 use super::campaign_draw::{Drawn, Subject, Truth, draw};
 use super::chance::Chance;
+use super::undeclared::effect_ids;
 use super::unlisted::UNLISTED;
-use crate::data::campaign::{Campaign, EFFECT_IDS};
+use crate::data::campaign::Campaign;
 use crate::error::HostError;
 
 /// A diagnosis that is put to the test: a campaign in, what it says out.
@@ -47,7 +48,7 @@ pub type Plan = Vec<(Subject, u64)>;
 /// The draws of a benchmark; `only` leaves those in which this effect is.
 pub fn plan(counts: &Counts, seed: u64, only: Option<&str>) -> Plan {
     let mut plan = Plan::new();
-    for id in EFFECT_IDS {
+    for id in effect_ids() {
         plan.extend((0..counts.per_effect).map(|number| (Subject::One(id), number)));
     }
     plan.extend((0..counts.pairs).map(|number| (pair(seed, number), number)));
@@ -68,8 +69,8 @@ pub fn plan(counts: &Counts, seed: u64, only: Option<&str>) -> Plan {
 
 fn pair(seed: u64, number: u64) -> Subject {
     let mut chance = Chance::new(seed, "pairs", number);
-    let first = chance.pick(&EFFECT_IDS);
-    let others: Vec<&'static str> = EFFECT_IDS.into_iter().filter(|id| *id != first).collect();
+    let first = chance.pick(&effect_ids());
+    let others: Vec<&'static str> = effect_ids().into_iter().filter(|id| *id != first).collect();
     Subject::Two(first, chance.pick(&others))
 }
 

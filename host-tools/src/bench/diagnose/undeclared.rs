@@ -1,6 +1,8 @@
 //! What nobody declares in a drawn campaign, and how large it is.
 
-use kapvik_firmware::terramechanics::effects::{Column, EffectInfo, Effects, Form, effect_info};
+use kapvik_firmware::terramechanics::effects::{
+    CATALOGUE, Column, EffectInfo, Effects, Form, ParameterInfo, effect_info,
+};
 
 use super::chance::Chance;
 use super::overlay::Act;
@@ -18,6 +20,11 @@ const VARIANT_SHARE: f64 = 0.2;
 pub const SIZES: (f64, f64) = (1.0, 4.0);
 /// Parameters that say how an effect goes and not how large it is.
 const SHAPES: [&str; 5] = ["saturation", "reference_c", "start", "adhesion_pa", "m2"];
+
+/// The ids of all listed effects.
+pub fn effect_ids() -> Vec<&'static str> {
+    CATALOGUE.iter().map(|effect| effect.id).collect()
+}
 
 /// A listed effect in one of its forms, its size still open.
 #[derive(Debug, Clone)]
@@ -55,7 +62,7 @@ impl Listed {
         let form = chance.pick(&forms);
         let (shapes, sizes): (Vec<_>, Vec<_>) =
             form.free.iter().filter_map(|name| effect.parameter(name)).partition(|info| SHAPES.contains(&info.name));
-        let reach = |info: &&'static kapvik_firmware::terramechanics::effects::ParameterInfo| {
+        let reach = |info: &&'static ParameterInfo| {
             let start = info.neutral.clamp(info.low, info.high);
             let (down, up) = (start - info.low, info.high - start);
             (start, down, up, down.max(up) / info.typical.abs())
