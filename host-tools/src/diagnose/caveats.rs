@@ -20,9 +20,7 @@ const MISFIT: f64 = 1.5;
 pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
     let mut said = campaign.notes.clone();
     let runs = measurements.runs.len();
-    if runs == 1 {
-        said.push("One run only: nothing could be held out by run, so no effect can be confirmed.".to_owned());
-    } else if runs < 5 {
+    if runs < 5 {
         said.push(format!("Only {runs} runs: what is found rests on few independent observations."));
     }
     said.extend(spread(measurements, Reading::Load).filter(|(low, high)| high - low < ONE_LOAD * high.abs()).map(|_| {

@@ -23,6 +23,8 @@ pub struct Selected<'a> {
     pub last: Option<Step<'a>>,
     /// Structure that is left.
     pub left: Vec<Structure>,
+    /// The column that the declared model's residuals follow most.
+    pub guilty: Option<String>,
 }
 
 /// An effect that earned its place, and the field that it won in.
@@ -45,11 +47,14 @@ impl<'a> Selected<'a> {
 
 /// Adds effects to a model while they earn their place.
 pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) + Sync)) -> Selected<'a> {
-    let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new() };
+    let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None };
     while selected.found.len() < MOST_EFFECTS {
         progress(&format!("effect {}", selected.found.len() + 1));
         let here = step(bench, selected.model(), None);
         selected.left = search(bench, selected.model(), here.dispersion);
+        if selected.found.is_empty() {
+            selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
+        }
         let structure = selected.left.first().filter(|structure| structure.is_significant());
         match winner(&here, structure) {
             Some(place) => selected.found.push(found(here, place)),

@@ -9,6 +9,7 @@ mod assemble;
 pub mod campaign_model;
 mod candidates;
 mod caveats;
+mod declared_file;
 pub mod document;
 pub mod fit;
 mod forward;
@@ -26,4 +27,5 @@ mod soil_coordinates;
 pub mod specification;
 pub mod trial;
 
+pub use declared_file::declared_file;
 pub use outcome::{DiagnoseOptions, Outcome, diagnose};
