@@ -60,7 +60,7 @@ fn everything_that_the_format_names_is_read() {
     assert_eq!(campaign.noise.of_column("camera_c"), Some(0.1));
     assert_eq!(campaign.noise.of(Channel::Torque), None);
     assert_eq!(campaign.declared.ids(), ["slip-sinkage", "rear-contact"]);
-    assert_eq!(campaign.declared.effects[0].1.get("n1"), Some(&0.3));
+    assert_eq!(campaign.declared.effects[0].known.get("n1"), Some(&Knowledge::Value { value: 0.3, std: 0.0 }));
 }
 
 #[test]
@@ -138,7 +138,10 @@ fn mistakes_in_the_description_are_told_by_line_and_column() {
             "effects = []",
             "test.toml:22:11: parameters of slip-sinkage",
         ),
-        ("n1 = 0.3", "n1 = \"x\"", "test.toml:23:6: invalid type: string"),
+        ("n1 = 0.3", "n1 = \"x\"", "test.toml:23:6: n1: a text: expected a number"),
+        ("n1 = 0.3", "n1 = 9.0", "test.toml:23:6: n1: 9: expected a number from -0.5 to 2"),
+        ("n1 = 0.3", "n9 = 0.3", "test.toml:23:1: no parameter `n9` of slip-sinkage: expected n1"),
+        ("n1 = 0.3", "form = \"x\"", "test.toml:23:8: no form `x` of slip-sinkage: expected one of exponent"),
         ("kind =", "kind", "test.toml:2:"),
     ];
     for (good, bad, message) in cases {

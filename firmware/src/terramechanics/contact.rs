@@ -26,8 +26,14 @@ impl<S: Scalar> Contact<S> {
         let entry_rad = rim_angle(depth);
         let exit_rad = -rim_angle(soil.rebound_ratio * depth);
         let peak_rad = (soil.peak_stress_c1 + soil.peak_stress_c2 * slip) * entry_rad;
-        let margin = S::constant(1e-6) * (entry_rad - exit_rad);
-        Self { entry_rad, peak_rad: peak_rad.max(exit_rad + margin).min(entry_rad - margin), exit_rad }
+        Self { entry_rad, peak_rad, exit_rad }.held()
+    }
+
+    /// The same with the peak held inside the contact.
+    pub(super) fn held(self) -> Self {
+        let margin = S::constant(1e-6) * self.span_rad();
+        let peak_rad = self.peak_rad.max(self.exit_rad + margin).min(self.entry_rad - margin);
+        Self { peak_rad, ..self }
     }
 
     /// The angle in front of the peak stress, rad.

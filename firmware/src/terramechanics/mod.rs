@@ -1,17 +1,20 @@
-//! Wheel–soil mechanics: the seed's equations 1–11, written once, generic over the scalar.
+//! Wheel–soil mechanics: the seed's equations 1–11, written once, generic over the scalar, and the effects they lack.
 
 mod bracketing;
 mod contact;
+pub mod effects;
 mod forces;
 mod normal_stress;
 mod panels;
 mod quadrature;
 mod rim;
 mod shear_displacement;
+mod shear_law;
 mod shear_stress;
 mod sinkage;
 mod soil;
 mod wheel;
+mod wheel_on_soil;
 
 pub use contact::Contact;
 pub use forces::{ForceError, WheelForces, wheel_forces, wheel_forces_by};
@@ -19,3 +22,4 @@ pub use quadrature::Quadrature;
 pub use sinkage::{GreatestLoad, SinkageError, deepest_sinkage, greatest_load, sinkage_for_load};
 pub use soil::Soil;
 pub use wheel::Wheel;
+pub use wheel_on_soil::{Memory, Readings, WheelOnSoil, WheelTruth};

@@ -34,6 +34,11 @@ impl<S: Scalar> ShearDisplacement<S> {
         self.slip * point.from_entry_rad + self.ground_share * (point.from_entry_rad - point.behind)
     }
 
+    /// The same across the wheel per tangent of the slip angle: a j_y / (r tan β) = aV (θ₁ − θ).
+    pub fn across(&self, point: &RimPoint<S>) -> S {
+        self.ground_share * point.from_entry_rad
+    }
+
     /// dq/dx at a point, x = θ₁ − θ.
     pub fn slope(&self, point: &RimPoint<S>) -> S {
         self.rim_share - self.ground_share * point.cos

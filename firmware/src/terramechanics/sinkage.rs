@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 
 use super::bracketing::{Bracket, solve};
-use super::{Soil, Wheel, wheel_forces};
+use super::{ForceError, Soil, Wheel, wheel_forces};
 
 /// Why no sinkage could be found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,13 +40,7 @@ pub fn deepest_sinkage<S: Scalar>(wheel: &Wheel<S>) -> S {
 /// # Errors
 /// Where an input is outside its range, or the soil cannot carry the load.
 pub fn sinkage_for_load<S: Scalar>(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, load_n: S) -> Result<S, SinkageError> {
-    if !(load_n > S::zero() && load_n.is_finite()) {
-        return Err(SinkageError::Input);
-    }
-    let load = LoadCurve { wheel, soil, slip, exponent: soil.sinkage_exponent + S::constant(0.5) };
-    let bracket = load.bracket(load_n)?;
-    let tolerance = if S::EPSILON > 1e-10 { S::constant(4e-6) } else { S::constant(1e-11) };
-    solve(bracket, tolerance / load.exponent, |sinkage_m| load.excess(sinkage_m, load_n))
+    LoadCurve::new(wheel, soil, |sinkage_m| load_at(wheel, soil, slip, sinkage_m)).sinkage_for(load_n)
 }
 
 /// The greatest load that a soil carries up to [`deepest_sinkage`], and where. Cost: about eighty evaluations.
@@ -54,24 +48,43 @@ pub fn sinkage_for_load<S: Scalar>(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, lo
 /// # Errors
 /// Where an input is outside its range.
 pub fn greatest_load<S: Scalar>(wheel: &Wheel<S>, soil: &Soil<S>, slip: S) -> Result<GreatestLoad<S>, SinkageError> {
-    LoadCurve { wheel, soil, slip, exponent: S::one() }.peak()
+    LoadCurve::new(wheel, soil, |sinkage_m| load_at(wheel, soil, slip, sinkage_m)).peak()
+}
+
+fn load_at<S: Scalar>(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, sinkage_m: S) -> Result<S, ForceError> {
+    wheel_forces(wheel, soil, slip, sinkage_m).map(|forces| forces.load_n)
 }
 
 /// Load over sinkage, at one slip.
-struct LoadCurve<'a, S> {
+pub(super) struct LoadCurve<'a, S, F> {
     wheel: &'a Wheel<S>,
+    /// The soil, for a first guess.
     soil: &'a Soil<S>,
-    slip: S,
+    /// The load at a sinkage, N.
+    load_n: F,
     /// n + ½: load grows about as sinkage to this power.
     exponent: S,
 }
 
-impl<S: Scalar> LoadCurve<'_, S> {
+impl<'a, S: Scalar, F: Fn(S) -> Result<S, ForceError>> LoadCurve<'a, S, F> {
+    /// The curve `load_n` of a wheel on about that soil.
+    pub fn new(wheel: &'a Wheel<S>, soil: &'a Soil<S>, load_n: F) -> Self {
+        Self { wheel, soil, load_n, exponent: soil.sinkage_exponent + S::constant(0.5) }
+    }
+
+    /// The smallest sinkage that carries a load: see [`sinkage_for_load`].
+    pub fn sinkage_for(&self, load_n: S) -> Result<S, SinkageError> {
+        if !(load_n > S::zero() && load_n.is_finite()) {
+            return Err(SinkageError::Input);
+        }
+        let bracket = self.bracket(load_n)?;
+        let tolerance = if S::EPSILON > 1e-10 { S::constant(4e-6) } else { S::constant(1e-11) };
+        solve(bracket, tolerance / self.exponent, |sinkage_m| self.excess(sinkage_m, load_n))
+    }
+
     /// The load at a sinkage, N.
     fn at(&self, sinkage_m: S) -> Result<S, SinkageError> {
-        wheel_forces(self.wheel, self.soil, self.slip, sinkage_m)
-            .map(|forces| forces.load_n)
-            .map_err(|_| SinkageError::Input)
+        (self.load_n)(sinkage_m).map_err(|_| SinkageError::Input)
     }
 
     /// (W/load)^(1/(n + ½)) − 1 with the sign of W: zero at the sinkage looked for, and nearly a straight line on the way.

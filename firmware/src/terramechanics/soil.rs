@@ -47,6 +47,23 @@ impl<S: Scalar> Soil<S> {
     pub fn stiffness(&self, width_m: S) -> S {
         self.cohesive_modulus / width_m + self.frictional_modulus
     }
+
+    /// Makes the soil stiffer by a factor.
+    pub fn scale_stiffness(&mut self, factor: S) {
+        self.cohesive_modulus = self.cohesive_modulus * factor;
+        self.frictional_modulus = self.frictional_modulus * factor;
+    }
+
+    /// Makes cohesion and tan φ greater by a factor.
+    pub fn scale_strength(&mut self, factor: S) {
+        let (sin, cos) = self.friction_angle_rad.sin_cos();
+        let tan = factor * sin / cos;
+        // Arc cosine of the cosine, with the sign of the angle: the scalar has no arc tangent.
+        let angle = (S::one() / (S::one() + tan * tan).sqrt()).acos();
+        self.friction_angle_rad = if tan < S::zero() { -angle } else { angle };
+        self.cohesion_pa = self.cohesion_pa * factor;
+    }
+
     /// Every parameter is a number, and those whose sign or size the equations rest on are in range: n ≥ 0, K ≥ 0,
     /// |φ| < π/2, 0 ≤ η ≤ 1. Moduli and cohesion of a fit may be negative, and the equations take them as they are.
     pub fn is_valid(&self) -> bool {

@@ -1,5 +1,6 @@
 //! The wheel–soil equations against closed forms, limits, published figures and integrations made elsewhere.
 
+mod effects;
 mod limits;
 mod properties;
 mod published;
@@ -10,12 +11,12 @@ mod vectors;
 use kapvik_firmware::terramechanics::{Soil, Wheel, WheelForces, wheel_forces};
 
 /// A wheel of Kapvik's assumed size.
-fn kapvik_wheel() -> Wheel<f64> {
+const fn kapvik_wheel() -> Wheel<f64> {
     Wheel { radius_m: 0.075, width_m: 0.070 }
 }
 
 /// The seed's Table 1.
-fn table_1_sand() -> Soil<f64> {
+const fn table_1_sand() -> Soil<f64> {
     Soil {
         sinkage_exponent: 1.1,
         cohesive_modulus: 15_600.0,

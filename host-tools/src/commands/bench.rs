@@ -1,10 +1,12 @@
 //! `kapvik bench`: how good and how fast we are, beside the alternatives.
 
+mod diagnose;
 mod filter;
 mod target;
 
 use clap::{Args, Subcommand};
 
+use crate::bench::diagnose::DiagnoseArguments;
 use crate::bench::estimators::{self, EstimatorArguments};
 use crate::bench::faults::{self, FaultArguments};
 use crate::bench::limit::{self, LimitArguments};
@@ -14,6 +16,8 @@ use crate::error::HostError;
 /// What to measure.
 #[derive(Subcommand)]
 pub enum Subject {
+    /// How often a diagnosis finds what nobody declared, on campaigns drawn from a seed
+    Diagnose(DiagnoseArguments),
     /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
     Estimators(EstimatorArguments),
     /// How soon the estimators are back after each fault of each sensor
@@ -50,6 +54,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Diagnose(arguments) => diagnose::execute(&arguments)?,
             Self::Estimators(arguments) => estimators::run(&arguments),
             Self::Faults(arguments) => faults::run(&arguments),
             Self::Filter => filter::execute()?,

@@ -3,85 +3,126 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Form, effect_info};
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use crate::error::HostError;
 
+use super::super::soil_file::Parameter;
 use super::super::toml_file::TomlFile;
-
-/// The ids of all effects that the seed's equations lack.
-pub const EFFECT_IDS: [&str; 22] = [
-    "slip-sinkage",
-    "grouser-thrust",
-    "grouser-ripple",
-    "multi-pass",
-    "lateral-slip",
-    "bulldozing",
-    "interface-friction",
-    "shear-hump",
-    "rear-contact",
-    "peak-stress-shift",
-    "load-stiffening",
-    "sinkage-lag",
-    "rate",
-    "drive-friction",
-    "torque-scale",
-    "force-bias",
-    "force-drift",
-    "crosstalk",
-    "guide-friction",
-    "rolling-radius",
-    "pitch-misalignment",
-    "sinkage-reference",
-];
+use super::ground::{Knowledge, knowledge};
 
 /// What stands in `[declared]`: `effects = […]`, and a table of parameters for an effect.
 #[derive(Debug, Default)]
 pub(super) struct DeclaredTable {
     effects: Vec<Spanned<String>>,
-    parameters: Vec<(Spanned<String>, BTreeMap<String, f64>)>,
+    parameters: Vec<(Spanned<String>, Entries)>,
+}
+
+/// The table of an effect.
+type Entries = BTreeMap<Spanned<String>, Spanned<Entry>>;
+
+/// An entry of an effect's table: the form it has, or what is known of a parameter.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged, expecting = "expected a number, { value = …, std = … }, { min = …, max = … } or the name of a form")]
+enum Entry {
+    Parameter(Parameter),
+    Form(String),
 }
 
 /// The effects that the model is told of, in the order of the file; none is the seed's equations 1–11 exactly.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Declared {
-    /// Each effect's id, and those of its parameters that are given.
-    pub effects: Vec<(String, BTreeMap<String, f64>)>,
+    /// The effects.
+    pub effects: Vec<DeclaredEffect>,
+}
+
+/// An effect that the model is told of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeclaredEffect {
+    /// Which one.
+    pub info: &'static EffectInfo,
+    /// The form in which it comes, where the file says so.
+    pub form: Option<&'static Form>,
+    /// What is known of its parameters, by name.
+    pub known: BTreeMap<&'static str, Knowledge>,
 }
 
 impl Declared {
     /// # Errors
-    /// At an id that there is not, or parameters of an effect that is not in the list.
+    /// At an id, a form or a parameter that there is not, or parameters of an effect that is not in the list.
     pub(super) fn read(table: DeclaredTable, file: &TomlFile) -> Result<Self, HostError> {
         let mut declared = Self::default();
         for id in table.effects {
-            check_id(&id, file)?;
-            declared.effects.push((id.into_inner(), BTreeMap::new()));
+            declared.effects.push(DeclaredEffect { info: effect(&id, file)?, form: None, known: BTreeMap::new() });
         }
-        for (id, given) in table.parameters {
-            check_id(&id, file)?;
-            let Some((_, parameters)) = declared.effects.iter_mut().find(|(name, _)| name == id.get_ref()) else {
-                let message = format!("parameters of {}, which `effects` does not list", id.get_ref());
+        for (id, entries) in table.parameters {
+            let info = effect(&id, file)?;
+            let Some(place) = declared.effects.iter_mut().find(|effect| effect.info.id == info.id) else {
+                let message = format!("parameters of {}, which `effects` does not list", info.id);
                 return Err(file.error_at(&id, message));
             };
-            *parameters = given;
+            for (name, entry) in entries {
+                match entry.get_ref() {
+                    Entry::Form(form) => place.form = Some(find_form(info, form, &name, &entry, file)?),
+                    Entry::Parameter(known) => {
+                        let (name, known) = parameter(info, &name, *known, &entry, file)?;
+                        place.known.insert(name, known);
+                    }
+                }
+            }
         }
         Ok(declared)
     }
 
     /// The ids alone.
     pub fn ids(&self) -> Vec<String> {
-        self.effects.iter().map(|(id, _)| id.clone()).collect()
+        self.effects.iter().map(|effect| effect.info.id.to_owned()).collect()
     }
 }
 
-fn check_id(id: &Spanned<String>, file: &TomlFile) -> Result<(), HostError> {
-    if EFFECT_IDS.contains(&id.get_ref().as_str()) {
-        return Ok(());
+fn effect(id: &Spanned<String>, file: &TomlFile) -> Result<&'static EffectInfo, HostError> {
+    effect_info(id.get_ref()).ok_or_else(|| {
+        let ids: Vec<_> = CATALOGUE.iter().map(|effect| effect.id).collect();
+        file.error_at(id, format!("no effect `{}`: expected one of {}", id.get_ref(), ids.join(", ")))
+    })
+}
+
+fn find_form(
+    info: &'static EffectInfo,
+    form: &str,
+    key: &Spanned<String>,
+    entry: &Spanned<Entry>,
+    file: &TomlFile,
+) -> Result<&'static Form, HostError> {
+    if key.get_ref() != "form" {
+        let message = format!("{}: a text: expected a number, {{ value, std }} or {{ min, max }}", key.get_ref());
+        return Err(file.error_at(entry, message));
     }
-    Err(file.error_at(id, format!("no effect `{}`: expected one of {}", id.get_ref(), EFFECT_IDS.join(", "))))
+    let names: Vec<_> = info.forms.iter().map(|form| form.name).collect();
+    let found = info.forms.iter().find(|known| known.name == form);
+    found.ok_or_else(|| {
+        let message = format!("no form `{form}` of {}: expected one of {}", info.id, names.join(" | "));
+        file.error_at(entry, message)
+    })
+}
+
+fn parameter(
+    info: &'static EffectInfo,
+    name: &Spanned<String>,
+    known: Parameter,
+    entry: &Spanned<Entry>,
+    file: &TomlFile,
+) -> Result<(&'static str, Knowledge), HostError> {
+    let Some(parameter) = info.parameter(name.get_ref()) else {
+        let names: Vec<_> = info.parameters.iter().map(|parameter| parameter.name).collect();
+        let message = format!("no parameter `{}` of {}: expected {}", name.get_ref(), info.id, names.join(", "));
+        return Err(file.error_at(name, message));
+    };
+    let known = knowledge(file, parameter.name, &Spanned::new(entry.span(), known), parameter.low, parameter.high)?;
+    Ok((parameter.name, known))
 }
 
 impl<'de> Deserialize<'de> for DeclaredTable {

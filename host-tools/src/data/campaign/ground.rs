@@ -132,7 +132,8 @@ impl Ground {
     }
 }
 
-fn knowledge(
+/// What a file says of a parameter that may lie between `least` and `greatest`.
+pub(super) fn knowledge(
     file: &TomlFile,
     name: &str,
     parameter: &Spanned<Parameter>,

@@ -2,6 +2,7 @@
 //! of wheel, soil and sensors.
 
 mod about;
+mod carried;
 mod channel;
 mod declared;
 mod ground;
@@ -19,8 +20,9 @@ use super::toml_file::TomlFile;
 use super::wheel_file::Grousers;
 
 pub use about::Provenance;
+pub use carried::Carried;
 pub use channel::Channel;
-pub use declared::{Declared, EFFECT_IDS};
+pub use declared::{Declared, DeclaredEffect};
 pub use ground::{Ground, Knowledge};
 pub use noise::ChannelNoise;
 
@@ -49,6 +51,7 @@ pub struct Campaign {
     pub noise: ChannelNoise,
     /// The effects that the model is told of.
     pub declared: Declared,
+    header: Vec<String>,
     rows: Vec<RowId>,
     columns: Vec<Measured>,
 }
@@ -90,15 +93,13 @@ impl Campaign {
         Self::assemble(path, &table, &TomlFile::new(TextFile::new(&path.with_extension("toml"), toml)))
     }
 
-    /// The measured figures that the project carries: a smooth wheel at six slips on a soil that direct tests know, read
-    /// off published curves.
+    /// The measured figures that the project carries for its own reports: a smooth wheel at six slips on a soil that
+    /// direct tests know.
     ///
     /// # Errors
     /// Never in practice: the figures are part of this program, and tested.
     pub fn carried() -> Result<Self, HostError> {
-        const CSV: &str = include_str!("../../../data/ding2011-smooth.csv");
-        const TOML: &str = include_str!("../../../data/ding2011-smooth.toml");
-        Self::parse(Path::new("host-tools/data/ding2011-smooth.csv"), CSV, TOML)
+        Carried::Ding2011Smooth.campaign()
     }
 
     fn assemble(path: &Path, table: &Table, toml: &TomlFile) -> Result<Self, HostError> {
@@ -118,6 +119,7 @@ impl Campaign {
             source: about.source,
             notes: about.notes,
             gravity_m_s2: about.gravity_m_s2.into_inner(),
+            header: table.header().to_vec(),
             rows,
             columns,
         };
@@ -146,6 +148,16 @@ impl Campaign {
         runs
     }
 
+    /// The same with every row a run of its own, named after its run and its place from 1: for tests that were done one after
+    /// the other and stand in one run of the file.
+    #[must_use]
+    pub fn with_a_run_for_each_row(mut self) -> Self {
+        for (row, id) in self.rows.iter_mut().enumerate() {
+            id.run = format!("{}-{}", id.run, row + 1);
+        }
+        self
+    }
+
     /// The names of the columns of numbers, `t_s` aside.
     pub fn columns(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|column| column.name.as_str())
@@ -159,6 +171,13 @@ impl Campaign {
     /// What a row has in a channel.
     pub fn value(&self, row: usize, channel: Channel) -> Option<f64> {
         self.column(channel.name())?.get(row).copied().flatten()
+    }
+
+    /// An error about what a row has in a channel: at the row's line and the channel's column.
+    pub fn error_at_row(&self, row: usize, channel: Channel, message: impl Into<String>) -> HostError {
+        let line = self.rows.get(row).map_or(1, |id| id.line);
+        let column = self.header.iter().position(|name| name == channel.name()).map_or(1, |place| place as u64 + 1);
+        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
     }
 
     /// An error about the table as a whole.

@@ -1,0 +1,40 @@
+//! Soil that answers to speed.
+
+use crate::scalar::Scalar;
+use crate::terramechanics::Soil;
+
+use super::info::effect_parameters;
+use super::{Circumstances, Column, Effect, Form};
+
+effect_parameters! {
+    /// Stiffness and strength are powers of the speed: k (v/v₀)^m (after Bekker's plate tests at several rates), and
+    /// (c, tan φ)(v/v₀)^q.
+    pub struct Rate {
+        /// m.
+        stiffness_exponent: "stiffness" ["-"] = 0.0, -1.5 to 1.5, about 0.2;
+        /// q.
+        strength_exponent: "strength" ["-"] = 0.0, -1.0 to 1.0, about 0.1;
+        /// v₀, m/s: the speed at which stiffness and strength are the soil's own.
+        reference_speed_m_s: "reference_speed_m_s" ["m/s"] = 0.02, 0.000001 to 100.0, about 0.02;
+    }
+}
+
+impl<S: Scalar> Effect<S> for Rate<S> {
+    const ID: &'static str = "rate";
+    const SUMMARY: &'static str = "the soil is stiffer or stronger at speed";
+    const TEST: &'static str = "the same slip at another speed";
+    const FORMS: &'static [Form] = &[
+        Form { name: "stiffness", free: &["stiffness"], set: &[], needs: &[Column::Speed] },
+        Form { name: "strength", free: &["strength"], set: &[], needs: &[Column::Speed] },
+        Form { name: "stiffness and strength", free: &["stiffness", "strength"], set: &[], needs: &[Column::Speed] },
+    ];
+
+    fn soil(&self, soil: &mut Soil<S>, at: &Circumstances<'_, S>) {
+        let Some(speed) = at.speed_m_s() else {
+            return;
+        };
+        let ratio = (speed.abs() / self.reference_speed_m_s).max(S::constant(1e-6)).ln();
+        soil.scale_stiffness((self.stiffness_exponent * ratio).exp());
+        soil.scale_strength((self.strength_exponent * ratio).exp());
+    }
+}

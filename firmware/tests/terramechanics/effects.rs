@@ -1,0 +1,249 @@
+//! Effects against figures of an independent implementation: the change of drawbar pull, torque and sinkage of the assumed
+//! Kapvik wheel on the seed's sand under 65.4 N, at slips of 0.1, 0.3 and 0.6 (the catalogue of effects in the
+//! project's notes on methods, section 13, computed with other code).
+
+use kapvik_firmware::scalar::Scalar;
+use kapvik_firmware::terramechanics::effects::{CATALOGUE, Conditions, Effects, Grousers};
+use kapvik_firmware::terramechanics::{
+    Memory, Quadrature, Readings, Soil, Wheel, WheelOnSoil, WheelTruth, sinkage_for_load, wheel_forces,
+};
+
+use super::{kapvik_wheel, table_1_sand};
+
+const WHEEL: Wheel<f64> = kapvik_wheel();
+const SAND: Soil<f64> = table_1_sand();
+const GROUSERS: Grousers<f64> = Grousers { height_m: 0.005, count: 24.0 };
+const LOAD_N: f64 = 65.4;
+const SLIPS: [f64; 3] = [0.1, 0.3, 0.6];
+
+fn on_sand(effects: &Effects<f64>) -> WheelOnSoil<'_, f64> {
+    WheelOnSoil {
+        wheel: &WHEEL,
+        grousers: &GROUSERS,
+        soil: &SAND,
+        effects,
+        gravity_m_s2: 9.81,
+        quadrature: Quadrature::REFERENCE,
+    }
+}
+
+fn state(effects: &Effects<f64>, conditions: &Conditions<f64>, slip: f64) -> WheelTruth<f64> {
+    on_sand(effects).at_load(conditions, slip, LOAD_N).expect("the sand carries it")
+}
+
+fn with(settings: &[(&str, &str, f64)]) -> Effects<f64> {
+    let mut effects = Effects::none();
+    for (id, parameter, value) in settings {
+        assert!(effects.set(id, parameter, *value), "{id} {parameter}");
+    }
+    effects
+}
+
+/// Changes in N, N·m and mm at the three slips; each is printed to two digits or so.
+fn check(settings: &[(&str, &str, f64)], expected: [[f64; 3]; 3]) {
+    let effects = with(settings);
+    for (slip, [pull, torque, sinkage]) in SLIPS.into_iter().zip(expected) {
+        let conditions = Conditions::default();
+        let (before, after) = (state(&Effects::none(), &conditions, slip), state(&effects, &conditions, slip));
+        let near = |what: &str, change: f64, expected: f64, digit: f64| {
+            let tolerance = digit.max(0.03 * expected.abs());
+            assert!((change - expected).abs() <= tolerance, "{settings:?} at {slip}: {what} {change} for {expected}");
+        };
+        near("drawbar pull", after.drawbar_pull_n - before.drawbar_pull_n, pull, 0.06);
+        near("torque", after.torque_nm - before.torque_nm, torque, 0.006);
+        near("sinkage", 1e3 * (after.sinkage_m - before.sinkage_m), sinkage, 0.06);
+    }
+}
+
+#[test]
+fn slip_sinkage() {
+    check(&[("slip-sinkage", "n1", 0.3)], [[0.37, 0.08, 1.5], [0.06, 0.18, 4.7], [-2.7, 0.20, 10.6]]);
+}
+
+#[test]
+fn interface_friction() {
+    check(
+        &[("interface-friction", "delta", 20_f64.to_radians())],
+        [[0.0, 0.0, 0.0], [-3.4, -0.25, 0.1], [-8.3, -0.58, 0.4]],
+    );
+}
+
+#[test]
+fn rear_contact() {
+    check(&[("rear-contact", "eta", 0.2)], [[7.8, -0.04, -3.5], [9.5, 0.11, -3.5], [10.3, 0.17, -3.6]]);
+}
+
+#[test]
+fn peak_stress_shift() {
+    check(&[("peak-stress-shift", "shift", 0.1)], [[-1.5, 0.04, 1.2], [-2.1, 0.01, 1.4], [-2.7, -0.01, 1.8]]);
+}
+
+/// The figures of the notes are of drawbar pull and torque alone.
+fn check_forces(settings: &[(&str, &str, f64)], expected: [[f64; 2]; 3]) {
+    let effects = with(settings);
+    for (slip, [pull, torque]) in SLIPS.into_iter().zip(expected) {
+        let conditions = Conditions::default();
+        let (before, after) = (state(&Effects::none(), &conditions, slip), state(&effects, &conditions, slip));
+        let (by_pull, by_torque) = (after.drawbar_pull_n - before.drawbar_pull_n, after.torque_nm - before.torque_nm);
+        assert!((by_pull - pull).abs() <= 0.06_f64.max(0.04 * pull.abs()), "{settings:?} at {slip}: {by_pull}, {pull}");
+        assert!((by_torque - torque).abs() <= 0.006_f64.max(0.04 * torque), "{settings:?}: {by_torque}, {torque}");
+    }
+}
+
+#[test]
+fn grousers_of_five_millimetres() {
+    check_forces(&[("grouser-thrust", "lambda", 1.0)], [[5.35, 0.49], [5.2, 0.51], [4.5, 0.48]]);
+}
+
+#[test]
+fn shear_hump() {
+    check_forces(
+        &[("shear-hump", "share", 1.0), ("shear-hump", "residual", 0.7)],
+        [[15.8, 1.12], [11.5, 0.80], [4.1, 0.27]],
+    );
+}
+
+#[test]
+fn lateral_slip() {
+    let effects = with(&[("lateral-slip", "shear", 1.0)]);
+    let expected = [(-1.2, 12.0), (-0.5, 7.6), (-0.1, 3.2)];
+    for (slip, (pull, side)) in SLIPS.into_iter().zip(expected) {
+        let straight = state(&effects, &Conditions::default(), slip);
+        let left = Conditions { slip_angle_rad: Some(10_f64.to_radians()), ..Conditions::default() };
+        let right = Conditions { slip_angle_rad: Some(-10_f64.to_radians()), ..Conditions::default() };
+        let (left, right) = (state(&effects, &left, slip), state(&effects, &right, slip));
+        assert!((left.drawbar_pull_n - straight.drawbar_pull_n - pull).abs() < 0.1, "{slip}: {}", left.drawbar_pull_n);
+        assert!((left.side_force_n - side).abs() < 0.3, "{slip}: {}", left.side_force_n);
+        assert_eq!(straight.side_force_n, 0.0);
+        assert!((left.side_force_n + right.side_force_n).abs() < 1e-9 && left.drawbar_pull_n == right.drawbar_pull_n);
+    }
+}
+
+/// Without effects, and with every effect at its neutral parameters, the states are those of equations 1–11.
+#[test]
+fn neutral_effects_are_the_seed() {
+    let conditions = Conditions {
+        pass: Some(2.0),
+        temperature_c: Some(31.0),
+        hours_since_zero: Some(3.0),
+        speed_m_s: Some(0.015),
+        wheel_rate_rad_s: Some(0.3),
+        wheel_angle_rad: Some(12.3),
+        travel_m: Some(0.4),
+        pitch_rad: Some(0.1),
+        slip_angle_rad: Some(0.2),
+    };
+    for slip in [-0.6, -0.1, 0.0, 0.1, 0.4, 0.8] {
+        let sinkage_m = sinkage_for_load(&WHEEL, &SAND, slip, LOAD_N).expect("carried");
+        let seed = wheel_forces(&WHEEL, &SAND, slip, sinkage_m).expect("in range");
+        let none = on_sand(&Effects::none()).forces(&conditions, slip, LOAD_N, sinkage_m).expect("in range");
+        let bits =
+            [(none.drawbar_pull_n, seed.drawbar_pull_n), (none.load_n, seed.load_n), (none.torque_nm, seed.torque_nm)];
+        assert!(bits.iter().all(|(a, b)| a.to_bits() == b.to_bits()), "at slip {slip}: {none:?} {seed:?}");
+        assert_eq!(on_sand(&Effects::none()).at_load(&conditions, slip, LOAD_N).expect("carried").sinkage_m, sinkage_m);
+        for info in CATALOGUE {
+            let mut effects = Effects::none();
+            assert!(effects.add(info.id));
+            let on_sand = on_sand(&effects);
+            let truth = on_sand.forces(&conditions, slip, LOAD_N, sinkage_m).expect("in range");
+            let read = on_sand.readings(&conditions, &truth, &mut Memory::start());
+            let seed = Readings::of(&none);
+            for (value, seed, size) in [
+                (read.drawbar_pull_n, seed.drawbar_pull_n, LOAD_N),
+                (read.torque_nm, seed.torque_nm, 1.0),
+                (read.load_n, seed.load_n, LOAD_N),
+                (read.sinkage_m, seed.sinkage_m, 0.01),
+                (read.slip, seed.slip, 1.0),
+                (read.side_force_n, 0.0, LOAD_N),
+            ] {
+                assert!((value - seed).abs() <= 1e-12 * size, "{} at {slip}: {value} for {seed}", info.id);
+            }
+        }
+    }
+}
+
+/// Every parameter of every form is known, in its range, and changes something where its columns are given.
+#[test]
+fn every_form_is_whole() {
+    let conditions = Conditions {
+        pass: Some(2.0),
+        temperature_c: Some(31.0),
+        hours_since_zero: Some(3.0),
+        speed_m_s: Some(0.015),
+        wheel_rate_rad_s: Some(0.3),
+        wheel_angle_rad: Some(12.3),
+        travel_m: Some(0.04),
+        pitch_rad: Some(0.1),
+        slip_angle_rad: Some(0.2),
+    };
+    assert_eq!(CATALOGUE.len(), 22);
+    for info in CATALOGUE {
+        for form in info.forms {
+            for name in form.free {
+                let parameter = info.parameter(name).unwrap_or_else(|| panic!("{} {name}", info.id));
+                assert!(parameter.low <= parameter.neutral || info.id == "interface-friction");
+                assert!(
+                    parameter.low < parameter.high && (parameter.low..=parameter.high).contains(&parameter.typical)
+                );
+                let mut settings: Vec<_> = form.set.iter().map(|(name, value)| (info.id, *name, *value)).collect();
+                // Parameters that shape another are seen only beside it.
+                settings.extend(form.free.iter().map(|free| {
+                    let typical = info.parameter(free).expect("known").typical;
+                    (info.id, *free, if free == name { 1.3 * typical } else { typical })
+                }));
+                let changed = with(&settings);
+                settings.retain(|(_, free, _)| free != name);
+                let without = with(&settings);
+                let side = with(&[("lateral-slip", "shear", 1.0)]);
+                let read = |mut effects: Effects<f64>| {
+                    effects.lateral_slip = effects.lateral_slip.or(side.lateral_slip);
+                    // Two rows, as one effect carries the sinkage from row to row.
+                    let mut memory = Memory::start();
+                    [0.3, 0.5].map(|slip| {
+                        let conditions = Conditions { travel_m: Some(0.1 * slip), ..conditions };
+                        let truth = on_sand(&effects).at_load(&conditions, slip, LOAD_N).expect("carried");
+                        on_sand(&effects).readings(&conditions, &truth, &mut memory)
+                    })
+                };
+                assert_ne!(read(changed), read(without), "{} {} {name}", info.id, form.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn sinkage_follows_travel() {
+    let effects = with(&[("sinkage-lag", "length_m", 0.05), ("sinkage-lag", "start", 0.0)]);
+    let settled = state(&effects, &Conditions::default(), 0.3);
+    let mut memory = Memory::start();
+    for travel in [0.01, 0.02, 0.05, 0.1, 0.4] {
+        let conditions = Conditions { travel_m: Some(travel), ..Conditions::default() };
+        let read = on_sand(&effects).readings(&conditions, &settled, &mut memory);
+        let closed_form = settled.sinkage_m * (1.0 - (-travel / 0.05_f64).exp());
+        assert!((read.sinkage_m - closed_form).abs() < 1e-12);
+    }
+}
+
+/// A wheel whose radius is taken 5 % too great, at v/(rω) = 0.8 and at a standstill of slip.
+#[test]
+fn slip_with_a_wrong_radius() {
+    let effects = with(&[("rolling-radius", "excess", 0.05)]);
+    let read = |slip: f64| {
+        let truth = state(&Effects::none(), &Conditions::default(), slip);
+        on_sand(&effects).readings(&Conditions::default(), &truth, &mut Memory::start()).slip
+    };
+    assert!((read(0.2) - (1.0 - 0.8 / 1.05)).abs() < 1e-12);
+    assert!((read(0.0) - (1.0 - 1.0 / 1.05)).abs() < 1e-12);
+    // rω/v = 0.98 is read as 1.029: driving.
+    assert!((read(-0.02) - (1.0 - 1.0 / (0.98 * 1.05))).abs() < 1e-12);
+    assert!((read(-0.5) - (0.5 * 1.05 - 1.0)).abs() < 1e-12);
+}
+
+#[test]
+fn stronger_soil_keeps_its_angle_below_upright() {
+    let mut soil = SAND;
+    soil.scale_strength(2.0);
+    assert!((soil.friction_angle_rad.tan() - 2.0 * SAND.friction_angle_rad.tan()).abs() < 1e-12);
+    assert_eq!(soil.cohesion_pa, 500.0);
+    assert!(Scalar::is_finite(soil.friction_angle_rad));
+}
