@@ -131,10 +131,12 @@ fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     runs.filter_map(predict).collect()
 }
 
-/// Mean gain a row, and its standard deviation over runs.
+/// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
+/// model without an answer where that one had one has lost.
 fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
-    let gain = |(before, after): (&HeldOutRun, &HeldOutRun)| Some(after.log_score? - before.log_score?);
-    let gains: Vec<f64> = before.iter().zip(after).map(|pair| gain(pair).unwrap_or(0.0)).collect();
+    let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
+    let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
+    let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };
     let rows: usize = before.iter().map(|run| run.rows.len()).sum();
     let count = gains.len() as f64;
     let mean = gains.iter().sum::<f64>() / count.max(1.0);
