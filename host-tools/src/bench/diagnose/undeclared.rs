@@ -197,6 +197,10 @@ pub fn sized(refit: &Refit, wanted: f64, readings: impl Fn(f64) -> Option<Vec<St
     let mut high = (0.3 * probe * wanted / left(probe)?.max(1e-12)).clamp(LEAST, 1.0);
     if left(high)? >= wanted {
         high = LEAST;
+        // It does not go to nothing with its size.
+        if left(high)? >= wanted {
+            return None;
+        }
     }
     let mut low = 0.0;
     loop {
