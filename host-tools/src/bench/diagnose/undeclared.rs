@@ -224,3 +224,36 @@ pub fn sized(refit: &Refit, wanted: f64, readings: impl Fn(f64) -> Option<Vec<St
 pub fn put_overlay(act: Act, size: f64) -> Undeclared {
     Undeclared { overlay: Some((act, size)), ..Undeclared::nothing() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::instruments::Instruments;
+    use super::super::layout::Layout;
+    use super::super::refit::PRIOR_STD;
+    use super::super::unlisted::UNLISTED;
+    use super::*;
+
+    /// An offset that the soil cannot imitate (the side force, zero without it) is left whole: its size is exactly the
+    /// wanted multiple of the noise.
+    #[test]
+    fn a_size_is_what_is_left_in_units_of_the_noise() {
+        let mut chance = Chance::new(5, "size", 0);
+        let wants = Wants::columns(&[Channel::SideForce]);
+        let (site, layout, refit, noise) = std::iter::repeat_with(|| {
+            let site = Site::draw(&mut chance, false);
+            let layout = Layout::draw(&mut chance, &site, &wants);
+            let instruments = Instruments::draw(&mut chance, &site, &layout, &wants);
+            let refit = Refit::new(&site, &layout, &instruments, &PRIOR_STD)?;
+            Some((site, layout, refit, instruments.noise[3]?.hypot(instruments.offset_std[3])))
+        })
+        .take(50)
+        .flatten()
+        .next()
+        .expect("a campaign");
+        let offset = Act::State(|place, state, size| state.side_force_n += size * place.site.load_n);
+        let found = sized(&refit, 2.0, |size| put_overlay(offset, size).readings(&site, &layout.rows)).expect("a size");
+        let multiple = found.size * site.load_n / noise;
+        assert!((1.9..2.1).contains(&multiple), "{multiple}");
+        assert!(UNLISTED.len() >= 8, "kinds of effects of no list");
+    }
+}
