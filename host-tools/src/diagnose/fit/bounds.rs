@@ -2,21 +2,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Most changes of the set of coordinates that are held on a bound.
-const MOST_CHANGES: usize = 40;
+/// Most changes per coordinate of the set that is held on bounds.
+const CHANGES: usize = 10;
+/// Twice the gain for which a coordinate is let go.
+const LEAST_GAIN: f64 = 1e-20;
 
-/// Where a coordinate of a step is held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Held {
-    Free,
-    Low,
-    High,
-}
-
-/// The step x within `low` ≤ x ≤ `high` that is least in ½ xᵀHx − gᵀx, H positive definite; none where it is not.
+/// The step x within `low` ≤ x ≤ `high` that is least in ½ xᵀHx − gᵀx, H positive definite; none where it is not. Zero lies
+/// within the bounds.
 ///
-/// By the primal–dual active set method (Hintermüller, Ito & Kunisch 2002, SIAM J. Optim. 13:865). If the set of held coordinates goes in circles the
-/// last step is cut to the box.
+/// By the primal active set method (Nocedal & Wright 2006, Numerical Optimization, section 16.5): every step lowers
+/// the function, and no set of held coordinates comes back.
 pub(super) fn bounded_step(
     curvature: &DMatrix<f64>,
     pull: &DVector<f64>,
@@ -24,54 +19,49 @@ pub(super) fn bounded_step(
     high: &DVector<f64>,
 ) -> Option<DVector<f64>> {
     let count = pull.len();
-    let mut held = vec![Held::Free; count];
     let mut step = DVector::zeros(count);
-    for _ in 0..MOST_CHANGES {
-        step = solve(curvature, pull, low, high, &held)?;
-        // What still pulls at a coordinate that is held.
-        let rest = pull - curvature * &step;
-        let next: Vec<Held> = (0..count).map(|p| hold(held[p], step[p], rest[p], (low[p], high[p]))).collect();
-        if next == held {
-            break;
+    let outward = |p: usize, pull: f64, step: f64| (step <= low[p] && pull < 0.0) || (step >= high[p] && pull > 0.0);
+    let mut held: Vec<bool> = (0..count).map(|p| outward(p, pull[p], 0.0)).collect();
+    for _ in 0..=CHANGES * count {
+        let target = solve(curvature, pull, &step, &held)?;
+        let blocked =
+            (0..count).filter(|&p| !held[p]).map(|p| (p, share_within(step[p], target[p], (low[p], high[p]))));
+        let nearest = blocked.filter(|(_, share)| *share < 1.0).min_by(|one, other| one.1.total_cmp(&other.1));
+        if let Some((p, share)) = nearest {
+            step += share * (&target - &step);
+            step[p] = if target[p] < low[p] { low[p] } else { high[p] };
+            held[p] = true;
+            continue;
         }
-        held = next;
+        step = target;
+        let rest = pull - curvature * &step;
+        let gain = |p: usize| rest[p] * rest[p] / curvature[(p, p)];
+        let inward = (0..count).filter(|&p| held[p] && !outward(p, rest[p], step[p]) && gain(p) > LEAST_GAIN);
+        let Some(p) = inward.max_by(|&one, &other| gain(one).total_cmp(&gain(other))) else { break };
+        held[p] = false;
     }
     Some(DVector::from_fn(count, |p, _| step[p].clamp(low[p], high[p])))
 }
 
-fn hold(held: Held, step: f64, rest: f64, (low, high): (f64, f64)) -> Held {
-    match held {
-        Held::Free if step < low => Held::Low,
-        Held::Free if step > high => Held::High,
-        Held::Low if rest < 0.0 => Held::Low,
-        Held::High if rest > 0.0 => Held::High,
-        _ => Held::Free,
-    }
+/// Share of the way from `from` to `to` that lies within the bounds, 0 to 1.
+fn share_within(from: f64, to: f64, (low, high): (f64, f64)) -> f64 {
+    let end = to.clamp(low, high);
+    if end == to { 1.0 } else { ((end - from) / (to - from)).clamp(0.0, 1.0) }
 }
 
-/// The minimum over the free coordinates with the others on their bounds.
-fn solve(
-    curvature: &DMatrix<f64>,
-    pull: &DVector<f64>,
-    low: &DVector<f64>,
-    high: &DVector<f64>,
-    held: &[Held],
-) -> Option<DVector<f64>> {
-    let mut step = DVector::from_fn(held.len(), |p, _| match held[p] {
-        Held::Free => 0.0,
-        Held::Low => low[p],
-        Held::High => high[p],
-    });
-    let free: Vec<usize> = (0..held.len()).filter(|&p| held[p] == Held::Free).collect();
+/// The minimum over the free coordinates with the others where they are.
+fn solve(curvature: &DMatrix<f64>, pull: &DVector<f64>, step: &DVector<f64>, held: &[bool]) -> Option<DVector<f64>> {
+    let mut found = DVector::from_fn(held.len(), |p, _| if held[p] { step[p] } else { 0.0 });
+    let free: Vec<usize> = (0..held.len()).filter(|&p| !held[p]).collect();
     if free.is_empty() {
-        return Some(step);
+        return Some(found);
     }
-    let rest = pull - curvature * &step;
+    let rest = pull - curvature * &found;
     let matrix = DMatrix::from_fn(free.len(), free.len(), |i, j| curvature[(free[i], free[j])]);
     let right = DVector::from_fn(free.len(), |i, _| rest[free[i]]);
-    let found = matrix.cholesky()?.solve(&right);
-    for (&p, value) in free.iter().zip(found.iter()) {
-        step[p] = *value;
+    let values = matrix.cholesky()?.solve(&right);
+    for (&p, value) in free.iter().zip(values.iter()) {
+        found[p] = *value;
     }
-    Some(step)
+    Some(found)
 }

@@ -13,13 +13,16 @@ use super::predictive::{judge, unpredicted};
 use super::problem::Problem;
 use super::start::Start;
 use super::state::Scales;
+use super::variance_share::VarianceShares;
+use super::variances::better;
 
 /// Most halvings of the step away from the fit where the model predicts nothing after it.
 const HALVINGS: usize = 4;
 
 impl Fit {
     /// Runs predicted without their own help, by one Gauss–Newton step from this fit on the normal equations less the runs'
-    /// contributions: exact for a linear model without outliers, offsets' and noise's standard deviations kept. `model` and
+    /// contributions, and one like it for the standard deviations that were estimated: exact for a linear model without outliers
+    /// whose standard deviations are known. `model` and
     /// its rows are those of the fit.
     ///
     /// # Errors
@@ -31,23 +34,26 @@ impl Fit {
         }
         let mut information = self.information.clone();
         let mut pull = self.pull.clone();
+        let mut variances = self.shares.iter().fold(VarianceShares::default(), |sum, share| sum + share.variances);
         for share in self.shares.iter().filter(|share| runs.contains(&share.run)) {
             information -= &share.information;
             pull -= &share.pull;
+            variances = variances - share.variances;
         }
         let here = DVector::from_column_slice(&self.parameters);
         let (low, high) = problem.room(&here);
         let step = bounded_step(&with_floor(&problem, &information), &pull, &low, &high)
             .unwrap_or_else(|| DVector::zeros(here.len()));
         let covariance = bounded_covariance(&problem, &information).unwrap_or_else(|| self.covariance.clone());
+        let scales = better(&problem, &self.scales(), &variances);
         let predicted = |halvings: usize| {
             let parameters = &here + &step * 0.5_f64.powi(halvings as i32);
-            let found = self.predict(&problem, &parameters, &covariance, runs);
+            let found = predict(&problem, &scales, &parameters, &covariance, runs);
             found.iter().all(|run| run.log_score.is_some()).then_some((parameters, found))
         };
         let found = (0..=HALVINGS).find_map(predicted);
         let (parameters, found) = found.unwrap_or_else(|| {
-            let found = self.predict(&problem, &here, &covariance, runs);
+            let found = predict(&problem, &scales, &here, &covariance, runs);
             (here.clone(), found)
         });
         Ok(HeldOut { parameters: parameters.as_slice().to_vec(), runs: found })
@@ -69,7 +75,7 @@ impl Fit {
     pub fn predict_unseen(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
         let problem = self.problem_of(model)?;
         let parameters = DVector::from_column_slice(&self.parameters);
-        let runs = self.predict(&problem, &parameters, &self.covariance, runs);
+        let runs = predict(&problem, &self.scales(), &parameters, &self.covariance, runs);
         if runs.is_empty() {
             return Err(FitError::NoRows);
         }
@@ -82,19 +88,22 @@ impl Fit {
         Problem::new(model, &self.rows, &[], &start, &self.options)
     }
 
-    fn predict(
-        &self,
-        problem: &Problem<'_>,
-        parameters: &DVector<f64>,
-        covariance: &DMatrix<f64>,
-        runs: &[usize],
-    ) -> Vec<HeldOutRun> {
-        let scales = Scales { noise: self.noise_scale, offset: self.offset_std };
-        let of_run = |id: &usize| problem.runs.iter().find(|run| run.id == *id);
-        let predict = |run| match measured_run(problem, parameters, run) {
-            Some(measured) => judge(problem, &scales, covariance, run, &measured),
-            None => unpredicted(run),
-        };
-        runs.iter().filter_map(of_run).map(predict).collect()
+    fn scales(&self) -> Scales {
+        Scales { noise: self.noise_scale, offset: self.offset_std }
     }
+}
+
+fn predict(
+    problem: &Problem<'_>,
+    scales: &Scales,
+    parameters: &DVector<f64>,
+    covariance: &DMatrix<f64>,
+    runs: &[usize],
+) -> Vec<HeldOutRun> {
+    let of_run = |id: &usize| problem.runs.iter().find(|run| run.id == *id);
+    let predict = |run| match measured_run(problem, parameters, run) {
+        Some(measured) => judge(problem, scales, covariance, run, &measured),
+        None => unpredicted(run),
+    };
+    runs.iter().filter_map(of_run).map(predict).collect()
 }

@@ -1,5 +1,6 @@
 //! The way to the mode (Levenberg 1944, Quart. Appl. Math. 2:164; Marquardt 1963, SIAM J. Appl. Math. 11:431).
 
+use super::curvature::Curvature;
 use super::normal_equations::NormalEquations;
 use super::problem::Problem;
 use super::state::{Scales, State};
@@ -7,6 +8,9 @@ use super::variances::{SETTLED, are_estimated, first_scales, reestimate};
 
 const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-9;
+/// Factors on the damping after a step that was taken and after one that was not.
+const DAMPING_FALL: f64 = 0.1;
+const DAMPING_RISE: f64 = 8.0;
 /// Damping at which no step lowers the objective any more.
 const STUCK: f64 = 1e9;
 /// Damping above which a small gain says nothing of the minimum: the step was short.
@@ -31,8 +35,13 @@ pub(super) struct Optimum {
 pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
     let mut scales = first_scales(problem);
     let estimated = are_estimated(problem);
-    let mut search =
-        Search { objective: start.objective(problem, &scales), state: start, damping: FIRST_DAMPING, iterations: 0 };
+    let mut search = Search {
+        objective: start.objective(problem, &scales),
+        state: start,
+        damping: FIRST_DAMPING,
+        curvature: Curvature::default(),
+        iterations: 0,
+    };
     let mut converged = false;
     for round in 0..ROUNDS {
         let rough = estimated && round == 0;
@@ -51,6 +60,7 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
             break;
         }
         scales = next;
+        search.curvature.look_away();
         search.objective = search.state.objective(problem, &scales);
     }
     Optimum { state: search.state, scales, objective: search.objective, iterations: search.iterations, converged }
@@ -60,6 +70,7 @@ struct Search {
     state: State,
     objective: f64,
     damping: f64,
+    curvature: Curvature,
     iterations: usize,
 }
 
@@ -69,7 +80,7 @@ impl Search {
         while self.iterations < problem.options.most_iterations && self.damping < STUCK {
             self.iterations += 1;
             let Some((state, objective)) = self.attempt(problem, scales) else {
-                self.damping *= 6.0;
+                self.reject();
                 continue;
             };
             let gain = self.objective - objective;
@@ -77,9 +88,9 @@ impl Search {
             if gain > 0.0 {
                 self.state = state;
                 self.objective = objective;
-                self.damping = (self.damping * 0.1).max(LEAST_DAMPING);
+                self.damping = (DAMPING_FALL * self.damping).max(LEAST_DAMPING);
             } else {
-                self.damping *= 6.0;
+                self.reject();
             }
             if settled {
                 return true;
@@ -89,8 +100,16 @@ impl Search {
         false
     }
 
-    fn attempt(&self, problem: &Problem<'_>, scales: &Scales) -> Option<(State, f64)> {
-        let equations = NormalEquations::new(problem, &self.state, scales, self.damping);
+    /// A step that was too bold: the next is shorter, and without what was learned of the curvature.
+    fn reject(&mut self) {
+        self.curvature.forget();
+        self.damping = (DAMPING_RISE * self.damping).max(FIRST_DAMPING);
+    }
+
+    fn attempt(&mut self, problem: &Problem<'_>, scales: &Scales) -> Option<(State, f64)> {
+        let mut equations = NormalEquations::new(problem, &self.state, scales, self.damping);
+        self.curvature.see(&self.state.parameters, &equations);
+        equations.information = self.curvature.corrected(&equations.information);
         let step = equations.step(problem, &self.state, self.damping)?;
         let state = self.state.after(problem, &step)?;
         let objective = state.objective(problem, scales);

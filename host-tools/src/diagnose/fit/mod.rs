@@ -13,6 +13,7 @@
 //! `predictive` predict runs that a fit has not seen; `multistart` fits from many places.
 
 mod bounds;
+mod curvature;
 mod held_out;
 mod huber;
 mod leave_out;
@@ -32,6 +33,7 @@ mod row_terms;
 mod run_terms;
 mod start;
 mod state;
+mod variance_share;
 mod variances;
 
 #[cfg(test)]

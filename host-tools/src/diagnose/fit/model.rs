@@ -18,9 +18,11 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
-    /// Precision of the flat distribution on the bounds: 12 / width², 0 where a bound is infinite.
+    /// Precision that the bounds add to the prior's, so that together they have at least that of the flat distribution on the
+    /// bounds, 12 / width²; 0 where a bound is infinite.
     pub(super) fn box_precision(&self) -> f64 {
-        12.0 / (self.high - self.low).powi(2)
+        let prior = self.prior.map_or(0.0, |(_, std)| 1.0 / (std * std));
+        (12.0 / (self.high - self.low).powi(2) - prior).max(0.0)
     }
 
     /// A middling value: the prior's mean, the middle of the bounds, or the start where there is neither.

@@ -38,9 +38,9 @@ pub struct Options {
     pub estimate_noise: [bool; CHANNELS],
     /// What these are estimated by.
     pub variance_criterion: VarianceCriterion,
-    /// What a true slip can be.
+    /// What a true slip can be: −1, where the wheel does not turn, excluded.
     pub slip_range: (f64, f64),
-    /// What a true load can be, N.
+    /// What a true load can be, N, > 0.
     pub load_range_n: (f64, f64),
     /// Standard deviations of the prior of slip and of load (N) about their start: wide enough not to matter wherever a reading
     /// says anything.
@@ -62,8 +62,8 @@ impl Default for Options {
             smallest_run_with_offset: 2,
             estimate_noise: [false; CHANNELS],
             variance_criterion: VarianceCriterion::Restricted,
-            slip_range: (-1.0, 1.0),
-            load_range_n: (0.0, f64::INFINITY),
+            slip_range: (-0.99, 1.0),
+            load_range_n: (0.01, f64::INFINITY),
             latent_prior_std: [10.0, 1e4],
             most_iterations: 60,
             tolerance: 1e-6,

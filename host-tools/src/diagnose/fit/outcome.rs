@@ -12,7 +12,9 @@ use super::options::{FitError, Options};
 use super::problem::{Problem, RunRows};
 use super::run_terms::RunTerms;
 use super::start::Start;
-use super::state::{Scales, State};
+use super::state::{Scales, State, Step};
+use super::variance_share::VarianceShares;
+use super::variances::shares_by_run;
 
 /// Points on the way from a start to the middle of the prior at which a fit may begin.
 const RETREATS: [f64; 5] = [1.0, 0.75, 0.5, 0.25, 0.0];
@@ -76,6 +78,7 @@ pub(super) struct RunShare {
     pub run: usize,
     pub information: DMatrix<f64>,
     pub pull: DVector<f64>,
+    pub variances: VarianceShares,
 }
 
 /// Fits a model to rows.
@@ -144,7 +147,7 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
         leverages: by_row.leverages,
         iterations,
         converged,
-        shares: shares(problem, &equations),
+        shares: shares(problem, &state, &scales, &equations),
         information: equations.information,
         pull: equations.pull,
         parameters: state.parameters.as_slice().to_vec(),
@@ -153,13 +156,16 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
     }
 }
 
-fn shares(problem: &Problem<'_>, equations: &NormalEquations) -> Vec<RunShare> {
-    let share = |(run, terms): (&RunRows, &RunTerms)| RunShare {
+fn shares(problem: &Problem<'_>, state: &State, scales: &Scales, equations: &NormalEquations) -> Vec<RunShare> {
+    let variances = shares_by_run(problem, state, scales, equations, &Step::none(state));
+    let variances = variances.unwrap_or_else(|| vec![VarianceShares::default(); problem.runs.len()]);
+    let share = |((run, terms), variances): ((&RunRows, &RunTerms), VarianceShares)| RunShare {
         run: run.id,
         information: terms.information.clone(),
         pull: terms.pull.clone(),
+        variances,
     };
-    problem.runs.iter().zip(&equations.runs).map(share).collect()
+    problem.runs.iter().zip(&equations.runs).zip(variances).map(share).collect()
 }
 
 fn run_offsets(problem: &Problem<'_>, state: &State) -> Vec<RunOffset> {

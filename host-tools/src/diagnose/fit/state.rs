@@ -40,6 +40,17 @@ pub(super) struct Step {
     pub offsets: Vec<Channels>,
 }
 
+impl Step {
+    /// None at all.
+    pub(super) fn none(state: &State) -> Self {
+        Self {
+            parameters: DVector::zeros(state.parameters.len()),
+            latents: state.latents.iter().map(|latents| vec![Vector2::zeros(); latents.len()]).collect(),
+            offsets: vec![Channels::zeros(); state.offsets.len()],
+        }
+    }
+}
+
 impl State {
     /// At some parameters without offsets; none where the model predicts nothing there.
     pub(super) fn at(problem: &Problem<'_>, parameters: DVector<f64>) -> Option<Self> {

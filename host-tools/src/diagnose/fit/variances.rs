@@ -13,7 +13,9 @@ use super::options::{OffsetStd, VarianceCriterion};
 use super::outcome::free_covariance;
 use super::problem::Problem;
 use super::row_terms::shift_by;
-use super::state::{Scales, State};
+use super::run_terms::RunTerms;
+use super::state::{Scales, State, Step};
+use super::variance_share::{Share, VarianceShares};
 
 /// Rounds of the iteration at one state.
 const ROUNDS: usize = 12;
@@ -25,10 +27,6 @@ const FIRST_OFFSET: f64 = 0.5;
 const LEAST_OFFSET: f64 = 1e-3;
 /// Least and greatest factor on the first guess of a noise.
 const NOISE_FACTORS: (f64, f64) = (1e-2, 1e2);
-/// Largest factor on a variance in one round.
-const LARGEST_CHANGE: f64 = 10.0;
-/// Power of the ratio by which a variance changes, at most: fast where the data hardly inform it.
-const LARGEST_POWER: f64 = 5.0;
 /// Degrees of freedom below which a noise is not estimated.
 const LEAST_FREEDOM: f64 = 0.5;
 
@@ -57,55 +55,16 @@ fn offset_unit(problem: &Problem<'_>, channel: usize) -> f64 {
     if noises.is_empty() { 0.0 } else { noises.iter().sum::<f64>() / noises.len() as f64 }
 }
 
-/// Mean squares in units of the variances, the degrees of freedom that are left to them, and how many there are.
-#[derive(Default, Clone, Copy)]
-struct Share {
-    squares: f64,
-    freedom: f64,
-    count: f64,
-}
-
-impl Share {
-    fn slope(&self) -> f64 {
-        0.5 * (self.squares - self.freedom)
-    }
-
-    /// Factor on the variance; a Newton step along its logarithm where the ratio falls like a power of it.
-    fn factor(&self) -> f64 {
-        if self.freedom <= 0.0 || self.count <= 0.0 {
-            return 1.0;
-        }
-        let power = (self.count / self.freedom).clamp(1.0, LARGEST_POWER);
-        (self.squares / self.freedom).powf(power).clamp(1.0 / LARGEST_CHANGE, LARGEST_CHANGE)
-    }
-}
-
 /// Better standard deviations at a state, and the largest slope of the log-likelihood along the logarithm of a variance before.
 pub(super) fn reestimate(problem: &Problem<'_>, state: &State, scales: &Scales) -> (Scales, f64) {
     let mut scales = *scales;
     let mut first_slope = None;
     for _ in 0..ROUNDS {
-        let Some((offsets, noises)) = shares(problem, state, &scales) else { break };
-        let mut largest: f64 = 0.0;
-        let mut next = scales;
-        for c in 0..CHANNELS {
-            if problem.options.offsets[c] == OffsetStd::Estimated && scales.offset[c] > 0.0 {
-                let least = LEAST_OFFSET * offset_unit(problem, c);
-                next.offset[c] = (scales.offset[c] * offsets[c].factor().sqrt()).max(least);
-                if next.offset[c] > least || scales.offset[c] > least {
-                    largest = largest.max(offsets[c].slope().abs());
-                }
-            }
-            if problem.options.estimate_noise[c] && noises[c].freedom > LEAST_FREEDOM {
-                let factor = Share { count: noises[c].freedom, ..noises[c] }.factor().sqrt();
-                next.noise[c] = (scales.noise[c] * factor).clamp(NOISE_FACTORS.0, NOISE_FACTORS.1);
-                if next.noise[c] != scales.noise[c] {
-                    largest = largest.max(noises[c].slope().abs());
-                }
-            }
-        }
-        first_slope.get_or_insert(largest);
-        if largest < SETTLED {
+        let Some(shares) = shares(problem, state, &scales) else { break };
+        let next = better(problem, &scales, &shares);
+        let slope = largest_slope(problem, &scales, &next, &shares);
+        first_slope.get_or_insert(slope);
+        if slope < SETTLED {
             break;
         }
         scales = next;
@@ -113,36 +72,90 @@ pub(super) fn reestimate(problem: &Problem<'_>, state: &State, scales: &Scales) 
     (scales, first_slope.unwrap_or(0.0))
 }
 
-/// Shares of the offsets and of the noise of each channel, after the step to the minimum of the linear model about a state.
-fn shares(problem: &Problem<'_>, state: &State, scales: &Scales) -> Option<([Share; CHANNELS], [Share; CHANNELS])> {
+/// Standard deviations nearer to what the shares ask for.
+pub(super) fn better(problem: &Problem<'_>, scales: &Scales, shares: &VarianceShares) -> Scales {
+    let mut next = *scales;
+    for c in 0..CHANNELS {
+        if problem.options.offsets[c] == OffsetStd::Estimated && scales.offset[c] > 0.0 {
+            let least = LEAST_OFFSET * offset_unit(problem, c);
+            next.offset[c] = (scales.offset[c] * shares.offset[c].factor().sqrt()).max(least);
+        }
+        let noise = shares.noise[c];
+        if problem.options.estimate_noise[c] && noise.freedom > LEAST_FREEDOM {
+            // As if all that is left were free: what readings take part in determining has its share taken off already.
+            let factor = Share { count: noise.freedom, ..noise }.factor().sqrt();
+            next.noise[c] = (scales.noise[c] * factor).clamp(NOISE_FACTORS.0, NOISE_FACTORS.1);
+        }
+    }
+    next
+}
+
+/// Largest slope of the log-likelihood along the logarithm of a variance that is not at the end of its range.
+fn largest_slope(problem: &Problem<'_>, scales: &Scales, next: &Scales, shares: &VarianceShares) -> f64 {
+    let mut largest: f64 = 0.0;
+    for c in 0..CHANNELS {
+        let least = LEAST_OFFSET * offset_unit(problem, c);
+        if next.offset[c] != scales.offset[c] && next.offset[c].max(scales.offset[c]) > least {
+            largest = largest.max(shares.offset[c].slope().abs());
+        }
+        if next.noise[c] != scales.noise[c] {
+            largest = largest.max(shares.noise[c].slope().abs());
+        }
+    }
+    largest
+}
+
+/// What all runs say of the variances, after the step to the minimum of the linear model about a state.
+fn shares(problem: &Problem<'_>, state: &State, scales: &Scales) -> Option<VarianceShares> {
     let equations = NormalEquations::new(problem, state, scales, 0.0);
     let step = equations.step(problem, state, 0.0)?;
+    let runs = shares_by_run(problem, state, scales, &equations, &step)?;
+    Some(runs.iter().fold(VarianceShares::default(), |sum, run| sum + *run))
+}
+
+/// What each run says of the variances after a step of the linear model about a state.
+pub(super) fn shares_by_run(
+    problem: &Problem<'_>,
+    state: &State,
+    scales: &Scales,
+    equations: &NormalEquations,
+    step: &Step,
+) -> Option<Vec<VarianceShares>> {
     let covariance = match problem.options.variance_criterion {
-        VarianceCriterion::Restricted => free_covariance(problem, &(&state.parameters + &step.parameters), &equations)?,
+        VarianceCriterion::Restricted => free_covariance(problem, &(&state.parameters + &step.parameters), equations)?,
         VarianceCriterion::MaximumLikelihood => DMatrix::zeros(step.parameters.len(), step.parameters.len()),
     };
-    let leverages = leverages(problem, state, &equations, &covariance);
-    let mut offsets = [Share::default(); CHANNELS];
-    let mut noises = [Share::default(); CHANNELS];
-    for (index, run) in equations.runs.iter().enumerate() {
-        let gain = &run.cross * run.offset_covariance;
-        let spread = gain.tr_mul(&(&covariance * &gain));
+    let leverages = leverages(problem, state, equations, &covariance);
+    let of_run = |index: usize| {
+        let run = &equations.runs[index];
         let offset = state.offsets[index] + step.offsets[index];
-        for c in (0..CHANNELS).filter(|&c| run.active[c]) {
-            let variance = scales.offset[c] * scales.offset[c];
-            offsets[c].squares += offset[c] * offset[c] / variance;
-            offsets[c].freedom += 1.0 - (run.offset_covariance[(c, c)] + spread[(c, c)]) / variance;
-            offsets[c].count += 1.0;
-        }
+        let mut shares =
+            VarianceShares { offset: offset_shares(run, &offset, scales, &covariance), ..Default::default() };
         for (place, row) in run.rows.iter().enumerate() {
             let shift = shift_by(&state.predictions[index][place], &row.weight, step.parameters.as_slice());
             let residual: Channels = row.residual_after(&(shift + step.offsets[index]), &step.latents[index][place]);
             for c in (0..CHANNELS).filter(|&c| row.weight[c] > 0.0) {
-                noises[c].squares += row.weight[c] * residual[c] * residual[c];
-                noises[c].freedom += 1.0 - leverages[index][place][c];
-                noises[c].count += 1.0;
+                shares.noise[c].squares += row.weight[c] * residual[c] * residual[c];
+                shares.noise[c].freedom += 1.0 - leverages[index][place][c];
             }
         }
-    }
-    Some((offsets, noises))
+        shares
+    };
+    Some((0..equations.runs.len()).map(of_run).collect())
+}
+
+fn offset_shares(run: &RunTerms, offset: &Channels, scales: &Scales, covariance: &DMatrix<f64>) -> [Share; CHANNELS] {
+    let gain = &run.cross * run.offset_covariance;
+    let spread = gain.tr_mul(&(covariance * &gain));
+    std::array::from_fn(|c| {
+        if !run.active[c] {
+            return Share::default();
+        }
+        let variance = scales.offset[c] * scales.offset[c];
+        Share {
+            squares: offset[c] * offset[c] / variance,
+            freedom: 1.0 - (run.offset_covariance[(c, c)] + spread[(c, c)]) / variance,
+            count: 1.0,
+        }
+    })
 }

@@ -89,6 +89,19 @@ fn a_coordinate_that_no_reading_moves_keeps_the_spread_of_its_bounds() {
     assert!(!fit.on_bound[2]);
 }
 
+#[test]
+fn a_model_without_coordinates_is_scored_as_it_is() {
+    let (mut model, rows) = campaign(&[3; 4], 2, 5);
+    model.coordinates.clear();
+    model.terms.iter_mut().for_each(|terms| terms.parameters.clear());
+    let options = crate::diagnose::fit::Options { latent_prior_std: [1.0, 100.0], ..plain() };
+    let fit = fit(&model, &rows, &Start::of(&model, &rows), &options).unwrap();
+    let dense = Dense::new(&model, &rows, &options, &[0.0; CHANNELS], &[1.0; CHANNELS]);
+    assert!(fit.converged && fit.parameters.is_empty());
+    assert!((fit.log_likelihood - dense.ln_density(&[])).abs() < 1e-4);
+    assert!(fit.leave_out(&model, &[1]).unwrap().log_score().is_some());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 

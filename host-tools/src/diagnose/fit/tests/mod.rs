@@ -10,3 +10,4 @@ mod offsets;
 mod robust;
 mod starts;
 mod toy;
+mod wheel;

@@ -63,25 +63,45 @@ fn estimated_offsets_are_at_the_maximum_of_the_dense_likelihood() {
     is_highest(VarianceCriterion::MaximumLikelihood, |dense| dense.ln_density(dense.estimate().0.as_slice()));
 }
 
+/// Noise and offsets together, from a first guess of the noise that is wrong by different factors.
+#[test]
+fn estimated_noise_is_at_the_maximum_of_the_dense_restricted_likelihood() {
+    for seed in 14..17 {
+        let (model, mut rows) = campaign(&[6, 5, 7, 6, 5, 6], 3, seed);
+        for row in &mut rows {
+            row.noise[0] *= 3.0;
+            row.noise[1] *= 0.5;
+        }
+        let mut options = options(|c| if c < 4 { OffsetStd::Estimated } else { OffsetStd::None });
+        options.estimate_noise = [true, true, false, false, false, false];
+        let fit = fitted(&model, &rows, &options);
+        assert!(fit.converged);
+        let at = |noise: &[f64; CHANNELS]| Dense::new(&model, &rows, &options, &fit.offset_std, noise).restricted();
+        let best = at(&fit.noise_scale);
+        for (c, truth) in [(0, 1.0 / 3.0), (1, 2.0)] {
+            assert!((fit.noise_scale[c] / truth).ln().abs() < 0.5, "{:?}", fit.noise_scale);
+            for factor in [0.9, 1.1] {
+                let mut moved = fit.noise_scale;
+                moved[c] *= factor;
+                assert!(at(&moved) < best + 1e-3, "channel {c}: {} × {factor}", fit.noise_scale[c]);
+            }
+        }
+    }
+}
+
 #[test]
 fn offsets_that_are_not_there_are_estimated_small() {
-    let (model, mut rows) = campaign(&[4; 12], 2, 20);
-    // Every row a run of its own drew one offset; taking the runs apart at random leaves independent rows.
-    let (_, independent) = campaign(&[1; 48], 2, 21);
-    let (model_independent, _) = campaign(&[1; 48], 2, 21);
-    for (row, other) in rows.iter_mut().zip(&independent) {
-        row.readings = other.readings;
-    }
-    let mut told = rows.clone();
-    for row in &mut told {
-        for c in 0..4 {
-            row.noise[c] = (row.noise[c].powi(2) + OFFSET[c].powi(2)).sqrt();
+    // Rows that each drew offsets of their own, filed as runs of four: noise and nothing else.
+    let (model, mut rows) = campaign(&[1; 48], 2, 21);
+    for (index, row) in rows.iter_mut().enumerate() {
+        row.run = index / 4;
+        for (noise, offset) in row.noise.iter_mut().zip(OFFSET) {
+            *noise = noise.hypot(offset);
         }
     }
     let options = options(|c| if c < 4 { OffsetStd::Estimated } else { OffsetStd::None });
-    let fit = fitted(&model_independent, &told, &options);
-    assert_eq!(model.terms.len(), told.len());
+    let fit = fitted(&model, &rows, &options);
     for c in 0..4 {
-        assert!(fit.offset_std[c] < 0.6 * told[0].noise[c], "{c}: {} of {}", fit.offset_std[c], told[0].noise[c]);
+        assert!(fit.offset_std[c] < 0.6 * rows[0].noise[c], "{c}: {} of {}", fit.offset_std[c], rows[0].noise[c]);
     }
 }
