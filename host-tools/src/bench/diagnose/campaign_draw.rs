@@ -167,3 +167,41 @@ fn act(cause: &Cause, site: &Site, layout: &Layout, refit: &Refit, wanted: f64) 
     }
     world.readings(site, &layout.rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::undeclared::effect_ids;
+    use super::super::unlisted::UNLISTED;
+    use super::*;
+
+    fn check(subject: Subject, number: u64) {
+        let drawn = draw(subject, 7, number).unwrap_or_else(|| panic!("{subject} cannot be drawn"));
+        let again = draw(subject, 7, number).expect("the same again");
+        assert_eq!(drawn.written, again.written, "{subject}: the same seed gives the same files");
+        let campaign = drawn.written.campaign(&drawn.name).unwrap_or_else(|error| panic!("{subject}: {error}"));
+        assert!((12..=60).contains(&campaign.runs().len()), "{subject}");
+        assert!(campaign.declared.ids().is_empty());
+        assert_eq!(campaign.ground.sinkage_exponent.is_some(), drawn.truth.known_soil);
+        if let Subject::Unlisted(unlisted) = subject {
+            assert!(campaign.column(unlisted.column).is_some(), "{subject}: the column that it follows");
+            assert!(campaign.column(unlisted.channel.name()).is_some(), "{subject}: the channel that it acts on");
+        }
+    }
+
+    #[test]
+    fn every_listed_effect_can_be_drawn() {
+        effect_ids().into_iter().for_each(|id| check(Subject::One(id), 1));
+    }
+
+    #[test]
+    fn every_effect_of_no_list_can_be_drawn() {
+        UNLISTED.iter().for_each(|unlisted| check(Subject::Unlisted(unlisted), 0));
+    }
+
+    #[test]
+    fn clean_campaigns_and_pairs_can_be_drawn() {
+        check(Subject::Clean, 0);
+        check(Subject::Clean, 1);
+        check(Subject::Two("slip-sinkage", "force-drift"), 0);
+    }
+}

@@ -117,7 +117,8 @@ impl Programme {
             other: self.other.0 + chance.between(0.0, self.other.1),
         };
         let warming_c = chance.between(-1.0, 1.0);
-        let mut travel_m = 0.0;
+        // Recording starts some way after the wheel does.
+        let mut travel_m = if rows > 1 { chance.between(0.05, 2.0) * site.contact_length_m() } else { 0.0 };
         let step = |place: usize| {
             let share = if rows > 1 { place as f64 / (rows - 1) as f64 } else { 0.0 };
             let slip = (from + (to - from) * share + chance.normal(0.004)).clamp(0.005, 0.75);

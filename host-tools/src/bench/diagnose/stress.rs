@@ -67,3 +67,40 @@ pub fn strength_pa(place: &Place<'_>, point: &StressPoint) -> f64 {
     let soil = &place.site.soil;
     soil.cohesion_pa + point.normal_pa * libm::tan(soil.friction_angle_rad)
 }
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::terramechanics::{sinkage_for_load, wheel_forces};
+
+    use super::super::chance::Chance;
+    use super::super::layout::Layout;
+    use super::super::overlay::Act;
+    use super::super::site::Site;
+    use super::super::wants::Wants;
+    use super::*;
+
+    /// The library's own quadrature is the reference: with equation 1 this integral must give what that one gives.
+    #[test]
+    fn the_plain_integral_is_that_of_the_library() {
+        let mut chance = Chance::new(1, "stress", 0);
+        let mut compared = 0;
+        for _ in 0..40 {
+            let site = Site::draw(&mut chance, false);
+            let layout = Layout::draw(&mut chance, &site, &Wants::default());
+            let row = &layout.rows[0];
+            let Ok(sinkage_m) = sinkage_for_load(&site.wheel, &site.soil, row.slip, row.load_n) else { continue };
+            if sinkage_m > 0.6 * site.wheel.radius_m {
+                continue;
+            }
+            let reference = wheel_forces(&site.wheel, &site.soil, row.slip, sinkage_m).expect("a wheel in range");
+            let act = Act::Shear(|place, point, _| janosi_hanamoto_pa(place, point));
+            let found = act.state(&site, row, 1.0).expect("the soil carries this wheel");
+            let scale = 1e-3 * row.load_n;
+            assert!((found.sinkage_m / sinkage_m - 1.0).abs() < 1e-3, "{} for {sinkage_m}", found.sinkage_m);
+            assert!((found.drawbar_pull_n - reference.drawbar_pull_n).abs() < scale);
+            assert!((found.torque_nm - reference.torque_nm).abs() < scale * site.wheel.radius_m);
+            compared += 1;
+        }
+        assert!(compared > 20, "{compared}");
+    }
+}

@@ -197,6 +197,10 @@ pub fn sized(refit: &Refit, wanted: f64, readings: impl Fn(f64) -> Option<Vec<St
     let mut high = (0.3 * probe * wanted / left(probe)?.max(1e-12)).clamp(LEAST, 1.0);
     if left(high)? >= wanted {
         high = LEAST;
+        // It does not go to nothing with its size.
+        if left(high)? >= wanted {
+            return None;
+        }
     }
     let mut low = 0.0;
     loop {
@@ -219,4 +223,37 @@ pub fn sized(refit: &Refit, wanted: f64, readings: impl Fn(f64) -> Option<Vec<St
 /// How an effect of no list is put into a world.
 pub fn put_overlay(act: Act, size: f64) -> Undeclared {
     Undeclared { overlay: Some((act, size)), ..Undeclared::nothing() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::instruments::Instruments;
+    use super::super::layout::Layout;
+    use super::super::refit::PRIOR_STD;
+    use super::super::unlisted::UNLISTED;
+    use super::*;
+
+    /// An offset that the soil cannot imitate (the side force, zero without it) is left whole: its size is exactly the
+    /// wanted multiple of the noise.
+    #[test]
+    fn a_size_is_what_is_left_in_units_of_the_noise() {
+        let mut chance = Chance::new(5, "size", 0);
+        let wants = Wants::columns(&[Channel::SideForce]);
+        let (site, layout, refit, noise) = std::iter::repeat_with(|| {
+            let site = Site::draw(&mut chance, false);
+            let layout = Layout::draw(&mut chance, &site, &wants);
+            let instruments = Instruments::draw(&mut chance, &site, &layout, &wants);
+            let refit = Refit::new(&site, &layout, &instruments, &PRIOR_STD)?;
+            Some((site, layout, refit, instruments.noise[3]?.hypot(instruments.offset_std[3])))
+        })
+        .take(50)
+        .flatten()
+        .next()
+        .expect("a campaign");
+        let offset = Act::State(|place, state, size| state.side_force_n += size * place.site.load_n);
+        let found = sized(&refit, 2.0, |size| put_overlay(offset, size).readings(&site, &layout.rows)).expect("a size");
+        let multiple = found.size * site.load_n / noise;
+        assert!((1.9..2.1).contains(&multiple), "{multiple}");
+        assert!(UNLISTED.len() >= 8, "kinds of effects of no list");
+    }
 }
