@@ -50,7 +50,7 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
     let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None };
     while selected.found.len() < MOST_EFFECTS {
         progress(&format!("effect {}", selected.found.len() + 1));
-        let here = step(bench, selected.model(), None);
+        let here = step(bench, selected.model());
         selected.left = search(bench, selected.model(), here.dispersion);
         if selected.found.is_empty() {
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());

@@ -1,5 +1,7 @@
 //! The rows of a campaign that a diagnosis can use.
 
+use std::collections::HashMap;
+
 use kapvik_firmware::terramechanics::effects::{Conditions, Grousers};
 
 use crate::data::campaign::{Campaign, Channel};
@@ -13,6 +15,8 @@ use super::noise::{Noise, channel_noise};
 pub const COLUMNS: [Channel; CHANNELS] =
     [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
 
+/// Rows beyond which those of each run are thinned.
+const MOST_ROWS: usize = 500;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
 const BRAKING: f64 = -0.05;
 
@@ -74,11 +78,19 @@ impl Measurements {
             noise,
             left_out,
         };
+        let stride = usable.len().div_ceil(MOST_ROWS);
+        if stride > 1 {
+            let reason = format!("thinned to every {stride}. row of a run, to keep within seconds");
+            found.left_out.push(LeftOut { reason, rows: usable.len() - usable.len() / stride });
+        }
+        let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
+            usable.iter().map(|(row, readings)| (*row, readings)).collect();
         for (name, mut places) in campaign.runs() {
+            places.retain(|place| by_place.contains_key(place));
             places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
             let mut of_run = Vec::new();
-            for place in places {
-                let Some((_, readings)) = usable.iter().find(|(row, _)| *row == place) else { continue };
+            for place in places.into_iter().step_by(stride) {
+                let readings = by_place[&place];
                 of_run.push(found.rows.len());
                 found.places.push(place);
                 found.conditions.push(conditions(campaign, place));

@@ -31,7 +31,10 @@ impl Regressor {
 
 /// The columns of a campaign that vary, the ones that the format names first.
 pub fn columns(campaign: &Campaign, measurements: &Measurements) -> Vec<Regressor> {
-    let mut names: Vec<&str> = Channel::ALL.iter().map(|channel| channel.name()).collect();
+    // Other forces are results of the same contact, not causes.
+    let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
+    let causes = Channel::ALL.iter().filter(|channel| !results.contains(channel));
+    let mut names: Vec<&str> = causes.map(|channel| channel.name()).collect();
     names.extend(campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name)));
     let mut found: Vec<Regressor> = Vec::new();
     for name in names {

@@ -37,9 +37,12 @@ const DEGREES: [usize; 2] = [1, 3];
 /// entry a channel and column.
 pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Structure> {
     let measurements = bench.measurements;
-    let about =
-        Linearised::about(&trial.model, &trial.fit, &measurements.rows, &measurements.rows_of_run, &bench.options);
+    let held = bench.held(&trial.fit);
+    let about = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options);
     let Some(linearised) = about else { return Vec::new() };
+    let Ok(nothing) = linearised.fit_with(&AddedTerms { channel: Reading::Sinkage, terms: Vec::new() }) else {
+        return Vec::new();
+    };
     let columns = columns(bench.campaign, measurements);
     let products = products(&columns);
     let channels = Reading::JUDGED.into_iter().filter(|channel| measurements.has(*channel));
@@ -52,12 +55,13 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
     let examine = |&(channel, regressor, degree): &(Reading, &Regressor, usize)| {
         let added = AddedTerms { channel, terms: powers(regressor, degree) };
         let fit = linearised.fit_with(&added).ok()?;
-        let gain = (fit.log_likelihood - trial.fit.log_likelihood + prior_change(trial, &fit)) / dispersion;
+        let prior = trial.log_prior(&fit.parameters) - trial.log_prior(&nothing.parameters);
+        let gain = (fit.log_likelihood - nothing.log_likelihood + prior) / dispersion;
         Some(Structure {
             channel,
             regressor: regressor.name.clone(),
             score: gain - PARAMETER_COST * degree as f64,
-            share_of_variance: share(&trial.fit, &fit, channel),
+            share_of_variance: share(&nothing, &fit, channel),
             p_value: family_chance(gain, degree, tries.len()),
         })
     };
@@ -79,16 +83,10 @@ fn powers(regressor: &Regressor, degree: usize) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// What the Gaussian priors gain as the parameters move.
-fn prior_change(trial: &Trial<'_>, fit: &Fit) -> f64 {
-    trial.log_prior(&fit.parameters) - trial.log_prior(&trial.fit.parameters)
-}
-
 /// Share of the squares of a channel's standardised residual that is gone.
 fn share(before: &Fit, after: &Fit, channel: Reading) -> f64 {
     let squares = |fit: &Fit| -> f64 {
-        let scale = fit.noise_scale[channel.index()];
-        fit.standardised.iter().filter_map(|row| row[channel.index()]).map(|value| (scale * value).powi(2)).sum()
+        fit.standardised.iter().filter_map(|row| row[channel.index()]).map(|value| value.powi(2)).sum()
     };
     (1.0 - squares(after) / squares(before).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
