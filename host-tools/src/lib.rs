@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod commands;
 pub mod data;
+pub mod diagnose;
 pub mod error;
 pub mod flight_computer;
 pub mod identify;

@@ -2,6 +2,7 @@
 //! of wheel, soil and sensors.
 
 mod about;
+mod carried;
 mod channel;
 mod declared;
 mod ground;
@@ -19,6 +20,7 @@ use super::toml_file::TomlFile;
 use super::wheel_file::Grousers;
 
 pub use about::Provenance;
+pub use carried::Carried;
 pub use channel::Channel;
 pub use declared::{Declared, DeclaredEffect};
 pub use ground::{Ground, Knowledge};
@@ -90,15 +92,13 @@ impl Campaign {
         Self::assemble(path, &table, &TomlFile::new(TextFile::new(&path.with_extension("toml"), toml)))
     }
 
-    /// The measured figures that the project carries: a smooth wheel at six slips on a soil that direct tests know, read
-    /// off published curves.
+    /// The measured figures that the project carries for its own reports: a smooth wheel at six slips on a soil that
+    /// direct tests know.
     ///
     /// # Errors
     /// Never in practice: the figures are part of this program, and tested.
     pub fn carried() -> Result<Self, HostError> {
-        const CSV: &str = include_str!("../../../data/ding2011-smooth.csv");
-        const TOML: &str = include_str!("../../../data/ding2011-smooth.toml");
-        Self::parse(Path::new("host-tools/data/ding2011-smooth.csv"), CSV, TOML)
+        Carried::Ding2011Smooth.campaign()
     }
 
     fn assemble(path: &Path, table: &Table, toml: &TomlFile) -> Result<Self, HostError> {
@@ -144,6 +144,16 @@ impl Campaign {
             runs[place].1.push(row);
         }
         runs
+    }
+
+    /// The same with every row a run of its own, named after its run and its place from 1: for tests that were done one after
+    /// the other and stand in one run of the file.
+    #[must_use]
+    pub fn with_a_run_for_each_row(mut self) -> Self {
+        for (row, id) in self.rows.iter_mut().enumerate() {
+            id.run = format!("{}-{}", id.run, row + 1);
+        }
+        self
     }
 
     /// The names of the columns of numbers, `t_s` aside.

@@ -1,0 +1,45 @@
+//! What a fit says of runs that it has not seen.
+
+use super::observation::CHANNELS;
+
+/// Predictions of runs by a fit that has not seen them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOut {
+    /// The parameters that they were predicted with.
+    pub parameters: Vec<f64>,
+    /// One per run, in the order asked for.
+    pub runs: Vec<HeldOutRun>,
+}
+
+impl HeldOut {
+    /// Sum of the runs' log scores; none where a run could not be predicted.
+    pub fn log_score(&self) -> Option<f64> {
+        self.runs.iter().map(|run| run.log_score).sum()
+    }
+}
+
+/// Prediction of one run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOutRun {
+    /// The run's number.
+    pub run: usize,
+    /// ln of the joint predictive density of all readings that were judged; none where the model predicts nothing for the run.
+    pub log_score: Option<f64>,
+    /// Its parts by channel: those of a row are conditional on its earlier channels and the run's earlier rows.
+    pub log_score_by_channel: [f64; CHANNELS],
+    /// Readings that were judged, by channel.
+    pub judged: [usize; CHANNELS],
+    /// Its rows, in order.
+    pub rows: Vec<HeldOutRow>,
+}
+
+/// Prediction of one row from its slip and load. Slip and load themselves are never judged, nor is what stood in for a load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldOutRow {
+    /// Index of the row.
+    pub row: usize,
+    /// Measured less predicted in the channel's unit, the run's unknown offset not taken off.
+    pub residual: [Option<f64>; CHANNELS],
+    /// Standard deviation that the prediction gives this residual: parameters, slip and load, offset and noise.
+    pub std: [Option<f64>; CHANNELS],
+}

@@ -1,0 +1,100 @@
+//! Predictions of runs without their own help.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::bounds::bounded_step;
+use super::held_out::{HeldOut, HeldOutRun};
+use super::measured_latents::measured_run;
+use super::model::Model;
+use super::normal_equations::{bounded_covariance, with_floor};
+use super::options::FitError;
+use super::outcome::{Fit, fit_without};
+use super::predictive::{judge, unpredicted};
+use super::problem::Problem;
+use super::start::Start;
+use super::state::Scales;
+
+/// Most halvings of the step away from the fit where the model predicts nothing after it.
+const HALVINGS: usize = 4;
+
+impl Fit {
+    /// Runs predicted without their own help, by one Gauss–Newton step from this fit on the normal equations less the runs'
+    /// contributions: exact for a linear model without outliers, offsets' and noise's standard deviations kept. `model` and
+    /// its rows are those of the fit.
+    ///
+    /// # Errors
+    /// [`FitError::NoRows`] if there are no such runs in the fit, or no others; [`FitError::UnfitStart`] for another model.
+    pub fn leave_out(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
+        let problem = self.problem_of(model)?;
+        if self.shares.iter().all(|share| runs.contains(&share.run)) {
+            return Err(FitError::NoRows);
+        }
+        let mut information = self.information.clone();
+        let mut pull = self.pull.clone();
+        for share in self.shares.iter().filter(|share| runs.contains(&share.run)) {
+            information -= &share.information;
+            pull -= &share.pull;
+        }
+        let here = DVector::from_column_slice(&self.parameters);
+        let (low, high) = problem.room(&here);
+        let step = bounded_step(&with_floor(&problem, &information), &pull, &low, &high)
+            .unwrap_or_else(|| DVector::zeros(here.len()));
+        let covariance = bounded_covariance(&problem, &information).unwrap_or_else(|| self.covariance.clone());
+        let predicted = |halvings: usize| {
+            let parameters = &here + &step * 0.5_f64.powi(halvings as i32);
+            let found = self.predict(&problem, &parameters, &covariance, runs);
+            found.iter().all(|run| run.log_score.is_some()).then_some((parameters, found))
+        };
+        let found = (0..=HALVINGS).find_map(predicted);
+        let (parameters, found) = found.unwrap_or_else(|| {
+            let found = self.predict(&problem, &here, &covariance, runs);
+            (here.clone(), found)
+        });
+        Ok(HeldOut { parameters: parameters.as_slice().to_vec(), runs: found })
+    }
+
+    /// The same by a new fit without the runs, from this one's parameters.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn leave_out_exact(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
+        let start = Start { parameters: self.parameters.clone(), latents: self.latents.clone() };
+        fit_without(model, &self.rows, runs, &start, &self.options)?.predict_unseen(model, runs)
+    }
+
+    /// Predictions of runs that this fit was made without. `model` and its rows are those of the fit.
+    ///
+    /// # Errors
+    /// [`FitError::NoRows`] if the rows have no such run; [`FitError::UnfitStart`] for another model.
+    pub fn predict_unseen(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
+        let problem = self.problem_of(model)?;
+        let parameters = DVector::from_column_slice(&self.parameters);
+        let runs = self.predict(&problem, &parameters, &self.covariance, runs);
+        if runs.is_empty() {
+            return Err(FitError::NoRows);
+        }
+        Ok(HeldOut { parameters: self.parameters.clone(), runs })
+    }
+
+    /// All rows, latents as measured: nothing of the fit's own latents may reach a prediction.
+    fn problem_of<'a>(&'a self, model: &'a dyn Model) -> Result<Problem<'a>, FitError> {
+        let start = Start::at(self.parameters.clone(), &self.rows);
+        Problem::new(model, &self.rows, &[], &start, &self.options)
+    }
+
+    fn predict(
+        &self,
+        problem: &Problem<'_>,
+        parameters: &DVector<f64>,
+        covariance: &DMatrix<f64>,
+        runs: &[usize],
+    ) -> Vec<HeldOutRun> {
+        let scales = Scales { noise: self.noise_scale, offset: self.offset_std };
+        let of_run = |id: &usize| problem.runs.iter().find(|run| run.id == *id);
+        let predict = |run| match measured_run(problem, parameters, run) {
+            Some(measured) => judge(problem, &scales, covariance, run, &measured),
+            None => unpredicted(run),
+        };
+        runs.iter().filter_map(of_run).map(predict).collect()
+    }
+}

@@ -1,0 +1,67 @@
+//! Fits from many starts, so that the answer does not hang on one.
+
+use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::model::{Coordinate, Model};
+use super::observation::Row;
+use super::options::{FitError, Options};
+use super::outcome::{Fit, fit};
+use super::start::Start;
+
+/// Difference in log posterior below which two fits are the same optimum.
+const SAME: f64 = 0.1;
+/// Share of the bounds' width, and of the prior's probability, that starts keep away from either end.
+const MARGIN: f64 = 0.05;
+
+/// The best of fits from many starts.
+#[derive(Debug, Clone)]
+pub struct ManyFits {
+    /// The fit of highest posterior; of equal ones the first.
+    pub best: Fit,
+    /// Starts that came to the same optimum, this one's included.
+    pub agreed: usize,
+    /// Starts that came to a fit at all.
+    pub fitted: usize,
+}
+
+/// Fits from each start, in parallel; the highest posterior is the answer.
+///
+/// # Errors
+/// [`FitError::NoStart`] without a start, else the first start's error if no start came to a fit.
+pub fn fit_from_many(
+    model: &dyn Model,
+    rows: &[Row],
+    starts: &[Start],
+    options: &Options,
+) -> Result<ManyFits, FitError> {
+    let fits: Vec<Result<Fit, FitError>> = starts.par_iter().map(|start| fit(model, rows, start, options)).collect();
+    let first_error = fits.iter().find_map(|fit| fit.as_ref().err().copied());
+    let fits: Vec<Fit> = fits.into_iter().flatten().collect();
+    let highest = fits.iter().map(|fit| fit.log_posterior).fold(f64::NEG_INFINITY, f64::max);
+    let agreed = fits.iter().filter(|fit| fit.log_posterior > highest - SAME).count();
+    let fitted = fits.len();
+    let best = fits.into_iter().find(|fit| fit.log_posterior >= highest);
+    best.map(|best| ManyFits { best, agreed, fitted }).ok_or(first_error.unwrap_or(FitError::NoStart))
+}
+
+/// The model's own start, then more that fill its prior evenly (Sobol's sequence; a bound at infinity keeps the own start).
+pub fn scattered_starts(model: &dyn Model, rows: &[Row], count: usize, seed: u32) -> Vec<Start> {
+    let scattered = (1..count as u32).map(|index| {
+        let place = |(axis, coordinate): (usize, &Coordinate)| {
+            let share = f64::from(sobol_burley::sample(index, axis as u32, seed));
+            quantile(coordinate, MARGIN + (1.0 - 2.0 * MARGIN) * share)
+        };
+        Start::at(model.coordinates().iter().enumerate().map(place).collect(), rows)
+    });
+    std::iter::once(Start::of(model, rows)).take(count).chain(scattered).collect()
+}
+
+fn quantile(coordinate: &Coordinate, share: f64) -> f64 {
+    let value = match coordinate.prior {
+        Some((mean, std)) => Normal::new(mean, std).map_or(mean, |normal| normal.inverse_cdf(share)),
+        None if coordinate.box_precision() > 0.0 => coordinate.low + share * (coordinate.high - coordinate.low),
+        None => coordinate.start,
+    };
+    value.clamp(coordinate.low, coordinate.high)
+}

@@ -1,0 +1,153 @@
+//! The predictive density of a run that a fit has not seen.
+//!
+//! Slip and load of a row are known from readings y_u alone, so that what is left between a reading and its prediction is
+//! `r = (J_θ − k J_θu) δθ + b − k b_u + e − k e_u` with k = J_u G⁻¹, G the derivatives of y_u by slip and load. Parameters δθ and offsets
+//! b are the same for all rows of the run; the readings are taken one after the other, each updating what is known of those
+//! (Kalman's filter), so that the product of the densities is the joint one. Where a reading is an outlier Huber's density
+//! takes the place of the normal one, and the update takes its noise for as large as makes it a tolerable one.
+
+use nalgebra::{DMatrix, DVector, RowVector2};
+
+use super::held_out::{HeldOutRow, HeldOutRun};
+use super::huber::Huber;
+use super::measured_latents::{MeasuredRun, by_readings};
+use super::model::Prediction;
+use super::observation::{CHANNELS, Reading, Row};
+use super::problem::{Problem, RunRows};
+use super::state::Scales;
+
+/// Judges the prediction of a run by parameters of covariance `covariance`.
+pub(super) fn judge(
+    problem: &Problem<'_>,
+    scales: &Scales,
+    covariance: &DMatrix<f64>,
+    run: &RunRows,
+    measured: &MeasuredRun,
+) -> HeldOutRun {
+    let with_offset = run.rows.len() >= problem.options.smallest_run_with_offset;
+    let offset = if with_offset { scales.offset } else { [0.0; CHANNELS] };
+    let prior = Knowledge::new(covariance, &offset);
+    let mut filter = prior.clone();
+    let mut judged = unpredicted(run);
+    let mut total = 0.0;
+    for (place, &index) in run.rows.iter().enumerate() {
+        let row = &problem.rows[index];
+        let prediction = &measured.predictions[place];
+        let mut seen = HeldOutRow { row: index, residual: [None; CHANNELS], std: [None; CHANNELS] };
+        let inverse = measured.sources[place].and_then(|sources| Some((sources, by_readings(prediction, sources)?)));
+        if let Some((sources, inverse)) = inverse {
+            let source_noise = sources.map(|reading| scales.noise(row, reading.index()));
+            let mut fresh = prior.clone();
+            fresh.new_row(source_noise);
+            filter.new_row(source_noise);
+            for (c, residual) in residuals(row, prediction, sources) {
+                let gain = RowVector2::new(prediction.by_slip[c], prediction.by_load[c]) * inverse;
+                let noise = scales.noise(row, c);
+                let direction = fresh.direction(prediction, c, sources, gain);
+                let score = filter.take(&direction, residual, noise, problem.huber);
+                seen.residual[c] = Some(residual);
+                seen.std[c] = Some(fresh.variance(&direction, noise).sqrt());
+                judged.log_score_by_channel[c] += score;
+                judged.judged[c] += 1;
+                total += score;
+            }
+        }
+        judged.rows.push(seen);
+    }
+    judged.log_score = Some(total);
+    judged
+}
+
+/// A run of which the model predicts nothing.
+pub(super) fn unpredicted(run: &RunRows) -> HeldOutRun {
+    HeldOutRun {
+        run: run.id,
+        log_score: None,
+        log_score_by_channel: [0.0; CHANNELS],
+        judged: [0; CHANNELS],
+        rows: Vec::new(),
+    }
+}
+
+/// Channel and residual of what is judged in a row.
+fn residuals<'a>(
+    row: &'a Row,
+    prediction: &'a Prediction,
+    sources: [Reading; 2],
+) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let judged = Reading::JUDGED.into_iter().filter(move |reading| !sources.contains(reading)).map(Reading::index);
+    judged.filter_map(|c| Some((c, row.readings[c]? - prediction.value[c])))
+}
+
+/// What is known of parameters, offsets and the errors of a row's two source readings, in this order.
+#[derive(Clone)]
+struct Knowledge {
+    parameters: usize,
+    mean: DVector<f64>,
+    covariance: DMatrix<f64>,
+}
+
+impl Knowledge {
+    fn new(parameters: &DMatrix<f64>, offset: &[f64; CHANNELS]) -> Self {
+        let count = parameters.nrows();
+        let size = count + CHANNELS + 2;
+        let mut covariance = DMatrix::zeros(size, size);
+        covariance.view_mut((0, 0), (count, count)).copy_from(parameters);
+        for (c, std) in offset.iter().enumerate() {
+            covariance[(count + c, count + c)] = std * std;
+        }
+        Self { parameters: count, mean: DVector::zeros(size), covariance }
+    }
+
+    /// Forgets the errors of the last row's sources.
+    fn new_row(&mut self, source_noise: [f64; 2]) {
+        for (k, noise) in source_noise.into_iter().enumerate() {
+            let at = self.parameters + CHANNELS + k;
+            self.covariance.row_mut(at).fill(0.0);
+            self.covariance.column_mut(at).fill(0.0);
+            self.covariance[(at, at)] = noise * noise;
+            self.mean[at] = 0.0;
+        }
+    }
+
+    /// How the residual of a channel depends on all that.
+    fn direction(
+        &self,
+        prediction: &Prediction,
+        c: usize,
+        sources: [Reading; 2],
+        gain: RowVector2<f64>,
+    ) -> DVector<f64> {
+        let mut direction = DVector::zeros(self.mean.len());
+        for (p, derivatives) in prediction.by_parameter.iter().enumerate() {
+            direction[p] = derivatives[c];
+        }
+        direction[self.parameters + c] = 1.0;
+        for (k, source) in sources.into_iter().map(Reading::index).enumerate() {
+            for (p, derivatives) in prediction.by_parameter.iter().enumerate() {
+                direction[p] -= gain[k] * derivatives[source];
+            }
+            direction[self.parameters + source] -= gain[k];
+            direction[self.parameters + CHANNELS + k] = -gain[k];
+        }
+        direction
+    }
+
+    fn variance(&self, direction: &DVector<f64>, noise: f64) -> f64 {
+        direction.dot(&(&self.covariance * direction)) + noise * noise
+    }
+
+    /// ln density of a residual, which is then known.
+    fn take(&mut self, direction: &DVector<f64>, residual: f64, noise: f64, huber: Huber) -> f64 {
+        let spread = &self.covariance * direction;
+        let variance = direction.dot(&spread) + noise * noise;
+        let innovation = residual - direction.dot(&self.mean);
+        let t = innovation / variance.sqrt();
+        let weight = huber.weight(t);
+        // The variance at which the innovation would lie on Huber's threshold.
+        let taken = variance / (weight * weight);
+        self.mean += &spread * (innovation / taken);
+        self.covariance.ger(-1.0 / taken, &spread, &spread, 1.0);
+        -huber.loss(t) - huber.ln_integral() - 0.5 * variance.ln()
+    }
+}

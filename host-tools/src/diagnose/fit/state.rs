@@ -1,0 +1,129 @@
+//! Where a fit stands: parameters, latents and offsets, what the model predicts there, and how well that agrees.
+
+use nalgebra::{DVector, Vector2};
+
+use super::model::{Latent, Prediction};
+use super::observation::{CHANNELS, Channels, Row};
+use super::problem::{Problem, within};
+
+/// Standard deviations that are estimated or given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scales {
+    /// Factor on the noise of each channel.
+    pub noise: [f64; CHANNELS],
+    /// τ of the run offsets in the channel's unit; 0 where there are none.
+    pub offset: [f64; CHANNELS],
+}
+
+impl Scales {
+    /// One standard deviation of a reading.
+    pub(super) fn noise(&self, row: &Row, channel: usize) -> f64 {
+        self.noise[channel] * row.noise[channel]
+    }
+}
+
+/// Where a fit stands. Latents, offsets and predictions are by run.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    pub parameters: DVector<f64>,
+    pub latents: Vec<Vec<Latent>>,
+    pub offsets: Vec<Channels>,
+    pub predictions: Vec<Vec<Prediction>>,
+}
+
+/// A step from a state.
+pub(super) struct Step {
+    pub parameters: DVector<f64>,
+    /// By run, then by row: slip and load.
+    pub latents: Vec<Vec<Vector2<f64>>>,
+    /// By run.
+    pub offsets: Vec<Channels>,
+}
+
+impl State {
+    /// At some parameters without offsets; none where the model predicts nothing there.
+    pub(super) fn at(problem: &Problem<'_>, parameters: DVector<f64>) -> Option<Self> {
+        let latents = problem.runs.iter().map(|run| run.rows.iter().map(|&row| problem.latent_start[row]).collect());
+        Self::predicted(problem, parameters, latents.collect(), vec![Channels::zeros(); problem.runs.len()])
+    }
+
+    /// A step further, latents kept in their ranges; none where the model predicts nothing there.
+    pub(super) fn after(&self, problem: &Problem<'_>, step: &Step) -> Option<Self> {
+        let moved = |(latents, steps): (&Vec<Latent>, &Vec<Vector2<f64>>)| {
+            let moved = |(latent, step): (&Latent, &Vector2<f64>)| {
+                within(
+                    problem.options,
+                    Latent { slip: latent.slip + step[0], load_n: latent.load_n + step[1], ..*latent },
+                )
+            };
+            latents.iter().zip(steps).map(moved).collect()
+        };
+        let mut parameters = &self.parameters + &step.parameters;
+        for (value, coordinate) in parameters.iter_mut().zip(problem.coordinates()) {
+            *value = value.clamp(coordinate.low, coordinate.high);
+        }
+        let latents = self.latents.iter().zip(&step.latents).map(moved).collect();
+        let offsets = self.offsets.iter().zip(&step.offsets).map(|(offset, step)| offset + step).collect();
+        Self::predicted(problem, parameters, latents, offsets)
+    }
+
+    fn predicted(
+        problem: &Problem<'_>,
+        parameters: DVector<f64>,
+        latents: Vec<Vec<Latent>>,
+        offsets: Vec<Channels>,
+    ) -> Option<Self> {
+        let runs = problem.by_run(|index, run| {
+            let mut latents = latents[index].clone();
+            let predictions = problem.predict(&parameters, run, &mut latents)?;
+            Some((latents, predictions))
+        });
+        let (latents, predictions) = runs.into_iter().collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        Some(Self { parameters, latents, offsets, predictions })
+    }
+
+    /// What is minimised: losses of the readings, and half the squares of offsets, latents and parameters by their priors.
+    pub(super) fn objective(&self, problem: &Problem<'_>, scales: &Scales) -> f64 {
+        let readings: f64 = (0..problem.runs.len()).map(|run| self.run_objective(problem, scales, run)).sum();
+        readings + self.parameter_penalty(problem)
+    }
+
+    /// Half the squares of the parameters by their priors.
+    pub(super) fn parameter_penalty(&self, problem: &Problem<'_>) -> f64 {
+        let penalty = |(&value, prior): (&f64, Option<(f64, f64)>)| {
+            prior.map_or(0.0, |(mean, std)| 0.5 * ((value - mean) / std).powi(2))
+        };
+        self.parameters.iter().zip(problem.coordinates().iter().map(|coordinate| coordinate.prior)).map(penalty).sum()
+    }
+
+    fn run_objective(&self, problem: &Problem<'_>, scales: &Scales, run: usize) -> f64 {
+        let offsets = (0..CHANNELS).filter(|&c| scales.offset[c] > 0.0);
+        let offset_penalty: f64 = offsets.map(|c| 0.5 * (self.offsets[run][c] / scales.offset[c]).powi(2)).sum();
+        let rows = problem.runs[run].rows.iter().enumerate();
+        let row_loss = |(place, &row): (usize, &usize)| {
+            let standardised = self.standardised(&problem.rows[row], scales, run, place);
+            let losses: f64 = standardised.iter().flatten().map(|&t| problem.huber.loss(t)).sum();
+            losses + self.latent_penalty(problem, run, place, row)
+        };
+        offset_penalty + rows.map(row_loss).sum::<f64>()
+    }
+
+    fn latent_penalty(&self, problem: &Problem<'_>, run: usize, place: usize, row: usize) -> f64 {
+        let away = latent_difference(&self.latents[run][place], &problem.latent_start[row]);
+        let std = problem.options.latent_prior_std;
+        0.5 * ((away[0] / std[0]).powi(2) + (away[1] / std[1]).powi(2))
+    }
+
+    /// Residuals of a row in units of its noise; none where not measured.
+    pub(super) fn standardised(&self, row: &Row, scales: &Scales, run: usize, place: usize) -> [Option<f64>; CHANNELS] {
+        let value = &self.predictions[run][place].value;
+        std::array::from_fn(|c| {
+            row.readings[c].map(|reading| (reading - value[c] - self.offsets[run][c]) / scales.noise(row, c))
+        })
+    }
+}
+
+/// Slip and load of one latent less another's.
+pub(super) fn latent_difference(one: &Latent, other: &Latent) -> Vector2<f64> {
+    Vector2::new(one.slip - other.slip, one.load_n - other.load_n)
+}

@@ -1,0 +1,12 @@
+//! The fit engine against closed forms and against Gaussian densities computed from dense covariance matrices.
+
+mod bounds;
+mod dense;
+mod errors_in_variables;
+mod held_out;
+mod linear;
+mod missing;
+mod offsets;
+mod robust;
+mod starts;
+mod toy;

@@ -1,0 +1,87 @@
+//! Offsets that the rows of a run share, against the dense Gaussian.
+
+use super::dense::Dense;
+use super::toy::{Linear, OFFSET, campaign, plain};
+use crate::diagnose::fit::{CHANNELS, Fit, OffsetStd, Options, Row, Start, VarianceCriterion, fit};
+
+/// Priors of the latents that a dense matrix can bear.
+fn options(offset: impl Fn(usize) -> OffsetStd) -> Options {
+    Options { offsets: std::array::from_fn(offset), latent_prior_std: [1.0, 100.0], ..plain() }
+}
+
+fn fitted(model: &Linear, rows: &[Row], options: &Options) -> Fit {
+    fit(model, rows, &Start::of(model, rows), options).unwrap()
+}
+
+#[test]
+fn known_offsets_give_the_dense_estimate_and_density() {
+    for seed in 0..5 {
+        // One run is too small for an offset.
+        let (model, rows) = campaign(&[3, 4, 1, 2, 5], 3, seed);
+        let options = options(|c| if OFFSET[c] > 0.0 { OffsetStd::Known(OFFSET[c]) } else { OffsetStd::None });
+        let fit = fitted(&model, &rows, &options);
+        let dense = Dense::new(&model, &rows, &options, &OFFSET, &[1.0; CHANNELS]);
+        let (parameters, covariance) = dense.estimate();
+        for p in 0..3 {
+            let std = covariance[(p, p)].sqrt();
+            assert!((fit.parameters[p] - parameters[p]).abs() < 1e-4 * std, "{:?} {parameters}", fit.parameters);
+            assert!((fit.covariance[(p, p)].sqrt() / std - 1.0).abs() < 1e-5);
+        }
+        let expected = dense.ln_density(parameters.as_slice());
+        assert!((fit.log_likelihood - expected).abs() < 1e-4, "{} {expected}", fit.log_likelihood);
+        assert!(fit.offsets[2].offset == [0.0; CHANNELS] && fit.offsets[0].offset[0] != 0.0);
+    }
+}
+
+/// The estimated offsets are where the dense `criterion` is highest: no channel's can be moved by a little and gain.
+fn is_highest(criterion: VarianceCriterion, value: impl Fn(&Dense) -> f64) {
+    for seed in 10..14 {
+        let (model, rows) = campaign(&[3, 4, 2, 3, 5, 2, 4], 3, seed);
+        let mut options = options(|c| if c < 4 { OffsetStd::Estimated } else { OffsetStd::None });
+        options.variance_criterion = criterion;
+        let fit = fitted(&model, &rows, &options);
+        assert!(fit.converged);
+        let at = |offset: &[f64; CHANNELS]| value(&Dense::new(&model, &rows, &options, offset, &[1.0; CHANNELS]));
+        let best = at(&fit.offset_std);
+        for c in 0..4 {
+            for factor in [0.8, 1.25] {
+                let mut moved = fit.offset_std;
+                moved[c] *= factor;
+                assert!(at(&moved) < best + 1e-3, "channel {c}: {} × {factor}", fit.offset_std[c]);
+            }
+        }
+    }
+}
+
+#[test]
+fn estimated_offsets_are_at_the_maximum_of_the_dense_restricted_likelihood() {
+    is_highest(VarianceCriterion::Restricted, Dense::restricted);
+}
+
+#[test]
+fn estimated_offsets_are_at_the_maximum_of_the_dense_likelihood() {
+    is_highest(VarianceCriterion::MaximumLikelihood, |dense| dense.ln_density(dense.estimate().0.as_slice()));
+}
+
+#[test]
+fn offsets_that_are_not_there_are_estimated_small() {
+    let (model, mut rows) = campaign(&[4; 12], 2, 20);
+    // Every row a run of its own drew one offset; taking the runs apart at random leaves independent rows.
+    let (_, independent) = campaign(&[1; 48], 2, 21);
+    let (model_independent, _) = campaign(&[1; 48], 2, 21);
+    for (row, other) in rows.iter_mut().zip(&independent) {
+        row.readings = other.readings;
+    }
+    let mut told = rows.clone();
+    for row in &mut told {
+        for c in 0..4 {
+            row.noise[c] = (row.noise[c].powi(2) + OFFSET[c].powi(2)).sqrt();
+        }
+    }
+    let options = options(|c| if c < 4 { OffsetStd::Estimated } else { OffsetStd::None });
+    let fit = fitted(&model_independent, &told, &options);
+    assert_eq!(model.terms.len(), told.len());
+    for c in 0..4 {
+        assert!(fit.offset_std[c] < 0.6 * told[0].noise[c], "{c}: {} of {}", fit.offset_std[c], told[0].noise[c]);
+    }
+}
