@@ -5,6 +5,7 @@ mod target;
 
 use clap::{Args, Subcommand};
 
+use crate::bench::closing::{self, ClosingArguments};
 use crate::bench::estimators::{self, EstimatorArguments};
 use crate::bench::faults::{self, FaultArguments};
 use crate::bench::limit::{self, LimitArguments};
@@ -14,6 +15,8 @@ use crate::error::HostError;
 /// What to measure.
 #[derive(Subcommand)]
 pub enum Subject {
+    /// Errors of the rover network on soil with slip-sinkage, trained without and with it declared
+    Closing(ClosingArguments),
     /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
     Estimators(EstimatorArguments),
     /// How soon the estimators are back after each fault of each sensor
@@ -50,6 +53,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Closing(arguments) => closing::run(&arguments)?,
             Self::Estimators(arguments) => estimators::run(&arguments),
             Self::Faults(arguments) => faults::run(&arguments),
             Self::Filter => filter::execute()?,

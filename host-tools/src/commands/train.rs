@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::data::atomic_write::write_text;
 use crate::data::campaign::Declared;
@@ -14,6 +13,7 @@ use crate::train::emit::{Provenance, table_file};
 use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
 use crate::train::prior::COMPARED_SLOPE_STD_RAD;
+use crate::train::progress::with_progress;
 use crate::train::rover_training::train_rover;
 use crate::train::scene::{Design, Scene, scenes_in};
 use crate::train::wheel_training::train_wheel;
@@ -94,17 +94,6 @@ fn judge_fifth_inputs(rows: &[Row]) {
     let easier = Candidate::ALL.into_iter().filter(|&fifth| fifth != Candidate::Sinkage);
     let Some(best) = easier.min_by(|&a, &b| loss(a).total_cmp(&loss(b))) else { return };
     println!("Best without a sinkage sensor: {}. Shipped: {} (optional).\n", best.name(), SHIPPED.name());
-}
-
-fn with_progress<T>(name: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
-    let bar = ProgressBar::new(1);
-    let style = ProgressStyle::with_template("{prefix:20} {bar:30} {pos}/{len} {elapsed} {msg}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.set_prefix(name);
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let result = work(&bar);
-    bar.finish_and_clear();
-    result
 }
 
 fn print_rows(title: &str, rows: &[Row]) {

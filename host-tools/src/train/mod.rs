@@ -16,6 +16,7 @@ pub mod loss;
 pub mod observe;
 pub mod plan;
 pub mod prior;
+pub mod progress;
 mod rank_update;
 pub mod rover_training;
 pub mod scene;
