@@ -11,6 +11,7 @@ mod simulate;
 mod soils;
 mod test;
 mod train;
+mod weights;
 
 use clap::Subcommand;
 

@@ -35,11 +35,16 @@ pub struct Provenance<'a> {
 }
 
 /// The file of two tables.
-pub fn table_file(mut wheel: WheelTable, mut rover: RoverTable, provenance: &Provenance<'_>) -> TableFile {
+pub fn table_file(wheel: WheelTable, rover: RoverTable, provenance: &Provenance<'_>) -> TableFile {
+    TableFile { notes: notes(provenance), blocks: blocks(wheel, rover) }
+}
+
+/// The numbers of two tables, as their file has them.
+pub fn blocks(mut wheel: WheelTable, mut rover: RoverTable) -> Vec<Block> {
     let mut blocks = Blocks(Vec::new());
     wheel.visit_parts(&mut blocks);
     rover.visit_parts(&mut blocks);
-    TableFile { notes: notes(provenance), blocks: blocks.0 }
+    blocks.0
 }
 
 fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
