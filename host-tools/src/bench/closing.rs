@@ -12,8 +12,9 @@ use crate::train::plan::Plan;
 use crate::train::world::World;
 
 /// The soil of the comparison: its exponent grows with slip, by an amount that is not known.
-const SLIP_SINKAGE: &str = "[declared]\neffects = [\"slip-sinkage\"]\n\
-                            [declared.slip-sinkage]\nn1 = { min = 0.0, max = 0.7 }\n";
+const FREE: &str = "{ min = 0.0, max = 0.7 }";
+/// Amounts at which the errors are shown apart.
+const AMOUNTS: [&str; 3] = ["0.0", "0.35", "0.7"];
 
 /// Which networks, and which rovers.
 #[derive(Args)]
@@ -42,19 +43,26 @@ pub fn run(arguments: &ClosingArguments) -> Result<(), HostError> {
         (_, true) => Plan::full(1),
         _ => Plan::medium(1),
     };
-    let declared = Declared::parse(Path::new("slip-sinkage"), SLIP_SINKAGE)?;
-    let after = World::declared(&declared);
+    let after = slip_sinkage(FREE)?;
     let rovers = Rovers::draw(&after, arguments.cases, arguments.seed)?;
-    let networks = [&World::seed(), &after].map(|world| train(world, &plan, false));
-    let [before, found] = networks;
-    let (before, found) = (before?, found?);
+    let (before, found) = (train(&World::seed(), &plan, false)?, train(&after, &plan, false)?);
     println!(
         "Six-wheel rovers on soil with slip-sinkage, n = n₀ + n₁ i with n₁ uniform in 0 … 0.7: {} of each kind, seed {}.\n\
          Rover network trained without (before) and with (after) slip-sinkage declared: {} scenes, {} epochs.\n",
         arguments.cases, arguments.seed, plan.scenes, plan.rover_epochs
     );
     println!("{}\n", errors_of_soil(&compare(&[&before.rover, &found.rover], &rovers)));
-    println!("The network that is shipped, which knows no effect:\n");
+    for amount in AMOUNTS {
+        let rovers = Rovers::draw(&slip_sinkage(amount)?, arguments.cases, arguments.seed)?;
+        println!("n₁ = {amount}\n{}\n", errors_of_soil(&compare(&[&before.rover, &found.rover], &rovers)));
+    }
+    println!("The network that is shipped, which knows no effect, with n₁ uniform in 0 … 0.7:\n");
     println!("{}", errors_of_soil(&compare(&[&frozen::ROVER], &rovers)));
     Ok(())
+}
+
+/// A world whose soils have slip-sinkage by `n1`, in the words of a declaration.
+fn slip_sinkage(n1: &str) -> Result<World, HostError> {
+    let text = format!("[declared]\neffects = [\"slip-sinkage\"]\n[declared.slip-sinkage]\nn1 = {n1}\n");
+    Ok(World::declared(&Declared::parse(Path::new("slip-sinkage"), &text)?))
 }

@@ -30,10 +30,11 @@ pub fn declared_model(campaign: &Campaign, diagnosis: &Diagnosis) -> Result<Stri
         sections.push((&found.id, section(found)?));
     }
     let ids: Vec<String> = sections.iter().map(|(id, _)| format!("{id:?}")).collect();
+    let found: Vec<&str> = diagnosis.effects.iter().map(|effect| effect.id.as_str()).collect();
     let mut text = format!(
-        "# The model of the campaign {}, with what was found in it: {}.\n\n[declared]\neffects = [{}]\n",
+        "# The model that was declared for the campaign {}, and what was found in it: {}.\n\n[declared]\neffects = [{}]\n",
         in_a_line(&diagnosis.campaign),
-        if diagnosis.effects.is_empty() { "nothing" } else { "the last of the effects" },
+        if found.is_empty() { "nothing".to_owned() } else { found.join(", ") },
         ids.join(", ")
     );
     for (id, section) in sections.iter().filter(|(_, section)| !section.is_empty()) {
