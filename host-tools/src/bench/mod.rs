@@ -1,6 +1,7 @@
 //! Measurements, one subject a file.
 
 pub mod closing;
+pub mod diagnose;
 pub mod estimators;
 pub mod estimators_soil;
 pub mod faults;

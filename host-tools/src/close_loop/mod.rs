@@ -1,7 +1,6 @@
 //! Closing the loop: what a diagnosis found goes into the model that the networks are trained for, and the error is shown
 //! before and after.
 
-mod declared_model;
 mod on_campaign;
 mod report;
 mod rover_networks;
@@ -10,13 +9,13 @@ use std::path::Path;
 
 use crate::data::atomic_write::write_text;
 use crate::data::campaign::{Campaign, Declared};
+use crate::diagnose::declared_file;
 use crate::diagnose::document::Diagnosis;
 use crate::error::HostError;
 use crate::train::emit::{Provenance, table_file};
 use crate::train::plan::Plan;
 use crate::train::world::World;
 
-pub use declared_model::declared_model;
 pub use on_campaign::{CampaignSoil, SoilColumn, on_campaign};
 pub use report::{errors_of_forces, errors_of_soil, intervals};
 pub use rover_networks::{Rovers, SHIPPED_FIFTH, Trained, compare, train};
@@ -63,7 +62,7 @@ pub fn close(
 ) -> Result<Closed, HostError> {
     let path = folder.join("declared.toml");
     std::fs::create_dir_all(folder).map_err(HostError::file(folder))?;
-    write_text(&path, &declared_model(campaign, diagnosis)?)?;
+    write_text(&path, &declared_file(campaign, diagnosis))?;
     let forces = errors_of_forces(diagnosis);
     if diagnosis.effects.is_empty() {
         return Ok(Closed { forces, soil: None });
@@ -95,7 +94,7 @@ mod tests {
     use super::*;
 
     /// Two runs of a wheel on sand, as a file would have them.
-    pub(super) fn campaign(declared: &str) -> Campaign {
+    fn campaign(declared: &str) -> Campaign {
         const CSV: &str = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n\
             a,0,0.1,65,5,1.2,0.010\na,0,0.3,66,12,1.9,0.014\na,0,0.5,64,15,2.2,0.018\n\
             b,0,0.2,65,9,1.6,0.012\nb,0,0.4,66,14,2.1,0.016\nb,0,0.6,64,16,2.4,0.021\n";
@@ -107,7 +106,7 @@ mod tests {
     }
 
     /// A diagnosis that found slip-sinkage, n1 = 0.30 ± 0.03.
-    pub(super) fn diagnosis() -> Diagnosis {
+    fn diagnosis() -> Diagnosis {
         let json = r#"{ "campaign": "sand", "declared": [], "verdict": "effect",
             "effects": [ { "id": "slip-sinkage", "form": "exponent", "parameters": {"n1": {"value": 0.3, "std": 0.03}},
                            "gain_per_row": 1.2, "p_value": 1e-9 } ],

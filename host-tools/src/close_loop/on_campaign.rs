@@ -49,8 +49,7 @@ fn of_table(campaign: &Campaign, table: &RoverTable) -> Result<CampaignSoil, Hos
         Ok(said)
     });
     let runs = identified.map(|identification| identification.runs).unwrap_or_default();
-    let soils: Vec<SoilEstimate> =
-        runs.iter().filter_map(|run| Some(run.question.as_ref()?.rover().ok()?.clone())).collect();
+    let soils: Vec<SoilEstimate> = runs.iter().filter_map(|run| run.question.as_ref()?.rover().ok().copied()).collect();
     let column =
         |pick: fn(&SoilEstimate) -> ParameterEstimate| SoilColumn::of(&soils.iter().map(pick).collect::<Vec<_>>());
     Ok(CampaignSoil {

@@ -1,11 +1,13 @@
 //! `kapvik bench`: how good and how fast we are, beside the alternatives.
 
+mod diagnose;
 mod filter;
 mod target;
 
 use clap::{Args, Subcommand};
 
 use crate::bench::closing::{self, ClosingArguments};
+use crate::bench::diagnose::DiagnoseArguments;
 use crate::bench::estimators::{self, EstimatorArguments};
 use crate::bench::faults::{self, FaultArguments};
 use crate::bench::limit::{self, LimitArguments};
@@ -17,6 +19,8 @@ use crate::error::HostError;
 pub enum Subject {
     /// Errors of the rover network on soil with slip-sinkage, trained without and with it declared
     Closing(ClosingArguments),
+    /// How often a diagnosis finds what nobody declared, on campaigns drawn from a seed
+    Diagnose(DiagnoseArguments),
     /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
     Estimators(EstimatorArguments),
     /// How soon the estimators are back after each fault of each sensor
@@ -54,6 +58,7 @@ impl Subject {
     pub fn execute(self) -> Result<(), HostError> {
         match self {
             Self::Closing(arguments) => closing::run(&arguments)?,
+            Self::Diagnose(arguments) => diagnose::execute(&arguments)?,
             Self::Estimators(arguments) => estimators::run(&arguments),
             Self::Faults(arguments) => faults::run(&arguments),
             Self::Filter => filter::execute()?,

@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::close_loop::{Options, close};
-use crate::data::campaign::Campaign;
 use crate::diagnose::document::Diagnosis;
 use crate::error::HostError;
 use crate::process::workspace;
 use crate::train::plan::Plan;
 
+use super::diagnose;
+
 /// Options of `kapvik close-loop`.
 #[derive(Args)]
 pub struct Arguments {
-    /// The campaign NAME.csv, with NAME.toml beside it
+    /// The campaign NAME.csv, with NAME.toml beside it; or the name of one that the project carries, as for `diagnose`
     #[arg(value_name = "CAMPAIGN.csv")]
     campaign: PathBuf,
     /// Where declared.toml and the trained table go [default: target/kapvik-close-loop]
@@ -22,7 +23,7 @@ pub struct Arguments {
     output: Option<PathBuf>,
     /// A diagnosis of this campaign that `kapvik diagnose --json` has written, in place of a new one
     #[arg(long, value_name = "D.json")]
-    diagnosis: PathBuf,
+    diagnosis: Option<PathBuf>,
     /// Seed of training and of the simulated rovers
     #[arg(long, default_value_t = 1)]
     seed: u32,
@@ -36,8 +37,11 @@ pub struct Arguments {
 /// # Errors
 /// Where a file is not as it should be or cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let campaign = Campaign::read(&arguments.campaign)?;
-    let diagnosis = read(&arguments.diagnosis)?;
+    let campaign = diagnose::campaign(&arguments.campaign)?;
+    let diagnosis = match &arguments.diagnosis {
+        Some(path) => read(path)?,
+        None => diagnose::with_progress(&campaign, false)?.document,
+    };
     let folder = arguments.output.clone().unwrap_or_else(|| workspace().join("target/kapvik-close-loop"));
     let (plan, rovers) = match arguments.quick {
         true => (Plan::quick(arguments.seed), 1000),

@@ -2,6 +2,7 @@
 
 mod bench;
 mod close_loop;
+mod diagnose;
 mod forward;
 mod identify;
 mod replay;
@@ -44,6 +45,11 @@ pub enum Command {
     /// load, and the networks are told of the smaller noise. The noise is that of `[noise]`; without it that of repeats;
     /// without these that of the flight sensors. OUT.json says which.
     Identify(identify::Arguments),
+    /// What the model lacks that wheel data show: the residual, the effect it is traced to, the error before and after
+    ///
+    /// Every effect of the list is fitted on top of the declared model, and has to predict runs that it has not seen better
+    /// than the declared model refitted. OUT.json says which effect earned its place, how sure that is, and what was next.
+    Diagnose(diagnose::Arguments),
     /// Train the networks and write the frozen table
     Train(train::Arguments),
     /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
@@ -79,6 +85,7 @@ impl Command {
             Self::Identify(arguments) => identify::execute(&arguments),
             Self::CloseLoop(arguments) => close_loop::execute(&arguments),
             Self::Bench(subject) => subject.execute(),
+            Self::Diagnose(arguments) => diagnose::execute(&arguments),
             Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
             Self::Simulate(arguments) => simulate::execute(&arguments),

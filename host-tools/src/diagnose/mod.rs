@@ -1,4 +1,31 @@
 //! The residual loop: what a model leaves over of measured data, traced to an effect that it lacks, and how sure that is.
+//!
+//! As data flow: `measurements` of a campaign and a `specification` of effects make a `campaign_model`, which `fit` fits;
+//! `trial` holds both. `selection` fits every one of the `candidates` on top of a model and tests it against chance;
+//! `residual_search` does the same with every column as it stands; `forward` adds what earns its place. `held_out_errors` does
+//! it all again without some runs, to predict those; `assemble` writes the `document`.
 
+mod assemble;
+pub mod campaign_model;
+mod candidates;
+mod caveats;
+mod declared_file;
 pub mod document;
 pub mod fit;
+mod forward;
+mod held_out_errors;
+mod levels;
+mod linearised;
+pub mod measurements;
+mod noise;
+mod outcome;
+mod regressors;
+mod residual_search;
+mod selection;
+mod sentence;
+mod soil_coordinates;
+pub mod specification;
+pub mod trial;
+
+pub use declared_file::declared_file;
+pub use outcome::{DiagnoseOptions, Outcome, diagnose};

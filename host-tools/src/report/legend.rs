@@ -59,6 +59,7 @@ pub fn response(estimated: bool) -> Markup {
     }
 }
 
-fn entry(words: &str, mark: &Markup) -> Markup {
+/// One mark with its words.
+pub(super) fn entry(words: &str, mark: &Markup) -> Markup {
     html! { li { svg width="40" height="16" viewBox="0 0 40 16" aria-hidden="true" { (mark) } (words) } }
 }

@@ -18,6 +18,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for Bulldozing<S> {
     const ID: &'static str = "bulldozing";
     const SUMMARY: &'static str = "the wheel pushes soil ahead of itself";
+    const TEST: &'static str = "the drawbar pull of the locked wheel at several sinkages";
     const FORMS: &'static [Form] =
         &[Form { name: "passive pressure", free: &["share"], set: &[], needs: &[super::Column::DrawbarPull] }];
 

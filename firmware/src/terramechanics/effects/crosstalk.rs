@@ -28,6 +28,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for Crosstalk<S> {
     const ID: &'static str = "crosstalk";
     const SUMMARY: &'static str = "one force channel leaks into another";
+    const TEST: &'static str = "known forces on the sensor, one axis at a time, and runs at another load";
     const FORMS: &'static [Form] = &[
         Form {
             name: "drawbar pull into load",

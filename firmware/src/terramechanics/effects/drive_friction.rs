@@ -35,6 +35,7 @@ impl<S: Scalar> DriveFriction<S> {
 impl<S: Scalar> Effect<S> for DriveFriction<S> {
     const ID: &'static str = "drive-friction";
     const SUMMARY: &'static str = "the drive has friction of its own";
+    const TEST: &'static str = "the torque of the wheel lifted off the ground, at several rates";
     const FORMS: &'static [Form] = &[
         Form { name: "Coulomb", free: &["coulomb_nm"], set: &[], needs: &[Column::Torque] },
         Form { name: "viscous", free: &["viscous_nm_s"], set: &[], needs: &[Column::Torque, Column::WheelRate] },

@@ -20,6 +20,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for ForceBias<S> {
     const ID: &'static str = "force-bias";
     const SUMMARY: &'static str = "a force channel has an offset";
+    const TEST: &'static str = "the force sensors with the wheel in the air";
     const FORMS: &'static [Form] = &[
         Form { name: "drawbar pull", free: &["drawbar_pull_n"], set: &[], needs: &[Column::DrawbarPull] },
         Form { name: "load", free: &["load_n"], set: &[], needs: &[Column::Load] },

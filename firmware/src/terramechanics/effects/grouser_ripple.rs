@@ -35,6 +35,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for GrouserRipple<S> {
     const ID: &'static str = "grouser-ripple";
     const SUMMARY: &'static str = "forces swing as each grouser passes";
+    const TEST: &'static str = "one turn of the wheel sampled finely, at another wheel speed as well";
     const FORMS: &'static [Form] = &[
         Form {
             name: "stress",

@@ -24,6 +24,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for GrouserThrust<S> {
     const ID: &'static str = "grouser-thrust";
     const SUMMARY: &'static str = "the grousers add thrust";
+    const TEST: &'static str = "the same wheel with its grousers taped over or taken off";
     const FORMS: &'static [Form] = &[
         Form { name: "shear radius", free: &["lambda"], set: &[], needs: &[Column::Grousers] },
         Form { name: "blades", free: &["blade"], set: &[], needs: &[Column::Grousers] },

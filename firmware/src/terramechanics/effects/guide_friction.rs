@@ -17,6 +17,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for GuideFriction<S> {
     const ID: &'static str = "guide-friction";
     const SUMMARY: &'static str = "load is lost in a guide as the horizontal force grows";
+    const TEST: &'static str = "a horizontal force on the standing wheel, to both sides";
     const FORMS: &'static [Form] =
         &[Form { name: "load", free: &["mu"], set: &[], needs: &[Column::Load, Column::DrawbarPull] }];
 

@@ -72,6 +72,8 @@ pub struct EffectInfo {
     pub id: &'static str,
     /// What it does, in a few words.
     pub summary: &'static str,
+    /// A measurement that shows it apart from others.
+    pub test: &'static str,
     /// Its parameters.
     pub parameters: &'static [ParameterInfo],
     /// Its forms.

@@ -19,6 +19,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for InterfaceFriction<S> {
     const ID: &'static str = "interface-friction";
     const SUMMARY: &'static str = "the soil slides on the rim";
+    const TEST: &'static str = "the same wheel with sandpaper on its rim";
     const FORMS: &'static [Form] = &[
         Form { name: "friction", free: &["delta"], set: &[], needs: &[] },
         Form { name: "friction and adhesion", free: &["delta", "adhesion_pa"], set: &[], needs: &[] },

@@ -22,6 +22,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for LateralSlip<S> {
     const ID: &'static str = "lateral-slip";
     const SUMMARY: &'static str = "the wheel slides sideways";
+    const TEST: &'static str = "runs at the opposite slip angle and at none";
     const FORMS: &'static [Form] = &[
         Form { name: "shear", free: &["shear"], set: &[], needs: &[Column::SlipAngle] },
         Form { name: "shear and side", free: &["shear", "bulldozing"], set: &[], needs: &[Column::SlipAngle] },

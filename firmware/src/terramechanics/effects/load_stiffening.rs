@@ -22,6 +22,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for LoadStiffening<S> {
     const ID: &'static str = "load-stiffening";
     const SUMMARY: &'static str = "the soil is stiffer under more load";
+    const TEST: &'static str = "runs at another load";
     const FORMS: &'static [Form] = &[
         Form { name: "stiffness", free: &["stiffness"], set: &[], needs: &[super::Column::Load] },
         Form { name: "exponent", free: &["exponent"], set: &[], needs: &[super::Column::Load] },

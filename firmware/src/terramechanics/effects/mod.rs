@@ -79,6 +79,8 @@ pub trait Effect<S: Scalar>: Parameters<S> {
     const ID: &'static str;
     /// What it does, in a few words.
     const SUMMARY: &'static str;
+    /// A measurement that shows it apart from others.
+    const TEST: &'static str;
     /// The forms in which it may come.
     const FORMS: &'static [Form];
 
@@ -115,6 +117,7 @@ macro_rules! effects {
             $( EffectInfo {
                 id: <$effect<f64> as Effect<f64>>::ID,
                 summary: <$effect<f64> as Effect<f64>>::SUMMARY,
+                test: <$effect<f64> as Effect<f64>>::TEST,
                 parameters: <$effect<f64> as Parameters<f64>>::PARAMETERS,
                 forms: <$effect<f64> as Effect<f64>>::FORMS,
             }, )+

@@ -19,6 +19,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for MultiPass<S> {
     const ID: &'static str = "multi-pass";
     const SUMMARY: &'static str = "the soil is stiffer where a wheel has been";
+    const TEST: &'static str = "a run beside the rut";
     const FORMS: &'static [Form] = &[
         Form { name: "stiffness", free: &["m1"], set: &[], needs: &[Column::Pass] },
         Form { name: "stiffness, rate free", free: &["m1", "m2"], set: &[], needs: &[Column::Pass] },

@@ -19,6 +19,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for PeakStressShift<S> {
     const ID: &'static str = "peak-stress-shift";
     const SUMMARY: &'static str = "the normal stress peaks elsewhere than declared";
+    const TEST: &'static str = "a pressure sensor in the rim, or runs at slips further apart";
     const FORMS: &'static [Form] = &[
         Form { name: "constant", free: &["shift"], set: &[], needs: &[] },
         Form { name: "with slip", free: &["per_slip"], set: &[], needs: &[] },

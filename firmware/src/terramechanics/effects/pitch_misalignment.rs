@@ -19,6 +19,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for PitchMisalignment<S> {
     const ID: &'static str = "pitch-misalignment";
     const SUMMARY: &'static str = "gravity leaks into the drawbar pull";
+    const TEST: &'static str = "the same run in the opposite heading, and at another load";
     const FORMS: &'static [Form] = &[
         Form { name: "constant tilt", free: &["tilt_rad"], set: &[], needs: &[Column::DrawbarPull, Column::Load] },
         Form {

@@ -22,6 +22,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for Rate<S> {
     const ID: &'static str = "rate";
     const SUMMARY: &'static str = "the soil is stiffer or stronger at speed";
+    const TEST: &'static str = "the same slip at another speed";
     const FORMS: &'static [Form] = &[
         Form { name: "stiffness", free: &["stiffness"], set: &[], needs: &[Column::Speed] },
         Form { name: "strength", free: &["strength"], set: &[], needs: &[Column::Speed] },

@@ -20,6 +20,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for RearContact<S> {
     const ID: &'static str = "rear-contact";
     const SUMMARY: &'static str = "the soil rises behind the wheel";
+    const TEST: &'static str = "the rut behind the wheel, or the wheel on a hard floor, where it vanishes";
     const FORMS: &'static [Form] = &[
         Form { name: "rebound", free: &["eta"], set: &[], needs: &[] },
         Form { name: "share of entry angle", free: &["c3"], set: &[], needs: &[] },

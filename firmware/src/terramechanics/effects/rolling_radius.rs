@@ -17,6 +17,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for RollingRadius<S> {
     const ID: &'static str = "rolling-radius";
     const SUMMARY: &'static str = "the slip is computed with a wrong radius or speed";
+    const TEST: &'static str = "the way of ten turns on a hard floor";
     const FORMS: &'static [Form] = &[Form { name: "radius", free: &["excess"], set: &[], needs: &[] }];
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {

@@ -19,6 +19,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for ShearHump<S> {
     const ID: &'static str = "shear-hump";
     const SUMMARY: &'static str = "shear stress passes a peak and falls to a residual";
+    const TEST: &'static str = "a shear-box or bevameter test of the soil as prepared, to large displacement";
     const FORMS: &'static [Form] = &[
         Form { name: "residual", free: &["residual"], set: &[("share", 1.0)], needs: &[] },
         Form { name: "share", free: &["share"], set: &[], needs: &[] },

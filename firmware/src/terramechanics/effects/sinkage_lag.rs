@@ -19,6 +19,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for SinkageLag<S> {
     const ID: &'static str = "sinkage-lag";
     const SUMMARY: &'static str = "the sinkage follows with a relaxation length";
+    const TEST: &'static str = "a longer run at constant slip, and the sinkage over its way";
     const FORMS: &'static [Form] = &[
         Form {
             name: "from the first sinkage",

@@ -16,6 +16,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for SinkageReference<S> {
     const ID: &'static str = "sinkage-reference";
     const SUMMARY: &'static str = "the sinkage has an offset";
+    const TEST: &'static str = "the sinkage reading on a flat plate on the ground";
     const FORMS: &'static [Form] = &[Form { name: "offset", free: &["offset_m"], set: &[], needs: &[Column::Sinkage] }];
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {

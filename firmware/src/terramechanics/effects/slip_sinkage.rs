@@ -42,6 +42,7 @@ impl<S: Scalar> SlipSinkage<S> {
 impl<S: Scalar> Effect<S> for SlipSinkage<S> {
     const ID: &'static str = "slip-sinkage";
     const SUMMARY: &'static str = "the wheel sinks deeper the more it slips";
+    const TEST: &'static str = "sinkage at the same load and several slips, standing wheel included";
     const FORMS: &'static [Form] = &[
         Form { name: "exponent", free: &["n1"], set: &[], needs: &[] },
         Form { name: "exponent, saturating", free: &["n1", "saturation"], set: &[], needs: &[] },

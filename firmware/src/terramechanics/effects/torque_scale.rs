@@ -16,6 +16,7 @@ effect_parameters! {
 impl<S: Scalar> Effect<S> for TorqueScale<S> {
     const ID: &'static str = "torque-scale";
     const SUMMARY: &'static str = "the torque channel has a gain error";
+    const TEST: &'static str = "a known torque on the wheel: a weight on a lever";
     const FORMS: &'static [Form] = &[Form { name: "gain", free: &["gain"], set: &[], needs: &[Column::Torque] }];
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {

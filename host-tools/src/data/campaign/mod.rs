@@ -51,6 +51,7 @@ pub struct Campaign {
     pub noise: ChannelNoise,
     /// The effects that the model is told of.
     pub declared: Declared,
+    header: Vec<String>,
     rows: Vec<RowId>,
     columns: Vec<Measured>,
 }
@@ -118,6 +119,7 @@ impl Campaign {
             source: about.source,
             notes: about.notes,
             gravity_m_s2: about.gravity_m_s2.into_inner(),
+            header: table.header().to_vec(),
             rows,
             columns,
         };
@@ -169,6 +171,13 @@ impl Campaign {
     /// What a row has in a channel.
     pub fn value(&self, row: usize, channel: Channel) -> Option<f64> {
         self.column(channel.name())?.get(row).copied().flatten()
+    }
+
+    /// An error about what a row has in a channel: at the row's line and the channel's column.
+    pub fn error_at_row(&self, row: usize, channel: Channel, message: impl Into<String>) -> HostError {
+        let line = self.rows.get(row).map_or(1, |id| id.line);
+        let column = self.header.iter().position(|name| name == channel.name()).map_or(1, |place| place as u64 + 1);
+        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
     }
 
     /// An error about the table as a whole.

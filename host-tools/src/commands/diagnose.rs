@@ -1,0 +1,91 @@
+//! `kapvik diagnose`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::data::atomic_write::{write_atomically, write_text};
+use crate::data::campaign::{Campaign, Carried};
+use crate::diagnose::document::Diagnosis;
+use crate::diagnose::{DiagnoseOptions, Outcome, declared_file, diagnose};
+use crate::error::HostError;
+use crate::report::diagnosis::{DiagnosisFindings, page, terminal};
+
+/// Options of `kapvik diagnose`.
+#[derive(Args)]
+pub struct Arguments {
+    /// The campaign NAME.csv, with NAME.toml beside it; or the name of one that the project carries (ding2011-smooth,
+    /// cmu-smooth-straight, cmu-smooth-transients)
+    campaign: PathBuf,
+    /// Where the diagnosis goes
+    #[arg(long, value_name = "OUT.json")]
+    json: Option<PathBuf>,
+    /// Where the report goes, to open in a browser
+    #[arg(long, value_name = "OUT.html")]
+    html: Option<PathBuf>,
+    /// Where the model with the effects found goes, for `kapvik train --declared`
+    #[arg(long, value_name = "D.toml")]
+    declared: Option<PathBuf>,
+    /// Use the rows of braking wheels as well
+    #[arg(long)]
+    braking: bool,
+}
+
+/// Diagnoses a campaign, and says what it lacks.
+///
+/// # Errors
+/// Where a file is not as it should be, or cannot be written.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let campaign = campaign(&arguments.campaign)?;
+    let outcome = with_progress(&campaign, arguments.braking)?;
+    let findings = findings(&campaign, &outcome);
+    println!("{}", terminal(&findings));
+    if let Some(path) = &arguments.json {
+        write_json(path, &outcome.document)?;
+    }
+    if let Some(path) = &arguments.html {
+        write_text(path, &page(&findings))?;
+    }
+    if let Some(path) = &arguments.declared {
+        write_text(path, &declared_file(&campaign, &outcome.document))?;
+    }
+    Ok(())
+}
+
+/// The campaign of a path, or of a name that the project carries.
+///
+/// # Errors
+/// As [`Campaign::read`].
+pub fn campaign(path: &Path) -> Result<Campaign, HostError> {
+    match path.to_str().and_then(Carried::from_name) {
+        Some(carried) => carried.campaign(),
+        None => Campaign::read(path),
+    }
+}
+
+/// [`diagnose`] behind a line that says what is being done.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn with_progress(campaign: &Campaign, braking: bool) -> Result<Outcome, HostError> {
+    let bar = ProgressBar::new_spinner();
+    let style = ProgressStyle::with_template("{spinner} {elapsed} {msg}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    let outcome = diagnose(campaign, &DiagnoseOptions { braking }, &|what| bar.set_message(what.to_owned()));
+    bar.finish_and_clear();
+    outcome
+}
+
+fn findings(campaign: &Campaign, outcome: &Outcome) -> DiagnosisFindings {
+    let traces = outcome.traces(campaign.rows().len());
+    DiagnosisFindings::new(campaign, outcome.document.clone(), traces, outcome.guilty.clone())
+}
+
+fn write_json(path: &Path, document: &Diagnosis) -> Result<(), HostError> {
+    write_atomically(path, |out| {
+        let written = serde_json::to_writer_pretty(&mut *out, document).map_err(std::io::Error::from);
+        written.and_then(|()| out.write_all(b"\n")).map_err(HostError::file(path))
+    })
+}

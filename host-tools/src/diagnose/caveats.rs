@@ -1,0 +1,93 @@
+//! What a reader of a diagnosis should know about its data.
+
+use crate::data::campaign::{Campaign, Knowledge};
+
+use super::fit::Reading;
+use super::forward::Selected;
+use super::measurements::Measurements;
+use super::soil_coordinates::SoilParameter;
+
+/// Spread of load, as a share, below which it counts as one level.
+const ONE_LOAD: f64 = 0.1;
+/// Spread of slip below which it counts as constant.
+const ONE_SLIP: f64 = 0.03;
+/// Share of its prior's standard deviation that a parameter must be known to, to count as told by the data.
+const TOLD: f64 = 0.7;
+/// Dispersion beyond which stated noise and model do not agree.
+const MISFIT: f64 = 1.5;
+
+/// The caveats, sentence by sentence: those of the campaign's own notes, then what the data cannot decide.
+pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
+    let mut said = campaign.notes.clone();
+    let runs = measurements.runs.len();
+    if runs < 5 {
+        said.push(format!("Only {runs} runs: what is found rests on few independent observations."));
+    }
+    said.extend(spread(measurements, Reading::Load).filter(|(low, high)| high - low < ONE_LOAD * high.abs()).map(|_| {
+        "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load; an \
+         offset of the drawbar pull, a tilt and a share of the load look alike."
+            .to_owned()
+    }));
+    said.extend(
+        spread(measurements, Reading::Slip)
+            .filter(|(low, high)| high - low < ONE_SLIP)
+            .map(|_| "Constant slip: the shear modulus and every effect of slip are beyond these data.".to_owned()),
+    );
+    if !measurements.has(Reading::Torque) {
+        said.push("No torque: what resists the wheel and what drives it are seen only in their difference.".to_owned());
+    }
+    if !measurements.has(Reading::Sinkage) {
+        said.push("No sinkage: the stiffness of the soil is known only through the forces.".to_owned());
+    }
+    let guessed = Reading::JUDGED
+        .into_iter()
+        .filter(|reading| measurements.has(*reading) && !measurements.noise[reading.index()].stated);
+    let guessed: Vec<_> = guessed.map(|reading| super::measurements::COLUMNS[reading.index()].name()).collect();
+    if !guessed.is_empty() {
+        said.push(format!(
+            "The noise of {} is not stated; it is estimated from what the model leaves.",
+            guessed.join(", ")
+        ));
+    }
+    let dispersion = selected.model().fit.dispersion;
+    if dispersion > MISFIT {
+        said.push(format!(
+            "The model misses the data by {:.1} times the stated noise in the mean: stated uncertainties are widened by as much, \
+             and what it lacks besides is not known.",
+            dispersion.sqrt()
+        ));
+    }
+    said.extend(untold(campaign, selected));
+    said
+}
+
+/// The soil's parameters about which the data say next to nothing.
+fn untold(campaign: &Campaign, selected: &Selected<'_>) -> Option<String> {
+    let trial = selected.model();
+    let coordinates = super::fit::Model::coordinates(&trial.model);
+    let is_untold = |(place, parameter): &(usize, &SoilParameter)| {
+        let coordinate = &coordinates[*place];
+        let width = coordinate.prior.map_or((coordinate.high - coordinate.low) / f64::sqrt(12.0), |(_, std)| std);
+        let std = trial.fit.covariance[(*place, *place)].max(0.0).sqrt();
+        std > TOLD * width
+            || trial.fit.on_bound.get(*place).copied().unwrap_or(false)
+            || is_exact(campaign, **parameter)
+    };
+    let free = trial.model.soil_parameters().iter().enumerate();
+    let names: Vec<_> = free.filter(is_untold).map(|(_, parameter)| parameter.key()).collect();
+    (!names.is_empty()).then(|| {
+        format!("These data say little or nothing of {}: what stands there is the prior or a bound.", names.join(", "))
+    })
+}
+
+fn is_exact(campaign: &Campaign, parameter: SoilParameter) -> bool {
+    parameter == SoilParameter::ReboundRatio
+        && matches!(campaign.ground.rebound_ratio, Some(Knowledge::Value { std, .. }) if std == 0.0)
+}
+
+/// The least and the greatest reading.
+fn spread(measurements: &Measurements, reading: Reading) -> Option<(f64, f64)> {
+    let values = measurements.rows.iter().filter_map(|row| row.readings[reading.index()]);
+    let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    ends.0.is_finite().then_some(ends)
+}

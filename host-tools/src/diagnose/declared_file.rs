@@ -1,0 +1,44 @@
+//! The model that a diagnosis ends with, as a file that trains and flies it.
+
+use std::fmt::Write;
+
+use crate::data::campaign::{Campaign, Knowledge};
+
+use super::document::Diagnosis;
+
+/// A TOML file with the declared effects and those found, each with its form and its parameters and their spread. A reader
+/// ignores everything but `[declared]`.
+pub fn declared_file(campaign: &Campaign, diagnosis: &Diagnosis) -> String {
+    let mut text = format!(
+        "# What `kapvik diagnose` found in: {}\n# {}\n",
+        one_line(&diagnosis.campaign),
+        one_line(&diagnosis.sentence)
+    );
+    let found = diagnosis.effects.iter().map(|effect| effect.id.clone());
+    let ids: Vec<_> = campaign.declared.ids().into_iter().chain(found).map(|id| format!("\"{id}\"")).collect();
+    // Writing to a text cannot fail.
+    let _ = writeln!(text, "[declared]\neffects = [{}]", ids.join(", "));
+    for effect in &campaign.declared.effects {
+        let _ = writeln!(text, "[declared.{}]", effect.info.id);
+        if let Some(form) = effect.form {
+            let _ = writeln!(text, "form = \"{}\"", form.name);
+        }
+        for (name, known) in &effect.known {
+            let _ = match known {
+                Knowledge::Value { value, std } => writeln!(text, "{name} = {{ value = {value:?}, std = {std:?} }}"),
+                Knowledge::Between { min, max } => writeln!(text, "{name} = {{ min = {min:?}, max = {max:?} }}"),
+            };
+        }
+    }
+    for effect in &diagnosis.effects {
+        let _ = writeln!(text, "[declared.{}]\nform = \"{}\"", effect.id, effect.form);
+        for (name, estimate) in &effect.parameters {
+            let _ = writeln!(text, "{name} = {{ value = {:?}, std = {:?} }}", estimate.value, estimate.std);
+        }
+    }
+    text
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

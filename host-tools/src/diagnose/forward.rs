@@ -1,0 +1,88 @@
+//! Forward selection: one effect after the other, while each earns its place.
+
+use super::residual_search::{Structure, search};
+use super::selection::{Judged, Step, TELLS_APART, step};
+use super::trial::{Bench, Trial};
+
+/// Most effects that are looked for.
+const MOST_EFFECTS: usize = 4;
+/// Most other effects that one is stated to be ambiguous with.
+const MOST_ALTERNATIVES: usize = 2;
+/// An effect is preferred to a dependence that no physics stands behind as long as it gains all but this much of ln
+/// likelihood, or all but this share.
+const PHYSICS_FIRST: (f64, f64) = (6.0, 0.3);
+
+/// What the selection came to.
+#[derive(Debug, Clone)]
+pub struct Selected<'a> {
+    /// The declared model.
+    pub base: Trial<'a>,
+    /// The effects that earned their place, each with the step that found it.
+    pub found: Vec<FoundStep<'a>>,
+    /// The step at which the search ended.
+    pub last: Option<Step<'a>>,
+    /// Structure that is left.
+    pub left: Vec<Structure>,
+    /// The column that the declared model's residuals follow most.
+    pub guilty: Option<String>,
+}
+
+/// An effect that earned its place, and the field that it won in.
+#[derive(Debug, Clone)]
+pub struct FoundStep<'a> {
+    /// The winner.
+    pub winner: Judged<'a>,
+    /// The ids that these data do not tell from it.
+    pub ambiguous_with: Vec<&'static str>,
+    /// Everyone.
+    pub step: Step<'a>,
+}
+
+impl<'a> Selected<'a> {
+    /// The model with all the effects that were found.
+    pub fn model(&self) -> &Trial<'a> {
+        self.found.last().map_or(&self.base, |found| &found.winner.trial)
+    }
+}
+
+/// Adds effects to a model while they earn their place.
+pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) + Sync)) -> Selected<'a> {
+    let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None };
+    while selected.found.len() < MOST_EFFECTS {
+        progress(&format!("effect {}", selected.found.len() + 1));
+        let here = step(bench, selected.model(), None);
+        selected.left = search(bench, selected.model(), here.dispersion);
+        if selected.found.is_empty() {
+            selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
+        }
+        let structure = selected.left.first().filter(|structure| structure.is_significant());
+        match winner(&here, structure) {
+            Some(place) => selected.found.push(found(here, place)),
+            None => {
+                selected.last = Some(here);
+                break;
+            }
+        }
+    }
+    if selected.last.is_none() {
+        selected.left = search(bench, selected.model(), 1.0);
+    }
+    selected.left.retain(Structure::is_significant);
+    selected
+}
+
+/// The best candidate that chance does not explain, unless a bare dependence explains much more.
+fn winner(step: &Step<'_>, structure: Option<&Structure>) -> Option<usize> {
+    let place = step.ranking.iter().position(Judged::is_significant)?;
+    let effect = step.ranking[place].score;
+    let beaten = structure
+        .is_some_and(|structure| structure.score - effect > PHYSICS_FIRST.0.max(PHYSICS_FIRST.1 * structure.score));
+    (!beaten).then_some(place)
+}
+
+fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
+    let winner = step.ranking[place].clone();
+    let near = |other: &&Judged<'_>| other.id() != winner.id() && other.score > winner.score - TELLS_APART;
+    let ambiguous_with = step.ranking.iter().filter(near).take(MOST_ALTERNATIVES).map(Judged::id).collect();
+    FoundStep { winner, ambiguous_with, step }
+}

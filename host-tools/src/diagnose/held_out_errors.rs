@@ -1,0 +1,71 @@
+//! Errors on runs that took part neither in a fit nor in choosing its effects.
+
+use rayon::prelude::*;
+
+use super::fit::{CHANNELS, HeldOut};
+use super::selection::step;
+use super::specification::EffectForm;
+use super::trial::{Bench, Trial};
+
+/// Most groups that the runs are divided into; each is left out in turn.
+const GROUPS: usize = 8;
+
+/// Predictions of each row by models that did not know its run.
+#[derive(Debug, Clone)]
+pub struct HeldOutErrors {
+    /// Measured less predicted by the declared model, for each row and channel.
+    pub before: Vec<[Option<f64>; CHANNELS]>,
+    /// The same with the effects that were chosen without the run.
+    pub after: Vec<[Option<f64>; CHANNELS]>,
+}
+
+/// Leaves out each group of runs in turn: fits the declared model to the others, chooses as many effects as were found among
+/// those that came near on all runs, and predicts the group.
+pub fn held_out_errors(
+    bench: &Bench<'_>,
+    base: &Trial<'_>,
+    shortlists: &[Vec<EffectForm>],
+    progress: &(dyn Fn(&str) + Sync),
+) -> HeldOutErrors {
+    let groups = groups(bench.measurements.runs.len());
+    let predict = |group: &Vec<usize>| {
+        let bench = bench.without(group);
+        let before = bench.refit(base)?;
+        let mut after = before.clone();
+        for shortlist in shortlists {
+            let best = step(&bench, &after, Some(shortlist)).ranking.into_iter().next();
+            after = best.map_or(after, |best| best.trial);
+        }
+        progress("held-out runs");
+        let predicted = |trial: &Trial<'_>| trial.fit.predict_unseen(&trial.model, group).ok();
+        Some((predicted(&before)?, predicted(&after)?))
+    };
+    let predictions: Vec<_> = groups.par_iter().filter_map(predict).collect();
+    let rows = bench.measurements.rows.len();
+    let mut errors = HeldOutErrors { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] };
+    for (before, after) in &predictions {
+        note(before, &mut errors.before);
+        note(after, &mut errors.after);
+    }
+    errors
+}
+
+/// Runs dealt out to groups, so that neighbours, which are often alike, are in different ones.
+fn groups(runs: usize) -> Vec<Vec<usize>> {
+    let count = runs.min(GROUPS);
+    (0..count).map(|group| (group..runs).step_by(count).collect()).collect()
+}
+
+/// Puts predictions in their rows.
+pub fn note(predictions: &HeldOut, residuals: &mut [[Option<f64>; CHANNELS]]) {
+    for row in predictions.runs.iter().flat_map(|run| &run.rows) {
+        residuals[row.row] = row.residual;
+    }
+}
+
+/// Root mean square of a channel's residuals over some rows; none without any.
+pub fn rmse(residuals: &[[Option<f64>; CHANNELS]], channel: usize, rows: impl Fn(usize) -> bool) -> Option<f64> {
+    let squares = residuals.iter().enumerate().filter(|(row, _)| rows(*row)).filter_map(|(_, row)| row[channel]);
+    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), residual| (sum + residual * residual, count + 1.0));
+    (count > 0.0).then(|| f64::sqrt(sum / count))
+}

@@ -1,0 +1,53 @@
+//! Whole levels of slip left out, which asks more of a model than runs beside others at the same slip.
+
+use super::assemble::error_pairs;
+use super::document::LevelsLeftOut;
+use super::fit::{CHANNELS, Reading};
+use super::forward::Selected;
+use super::held_out_errors::{HeldOutErrors, note};
+use super::measurements::Measurements;
+use super::trial::Trial;
+
+/// Slips closer than this are one level.
+const SAME_LEVEL: f64 = 0.03;
+/// Most levels that are told apart; more is a spread.
+const MOST_LEVELS: usize = 12;
+
+/// Errors with each level of slip left out of the fits of both models in turn; none where slips do not come in levels of
+/// several runs. The effects are those that all runs chose.
+pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> Option<LevelsLeftOut> {
+    let levels = levels(measurements)?;
+    let rows = measurements.rows.len();
+    let mut errors = HeldOutErrors { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] };
+    for (_, runs) in &levels {
+        let predict = |trial: &Trial<'_>| trial.fit.leave_out_exact(&trial.model, runs).ok();
+        note(&predict(&selected.base)?, &mut errors.before);
+        note(&predict(selected.model())?, &mut errors.after);
+    }
+    let slips = levels.into_iter().map(|(slip, _)| slip).collect();
+    Some(LevelsLeftOut { slips, channels: error_pairs(&errors, |_| true) })
+}
+
+/// Mean slip and runs of each level, where the runs each stay at one.
+fn levels(measurements: &Measurements) -> Option<Vec<(f64, Vec<usize>)>> {
+    let mut runs: Vec<(f64, usize)> = Vec::new();
+    for (run, rows) in measurements.rows_of_run.iter().enumerate() {
+        let slips: Vec<f64> =
+            rows.iter().filter_map(|row| measurements.rows[*row].readings[Reading::Slip.index()]).collect();
+        let mean = slips.iter().sum::<f64>() / slips.len() as f64;
+        if slips.iter().any(|slip| (slip - mean).abs() > SAME_LEVEL) {
+            return None;
+        }
+        runs.push((mean, run));
+    }
+    runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut levels: Vec<(f64, Vec<usize>)> = Vec::new();
+    for (slip, run) in runs {
+        match levels.last_mut() {
+            Some((mean, of_level)) if slip - *mean < SAME_LEVEL => of_level.push(run),
+            _ => levels.push((slip, vec![run])),
+        }
+    }
+    let repeated = levels.iter().any(|(_, runs)| runs.len() > 1);
+    (repeated && (3..=MOST_LEVELS).contains(&levels.len())).then_some(levels)
+}

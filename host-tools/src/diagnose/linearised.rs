@@ -1,0 +1,115 @@
+//! A fitted model near its optimum, with terms added to its readings: cheap enough to try hundreds of them.
+
+use super::campaign_model::CampaignModel;
+use super::fit::{CHANNELS, Coordinate, Fit, FitError, Latent, Model, Options, Prediction, Reading, Row, Start, fit};
+
+/// Terms added to a channel: a value for each row, times a coefficient that is fitted.
+#[derive(Debug, Clone)]
+pub struct AddedTerms {
+    /// The channel.
+    pub channel: Reading,
+    /// Each term's value in each row, about one in size.
+    pub terms: Vec<Vec<f64>>,
+}
+
+/// A model to first order about a fit of it.
+#[derive(Debug, Clone)]
+pub struct Linearised<'a> {
+    rows: &'a [Row],
+    coordinates: Vec<Coordinate>,
+    parameters: Vec<f64>,
+    latents: Vec<Latent>,
+    predictions: Vec<Prediction>,
+    options: Options,
+}
+
+/// The same with added terms.
+struct WithTerms<'a> {
+    base: &'a Linearised<'a>,
+    added: &'a AddedTerms,
+    coordinates: Vec<Coordinate>,
+}
+
+impl<'a> Linearised<'a> {
+    /// The model of a fit about that fit; none where the model predicts nothing there.
+    pub fn about(
+        model: &CampaignModel<'_>,
+        found: &Fit,
+        rows: &'a [Row],
+        rows_of_run: &[Vec<usize>],
+        options: &Options,
+    ) -> Option<Self> {
+        let mut latents = found.latents.clone();
+        let mut predictions = vec![None; rows.len()];
+        for of_run in rows_of_run {
+            let mut here: Vec<Latent> = of_run.iter().map(|row| latents[*row]).collect();
+            for (row, prediction) in of_run.iter().zip(model.predict(&found.parameters, of_run, &mut here)?) {
+                predictions[*row] = Some(prediction);
+            }
+            for (row, latent) in of_run.iter().zip(here) {
+                latents[*row] = latent;
+            }
+        }
+        Some(Self {
+            rows,
+            coordinates: model.coordinates().to_vec(),
+            parameters: found.parameters.clone(),
+            latents,
+            predictions: predictions.into_iter().collect::<Option<_>>()?,
+            options: options.clone(),
+        })
+    }
+
+    /// A fit with added terms.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn fit_with(&self, added: &AddedTerms) -> Result<Fit, FitError> {
+        let mut coordinates = self.coordinates.clone();
+        for index in 0..added.terms.len() {
+            coordinates.push(Coordinate {
+                name: format!("term {index}"),
+                low: f64::NEG_INFINITY,
+                high: f64::INFINITY,
+                start: 0.0,
+                prior: None,
+            });
+        }
+        let mut parameters = self.parameters.clone();
+        parameters.resize(coordinates.len(), 0.0);
+        let model = WithTerms { base: self, added, coordinates };
+        fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
+    }
+}
+
+impl Model for WithTerms<'_> {
+    fn coordinates(&self) -> &[Coordinate] {
+        &self.coordinates
+    }
+
+    fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
+        let base = self.base;
+        let count = base.parameters.len();
+        let (own, coefficients) = parameters.split_at_checked(count)?;
+        let channel = self.added.channel.index();
+        let moved: Vec<f64> = own.iter().zip(&base.parameters).map(|(now, then)| now - then).collect();
+        let predict = |(row, latent): (&usize, &Latent)| {
+            let mut here = base.predictions[*row].clone();
+            let then = &base.latents[*row];
+            let (slip, load_n) = (latent.slip - then.slip, latent.load_n - then.load_n);
+            for reading in 0..CHANNELS {
+                let by_parameters: f64 =
+                    moved.iter().zip(&here.by_parameter).map(|(by, slope)| by * slope[reading]).sum();
+                here.value[reading] += by_parameters + slip * here.by_slip[reading] + load_n * here.by_load[reading];
+            }
+            for (term, coefficient) in self.added.terms.iter().zip(coefficients) {
+                here.value[channel] += coefficient * term[*row];
+                let mut slope = [0.0; CHANNELS];
+                slope[channel] = term[*row];
+                here.by_parameter.push(slope);
+            }
+            here
+        };
+        Some(rows.iter().zip(latents.iter()).map(predict).collect())
+    }
+}

@@ -1,0 +1,177 @@
+//! The rows of a campaign that a diagnosis can use.
+
+use kapvik_firmware::terramechanics::effects::{Conditions, Grousers};
+
+use crate::data::campaign::{Campaign, Channel};
+use crate::error::HostError;
+
+use super::document::LeftOut;
+use super::fit::{CHANNELS, Reading, Row};
+use super::noise::{Noise, channel_noise};
+
+/// The column of each reading, in the order of [`Reading::ALL`].
+pub const COLUMNS: [Channel; CHANNELS] =
+    [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
+
+/// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
+const BRAKING: f64 = -0.05;
+
+/// What a campaign measured, row by row.
+#[derive(Debug, Clone)]
+pub struct Measurements {
+    /// The rows, those of a run in the order of its time.
+    pub rows: Vec<Row>,
+    /// Place of each row in the campaign.
+    pub places: Vec<usize>,
+    /// What else is known of each row.
+    pub conditions: Vec<Conditions<f64>>,
+    /// Names of the runs, by their number.
+    pub runs: Vec<String>,
+    /// Rows of each run.
+    pub rows_of_run: Vec<Vec<usize>>,
+    /// The noise of each reading.
+    pub noise: [Noise; CHANNELS],
+    /// Rows that were left out.
+    pub left_out: Vec<LeftOut>,
+}
+
+impl Measurements {
+    /// The rows that drive, or all of them.
+    ///
+    /// # Errors
+    /// Where the campaign lacks a column without which nothing can be said, or no row is left.
+    pub fn of(campaign: &Campaign, braking: bool) -> Result<Self, HostError> {
+        check_columns(campaign)?;
+        let mut reasons = [(0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"), (0, "braking")];
+        let mut usable = Vec::new();
+        for row in 0..campaign.rows().len() {
+            let readings = COLUMNS.map(|channel| campaign.value(row, channel));
+            if !is_usable(&readings) {
+                reasons[0].0 += 1;
+            } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
+                reasons[1].0 += 1;
+            } else {
+                usable.push((row, readings));
+            }
+        }
+        if usable.is_empty() {
+            return Err(campaign
+                .error("no row that drives and has a slip, a load or a sinkage, and a force or a sinkage to judge"));
+        }
+        let left_out = reasons.into_iter().filter(|(rows, _)| *rows > 0);
+        let left_out = left_out.map(|(rows, reason)| LeftOut { reason: reason.to_owned(), rows }).collect();
+        Ok(Self::in_runs(campaign, &usable, left_out))
+    }
+
+    fn in_runs(campaign: &Campaign, usable: &[(usize, [Option<f64>; CHANNELS])], left_out: Vec<LeftOut>) -> Self {
+        let noise = channel_noise(campaign, usable);
+        let mut found = Self {
+            rows: Vec::new(),
+            places: Vec::new(),
+            conditions: Vec::new(),
+            runs: Vec::new(),
+            rows_of_run: Vec::new(),
+            noise,
+            left_out,
+        };
+        for (name, mut places) in campaign.runs() {
+            places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
+            let mut of_run = Vec::new();
+            for place in places {
+                let Some((_, readings)) = usable.iter().find(|(row, _)| *row == place) else { continue };
+                of_run.push(found.rows.len());
+                found.places.push(place);
+                found.conditions.push(conditions(campaign, place));
+                found.rows.push(Row {
+                    run: found.runs.len(),
+                    readings: *readings,
+                    noise: noise.map(|noise| noise.std),
+                });
+            }
+            if !of_run.is_empty() {
+                found.runs.push(name.to_owned());
+                found.rows_of_run.push(of_run);
+            }
+        }
+        found
+    }
+
+    /// Whether any row has the reading.
+    pub fn has(&self, reading: Reading) -> bool {
+        self.rows.iter().any(|row| row.readings[reading.index()].is_some())
+    }
+
+    /// The middle one of a reading's values.
+    pub fn median(&self, reading: Reading) -> Option<f64> {
+        median(self.rows.iter().filter_map(|row| row.readings[reading.index()]).collect())
+    }
+}
+
+/// The middle one of some numbers.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// The grousers of a campaign's wheel.
+pub fn grousers(campaign: &Campaign) -> Grousers<f64> {
+    Grousers { height_m: campaign.grousers.height_m, count: f64::from(campaign.grousers.count) }
+}
+
+fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
+    let has =
+        |channel: Channel| campaign.column(channel.name()).is_some_and(|column| column.iter().any(Option::is_some));
+    if !has(Channel::Slip) {
+        return Err(campaign.error("no column `slip` with a number: without slip no model predicts a force"));
+    }
+    if !has(Channel::Load) && !has(Channel::Sinkage) {
+        return Err(campaign.error("neither `load_n` nor `sinkage_m`: expected at least one of them"));
+    }
+    let judged = [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce];
+    let others = judged.into_iter().filter(|channel| has(*channel)).count();
+    let alone = others == 1 && has(Channel::Sinkage) && !has(Channel::Load);
+    if others == 0 || alone {
+        return Err(
+            campaign.error("nothing to judge: expected `drawbar_pull_n`, `torque_nm` or, beside a load, `sinkage_m`")
+        );
+    }
+    check_units(campaign)
+}
+
+/// A sinkage beyond the wheel's radius, or slips in per cent, are in other units than the format's.
+fn check_units(campaign: &Campaign) -> Result<(), HostError> {
+    let radius_m = campaign.wheel.radius_m;
+    let deep = |row: &usize| campaign.value(*row, Channel::Sinkage).is_some_and(|sinkage| sinkage.abs() > radius_m);
+    if let Some(row) = (0..campaign.rows().len()).find(deep) {
+        let sinkage = campaign.value(row, Channel::Sinkage).unwrap_or(0.0);
+        return Err(campaign.error_at_row(
+            row,
+            Channel::Sinkage,
+            format!("a sinkage of {sinkage} m under a wheel of {radius_m} m radius: expected metres, 0 to the radius"),
+        ));
+    }
+    Ok(())
+}
+
+/// A slip, what determines the sinkage, and something to judge that by.
+fn is_usable(readings: &[Option<f64>; CHANNELS]) -> bool {
+    let has = |reading: Reading| readings[reading.index()].is_some();
+    let forces = [Reading::DrawbarPull, Reading::Torque, Reading::SideForce].into_iter().filter(|r| has(*r)).count();
+    let carried = has(Reading::Load);
+    has(Reading::Slip) && ((carried && (forces > 0 || has(Reading::Sinkage))) || (has(Reading::Sinkage) && forces > 0))
+}
+
+fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
+    let value = |channel| campaign.value(row, channel);
+    Conditions {
+        pass: value(Channel::Pass),
+        temperature_c: value(Channel::Temperature),
+        hours_since_zero: value(Channel::HoursSinceZero),
+        speed_m_s: value(Channel::Speed),
+        wheel_rate_rad_s: value(Channel::WheelRate),
+        wheel_angle_rad: value(Channel::WheelAngle),
+        travel_m: value(Channel::Travel),
+        pitch_rad: value(Channel::Pitch),
+        slip_angle_rad: value(Channel::SlipAngle),
+    }
+}

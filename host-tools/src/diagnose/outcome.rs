@@ -1,0 +1,132 @@
+//! A campaign, diagnosed.
+
+use super::assemble::assemble;
+use super::candidates::is_measured;
+use super::document::Diagnosis;
+use super::fit::{CHANNELS, Reading};
+use super::forward::{Selected, select};
+use super::held_out_errors::{HeldOutErrors, held_out_errors};
+use super::levels::levels_left_out;
+use super::measurements::{COLUMNS, Measurements};
+use super::specification::{EffectForm, Specification};
+use super::trial::{Bench, Trial};
+use crate::data::campaign::Campaign;
+use crate::error::HostError;
+use crate::report::diagnosis::{Trace, Traced};
+
+/// Chance below which a candidate is tried again without the held-out runs.
+const NEAR: f64 = 0.5;
+/// Candidates that are tried again at least.
+const AGAIN: usize = 4;
+
+/// Said of a campaign of one run.
+const ONE_RUN: &str = "One run only: its rows were held out one by one. What the rows of a run share, such as the state of \
+                       the sensors or of the soil on that day, cannot be told from an effect here.";
+
+/// How a campaign is diagnosed.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct DiagnoseOptions {
+    /// Use the rows of braking wheels as well.
+    pub braking: bool,
+}
+
+/// What came of a diagnosis.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The document.
+    pub document: Diagnosis,
+    /// The rows that were used.
+    pub measurements: Measurements,
+    /// Their held-out errors.
+    pub errors: HeldOutErrors,
+    /// The column that the declared model's residuals follow most.
+    pub guilty: Option<String>,
+}
+
+impl Outcome {
+    /// Readings and their predictions by channel, for each of a campaign's `rows`.
+    pub fn traces(&self, rows: usize) -> Vec<Trace> {
+        let measured = Reading::JUDGED.into_iter().filter(|reading| self.measurements.has(*reading));
+        measured
+            .map(|reading| Trace {
+                channel: COLUMNS[reading.index()].name().to_owned(),
+                rows: self.traced(reading, rows),
+            })
+            .collect()
+    }
+
+    fn traced(&self, reading: Reading, rows: usize) -> Vec<Option<Traced>> {
+        let mut traced = vec![None; rows];
+        let name = COLUMNS[reading.index()].name();
+        let noise = self.document.channels.get(name).map_or(1.0, |channel| channel.noise);
+        for (row, place) in self.measurements.places.iter().enumerate() {
+            let measured = self.measurements.rows[row].readings[reading.index()];
+            let predicted = |errors: &[[Option<f64>; CHANNELS]]| Some(measured? - errors[row][reading.index()]?);
+            if let (Some(measured), Some(entry)) = (measured, traced.get_mut(*place)) {
+                let (before, after) = (predicted(&self.errors.before), predicted(&self.errors.after));
+                *entry = Some(Traced { measured, noise, before, after });
+            }
+        }
+        traced
+    }
+}
+
+/// Diagnoses a campaign. `progress` is told what is being done.
+///
+/// # Errors
+/// Where the campaign lacks what a diagnosis needs, or its declared model fits nothing.
+pub fn diagnose(
+    campaign: &Campaign,
+    options: &DiagnoseOptions,
+    progress: &(dyn Fn(&str) + Sync),
+) -> Result<Outcome, HostError> {
+    let single = campaign.runs().len() == 1;
+    let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
+    let campaign = apart.as_ref().unwrap_or(campaign);
+    let measurements = Measurements::of(campaign, options.braking)?;
+    let bench = Bench::new(campaign, &measurements);
+    progress("declared model");
+    let base = declared_model(&bench)?;
+    let selected = select(&bench, base, progress);
+    let errors = held_out_errors(&bench, &selected.base, &shortlists(&selected), progress);
+    let levels = levels_left_out(&measurements, &selected);
+    let mut document = assemble(campaign, &measurements, &selected, &errors, levels);
+    if single {
+        document.caveats.insert(0, ONE_RUN.to_owned());
+    }
+    let guilty = selected.guilty.clone();
+    Ok(Outcome { document, measurements, errors, guilty })
+}
+
+/// The declared model at its best: where the campaign leaves open which form a declared effect has, the form that fits best.
+fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostError> {
+    let specifications =
+        Specification::declared(bench.campaign, |form| is_measured(bench.campaign, bench.measurements, form));
+    let mut best: Option<Trial<'a>> = None;
+    let mut refused = None;
+    for specification in specifications {
+        match bench.from_many_starts(specification) {
+            Ok(trial) if best.as_ref().is_none_or(|best| trial.log_posterior() > best.log_posterior()) => {
+                best = Some(trial)
+            }
+            Ok(_) => {}
+            Err(error) => refused = Some(error),
+        }
+    }
+    best.ok_or_else(|| {
+        let why = refused.map_or_else(String::new, |error| format!(": {error}"));
+        bench
+            .campaign
+            .error(format!("the declared model does not fit{why}: expected loads that a soil within [soil] carries"))
+    })
+}
+
+/// For each effect that was found, the candidates that are tried again where runs are held out.
+fn shortlists(selected: &Selected<'_>) -> Vec<Vec<EffectForm>> {
+    let of_step = |found: &super::forward::FoundStep<'_>| {
+        let near = found.step.ranking.iter().enumerate();
+        let near = near.filter(|(place, judged)| *place < AGAIN || judged.p_value < NEAR);
+        near.filter_map(|(_, judged)| judged.effect().cloned()).collect()
+    };
+    selected.found.iter().map(of_step).collect()
+}

@@ -1,0 +1,144 @@
+//! Which effect a model lacks: every candidate refitted with the model, ranked, and tested against chance.
+
+use rayon::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::candidates::candidates;
+use super::fit::HeldOutRun;
+use super::specification::EffectForm;
+use super::trial::{Bench, Trial};
+
+/// The chance, over all candidates, below which a gain is taken for an effect.
+pub const SIGNIFICANT: f64 = 0.01;
+/// What a free parameter must gain in ln likelihood to be worth itself.
+pub const PARAMETER_COST: f64 = 1.5;
+/// Difference in ln likelihood below which two candidates are not told apart: odds of one to twenty.
+pub const TELLS_APART: f64 = 3.0;
+/// Dispersion beyond which the data are not explained.
+const MISFIT: f64 = 1.5;
+/// Candidates on top of which a second effect is tried to see how far the data can be explained.
+const LEADERS: usize = 4;
+/// Standard errors by which the gain on runs that were not seen must exceed nothing.
+const HELD_OUT_ERRORS: f64 = 1.0;
+
+/// A candidate, fitted and judged.
+#[derive(Debug, Clone)]
+pub struct Judged<'a> {
+    /// The model with the candidate.
+    pub trial: Trial<'a>,
+    /// What it gains in ln likelihood over the model without, in units of the dispersion, less the cost of its parameters.
+    pub score: f64,
+    /// The chance of such a gain, over all candidates.
+    pub p_value: f64,
+    /// Gain in log predictive density on runs that the fits did not see, nats a row.
+    pub gain_per_row: f64,
+    /// One standard deviation of that, over runs.
+    pub gain_std: f64,
+}
+
+impl Judged<'_> {
+    /// The candidate.
+    pub fn effect(&self) -> Option<&EffectForm> {
+        self.trial.specification.effects.last()
+    }
+
+    /// Its id.
+    pub fn id(&self) -> &'static str {
+        self.effect().map_or("", |effect| effect.info.id)
+    }
+
+    /// Whether chance does not explain it.
+    pub fn is_significant(&self) -> bool {
+        self.p_value < SIGNIFICANT && self.gain_per_row > HELD_OUT_ERRORS * self.gain_std
+    }
+}
+
+/// What one step of the forward selection found: for each effect its best form, the best effect first.
+#[derive(Debug, Clone)]
+pub struct Step<'a> {
+    /// The candidates.
+    pub ranking: Vec<Judged<'a>>,
+    /// The dispersion that gains are measured in, 1 or more.
+    pub dispersion: f64,
+}
+
+/// Fits every candidate on top of a model (or those of a shortlist), and judges the best form of each effect.
+pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: Option<&[EffectForm]>) -> Step<'a> {
+    let all = shortlist.map_or_else(
+        || candidates(bench.campaign, bench.measurements, &base.specification),
+        |shortlist| shortlist.iter().filter(|form| !base.specification.has(form.info.id)).cloned().collect(),
+    );
+    let trials: Vec<_> = all.par_iter().filter_map(|candidate| bench.with_effect(base, candidate)).collect();
+    let dispersion = dispersion(bench, base, &trials);
+    let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
+    let score = |trial: &Trial<'_>| gain(trial) - PARAMETER_COST * trial.added_parameters() as f64;
+    let mut best: Vec<Trial<'a>> = Vec::new();
+    for trial in trials {
+        let id = |trial: &Trial<'_>| trial.specification.effects.last().map(|effect| effect.info.id);
+        match best.iter_mut().find(|other| id(other) == id(&trial)) {
+            Some(other) if score(other) < score(&trial) => *other = trial,
+            Some(_) => {}
+            None => best.push(trial),
+        }
+    }
+    let before = held_out(bench, base);
+    let judge = |trial: Trial<'a>| {
+        let (gain_per_row, gain_std) = gain_over(&before, &held_out(bench, &trial));
+        let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
+        Judged { score: score(&trial), p_value, gain_per_row, gain_std, trial }
+    };
+    let mut ranking: Vec<_> = best.into_par_iter().map(judge).collect();
+    // Where more than one effect is missing, the best that one of them can do says little; what it does on runs that it has
+    // not seen says more.
+    let misfit = ranking.iter().map(|judged| judged.trial.fit.dispersion).fold(f64::INFINITY, f64::min) > MISFIT;
+    ranking.sort_by(|a, b| {
+        let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
+        key(b).total_cmp(&key(a))
+    });
+    Step { ranking, dispersion }
+}
+
+/// The dispersion that gains are measured in, 1 or more: that of the best model with one more effect, or with two where one
+/// leaves the data far from explained.
+fn dispersion<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> f64 {
+    let least =
+        |trials: &[Trial<'_>], start: f64| trials.iter().map(|trial| trial.fit.dispersion).fold(start, f64::min);
+    let one = least(trials, base.fit.dispersion);
+    if one <= MISFIT {
+        return one.max(1.0);
+    }
+    let mut leaders: Vec<_> = trials.iter().collect();
+    leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    let second = |first: &&Trial<'a>| {
+        let next = candidates(bench.campaign, bench.measurements, &first.specification);
+        let next: Vec<_> = next.iter().filter_map(|candidate| bench.with_effect(first, candidate)).collect();
+        least(&next, one)
+    };
+    leaders.par_iter().take(LEADERS).map(second).reduce(|| one, f64::min).max(1.0)
+}
+
+/// The chance that the best of `tried` candidates that change nothing gains so much in ln likelihood.
+pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
+    let chance = ChiSquared::new(parameters.max(1) as f64).map_or(1.0, |law| law.sf(2.0 * gain.max(0.0)));
+    // 1 − (1 − p)^m, without losing a small p.
+    -(f64::ln_1p(-chance.min(1.0 - 1e-12)) * tried as f64).exp_m1()
+}
+
+/// Each run (or each row, of a campaign of one run) predicted without its own help.
+fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+    let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
+    let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok()?.runs.pop();
+    runs.filter_map(predict).collect()
+}
+
+/// Mean gain a row, and its standard deviation over runs.
+fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
+    let gain = |(before, after): (&HeldOutRun, &HeldOutRun)| Some(after.log_score? - before.log_score?);
+    let gains: Vec<f64> = before.iter().zip(after).map(|pair| gain(pair).unwrap_or(0.0)).collect();
+    let rows: usize = before.iter().map(|run| run.rows.len()).sum();
+    let count = gains.len() as f64;
+    let mean = gains.iter().sum::<f64>() / count.max(1.0);
+    let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    let per_row = count / (rows.max(1) as f64);
+    (mean * per_row, (variance / count.max(1.0)).sqrt() * per_row)
+}

@@ -1,0 +1,56 @@
+//! The verdict in words, and what measurement would decide between candidates.
+
+use kapvik_firmware::terramechanics::effects::effect_info;
+
+use crate::data::campaign::Campaign;
+
+use super::document::{Diagnosis, Verdict};
+
+/// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document.
+pub fn tell(document: &mut Diagnosis, campaign: &Campaign) {
+    document.sentence = sentence(document, campaign);
+    if document.verdict == Verdict::Ambiguous {
+        let ids = document.effects.iter().take(1).map(|effect| &effect.id).chain(&document.ambiguous_with);
+        let tests: Vec<_> = ids.filter_map(|id| effect_info(id).map(|info| format!("{id}: {}", info.test))).collect();
+        document.deciding_measurement = Some(format!("To tell them apart, measure: {}.", tests.join("; ")));
+    }
+}
+
+fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
+    let model = if document.declared.is_empty() {
+        "the seed's equations".to_owned()
+    } else {
+        format!("the declared model ({})", document.declared.join(", "))
+    };
+    let of = &campaign.name;
+    match document.verdict {
+        Verdict::None => {
+            format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
+        }
+        Verdict::Unexplained => format!(
+            "{of}: {model} leave structure in {} that no known effect explains.",
+            document
+                .unexplained
+                .first()
+                .map_or_else(String::new, |left| format!("{} against {}", left.channel, left.regressor))
+        ),
+        Verdict::Effect | Verdict::Ambiguous => {
+            let found: Vec<_> = document.effects.iter().map(|effect| what(&effect.id)).collect();
+            let or = match document.ambiguous_with.as_slice() {
+                [] => String::new(),
+                others => format!(" (these data do not tell it from {})", others.join(" or ")),
+            };
+            let left = document.unexplained.first();
+            let left = left.map_or_else(String::new, |left| {
+                format!("; structure is left in {} against {}", left.channel, left.regressor)
+            });
+            let first = found.first().cloned().unwrap_or_default();
+            let then = if found.len() > 1 { format!("; then {}", found[1..].join("; then ")) } else { String::new() };
+            format!("{of}: {model} lack {first}{or}{then}{left}.")
+        }
+    }
+}
+
+fn what(id: &str) -> String {
+    effect_info(id).map_or_else(|| id.to_owned(), |info| format!("{id} ({})", info.summary))
+}

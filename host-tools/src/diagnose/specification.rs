@@ -1,0 +1,145 @@
+//! Which effects a model has, and which of their parameters are free.
+
+use std::collections::BTreeMap;
+
+use kapvik_firmware::terramechanics::effects::{EffectInfo, Effects, Form, ParameterInfo};
+
+use crate::data::campaign::{Campaign, Knowledge};
+
+use super::fit::{Coordinate, Reading};
+use super::measurements::{Measurements, median};
+
+/// The effects of a model, in the order in which they came in.
+#[derive(Debug, Clone, Default)]
+pub struct Specification {
+    /// The effects.
+    pub effects: Vec<EffectForm>,
+}
+
+/// An effect in one of its forms.
+#[derive(Debug, Clone)]
+pub struct EffectForm {
+    /// The effect.
+    pub info: &'static EffectInfo,
+    /// Its form.
+    pub form: &'static Form,
+    /// What is known of its parameters beforehand.
+    pub known: BTreeMap<&'static str, Knowledge>,
+}
+
+/// A parameter of an effect that a fit frees.
+#[derive(Debug, Clone)]
+pub struct FreeParameter {
+    /// The effect's id.
+    pub id: &'static str,
+    /// The parameter's name.
+    pub parameter: &'static str,
+    /// As the fit sees it.
+    pub coordinate: Coordinate,
+}
+
+impl Specification {
+    /// What a campaign declares: every combination of the forms that its declared effects may have.
+    pub fn declared(campaign: &Campaign, measured: impl Fn(&Form) -> bool) -> Vec<Self> {
+        let mut found = vec![Self::default()];
+        for declared in &campaign.declared.effects {
+            let given = |form: &&Form| declared.known.keys().all(|name| is_part(form, name));
+            let any = declared.info.forms.iter().any(|form| measured(form) && given(&form));
+            let forms: Vec<_> = match declared.form {
+                Some(form) => vec![form],
+                None if any => declared.info.forms.iter().filter(|form| measured(form) && given(form)).collect(),
+                None => declared.info.forms.iter().take(1).collect(),
+            };
+            let known = &declared.known;
+            let with = |form| EffectForm { info: declared.info, form, known: known.clone() };
+            found = forms.iter().flat_map(|form| found.iter().map(|spec| spec.with(with(form)))).collect();
+        }
+        found
+    }
+
+    /// The same with one more effect.
+    pub fn with(&self, effect: EffectForm) -> Self {
+        let mut effects = self.effects.clone();
+        effects.push(effect);
+        Self { effects }
+    }
+
+    /// Whether an effect is among them.
+    pub fn has(&self, id: &str) -> bool {
+        self.effects.iter().any(|effect| effect.info.id == id)
+    }
+
+    /// The effects with what is fixed set, and the parameters that are free.
+    pub fn effects(&self, measurements: &Measurements) -> (Effects<f64>, Vec<FreeParameter>) {
+        let (mut effects, mut free) = (Effects::none(), Vec::new());
+        for effect in &self.effects {
+            effects.add(effect.info.id);
+            for parameter in effect.info.parameters {
+                match effect.treatment(parameter, measurements) {
+                    Ok(value) => {
+                        effects.set(effect.info.id, parameter.name, value);
+                    }
+                    Err(coordinate) => {
+                        free.push(FreeParameter { id: effect.info.id, parameter: parameter.name, coordinate });
+                    }
+                }
+            }
+        }
+        (effects, free)
+    }
+}
+
+impl EffectForm {
+    /// An effect of which nothing is known.
+    pub fn new(info: &'static EffectInfo, form: &'static Form) -> Self {
+        Self { info, form, known: BTreeMap::new() }
+    }
+
+    /// The value at which a parameter is held, or how a fit sees it.
+    fn treatment(&self, parameter: &ParameterInfo, measurements: &Measurements) -> Result<f64, Coordinate> {
+        let coordinate =
+            |low, high, start, prior| Coordinate { name: parameter.name.to_owned(), low, high, start, prior };
+        match self.known.get(parameter.name) {
+            Some(Knowledge::Value { value, std }) if *std == 0.0 => return Ok(*value),
+            Some(Knowledge::Value { value, std }) => {
+                return Err(coordinate(parameter.low, parameter.high, *value, Some((*value, *std))));
+            }
+            Some(Knowledge::Between { min, max }) => return Err(coordinate(*min, *max, 0.5 * (min + max), None)),
+            None => {}
+        }
+        let set = self.form.set.iter().find(|(name, _)| *name == parameter.name).map(|(_, value)| *value);
+        let reference = reference(parameter.name, measurements);
+        if self.form.free.contains(&parameter.name) {
+            let start = set.or(reference).unwrap_or_else(|| self.start(parameter));
+            return Err(coordinate(parameter.low, parameter.high, start, None));
+        }
+        Ok(set.or(reference).unwrap_or(parameter.neutral))
+    }
+
+    /// Where a search for a free parameter starts: near neutral where it can grow to both sides and is the form's first, so
+    /// that the first step finds its sign; else at a typical size.
+    fn start(&self, parameter: &ParameterInfo) -> f64 {
+        let first = self.form.free.first() == Some(&parameter.name);
+        let inside = parameter.low < parameter.neutral && parameter.neutral < parameter.high;
+        let shapes = self.form.free.len() > 1 && first;
+        if first && inside && !shapes { parameter.neutral + 0.01 * parameter.typical } else { parameter.typical }
+    }
+}
+
+/// Whether a parameter is one that a form frees or sets.
+fn is_part(form: &Form, name: &str) -> bool {
+    form.free.contains(&name) || form.set.iter().any(|(set, _)| *set == name) || name.starts_with("reference")
+}
+
+/// Where the change of a reference only moves another parameter, it is held at the middle of what was measured.
+fn reference(parameter: &str, measurements: &Measurements) -> Option<f64> {
+    let middle = |value: fn(&kapvik_firmware::terramechanics::effects::Conditions<f64>) -> Option<f64>| {
+        median(measurements.conditions.iter().filter_map(value).collect())
+    };
+    match parameter {
+        "reference_load_n" => measurements.median(Reading::Load),
+        "reference_speed_m_s" => middle(|conditions| conditions.speed_m_s).filter(|speed| *speed > 0.0),
+        "reference_c" => middle(|conditions| conditions.temperature_c),
+        _ => None,
+    }
+}
