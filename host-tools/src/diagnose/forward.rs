@@ -10,7 +10,7 @@ const MOST_EFFECTS: usize = 4;
 const MOST_ALTERNATIVES: usize = 2;
 /// An effect is preferred to a dependence that no physics stands behind as long as it gains all but this much of ln
 /// likelihood, or all but this share.
-const PHYSICS_FIRST: (f64, f64) = (6.0, 0.3);
+const PHYSICS_FIRST: (f64, f64) = (6.0, 0.15);
 
 /// What the selection came to.
 #[derive(Debug, Clone)]
@@ -52,11 +52,14 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         progress(&format!("effect {}", selected.found.len() + 1));
         let here = step(bench, selected.model());
         selected.left = search(bench, selected.model(), here.dispersion);
+        match selected.found.last_mut() {
+            Some(last) => last.winner.trial = here.base.clone(),
+            None => selected.base = here.base.clone(),
+        }
         if selected.found.is_empty() {
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
-        let structure = selected.left.first().filter(|structure| structure.is_significant());
-        match winner(&here, structure) {
+        match winner(bench, &here, &selected.left) {
             Some(place) => selected.found.push(found(here, place)),
             None => {
                 selected.last = Some(here);
@@ -71,12 +74,19 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
     selected
 }
 
-/// The best candidate that chance does not explain, unless a bare dependence explains much more.
-fn winner(step: &Step<'_>, structure: Option<&Structure>) -> Option<usize> {
+/// The best candidate that chance does not explain, unless a bare dependence explains much more, in what was fitted and in
+/// what was not, and is still there beside the candidate.
+fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
-    let effect = step.ranking[place].score;
-    let beaten = structure
-        .is_some_and(|structure| structure.score - effect > PHYSICS_FIRST.0.max(PHYSICS_FIRST.1 * structure.score));
+    let effect = &step.ranking[place];
+    let Some(structure) = structures.first().filter(|structure| structure.is_significant()) else { return Some(place) };
+    let margin = PHYSICS_FIRST.0.max(PHYSICS_FIRST.1 * structure.score);
+    let better = structure.score > effect.score + margin
+        && structure.gain_per_row.is_some_and(|gain| gain > effect.gain_per_row);
+    let beaten = better && {
+        let left = search(bench, &effect.trial, effect.trial.fit.dispersion.max(1.0));
+        left.iter().any(|left| left.channel == structure.channel && left.is_significant())
+    };
     (!beaten).then_some(place)
 }
 

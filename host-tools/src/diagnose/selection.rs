@@ -56,6 +56,8 @@ impl Judged<'_> {
 /// What one step of the forward selection found: for each effect its best form, the best effect first.
 #[derive(Debug, Clone)]
 pub struct Step<'a> {
+    /// The model that they were added to, at its best.
+    pub base: Trial<'a>,
     /// The candidates.
     pub ranking: Vec<Judged<'a>>,
     /// The dispersion that gains are measured in, 1 or more.
@@ -66,23 +68,33 @@ pub struct Step<'a> {
 pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let all = candidates(bench.campaign, bench.measurements, &base.specification);
     let trials = trials(bench, base, &all);
-    let dispersion = dispersion(bench, base, &trials);
+    let base = polished(bench, base, &trials);
+    let dispersion = dispersion(bench, &base, &trials);
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
-    let before = held_out(bench, base);
+    let before = held_out(bench, &base);
     let judge = |trial: Trial<'a>| {
         let (gain_per_row, gain_std) = gain_over(&before, &held_out(bench, &trial));
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
         Judged { score, p_value, gain_per_row, gain_std, trial }
     };
-    let best = best_forms(base, trials, dispersion);
+    let best = best_forms(&base, trials, dispersion);
     let mut ranking: Vec<_> = best.into_par_iter().map(judge).collect();
     let misfit = is_misfit(ranking.iter().map(|judged| &judged.trial));
     ranking.sort_by(|a, b| {
         let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
         key(b).total_cmp(&key(a))
     });
-    Step { ranking, dispersion }
+    Step { base, ranking, dispersion }
+}
+
+/// The base at its best: a candidate that changes nothing may still have found a better place for the others.
+fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Trial<'a> {
+    let mut leaders: Vec<_> = trials.iter().collect();
+    leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    let again = leaders.par_iter().take(LEADERS).filter_map(|leader| bench.polish(base, leader));
+    let best = again.reduce_with(|a, b| if b.log_posterior() > a.log_posterior() { b } else { a });
+    best.unwrap_or_else(|| base.clone())
 }
 
 /// The best of a shortlist of candidates, chosen as [`step`] does.
@@ -172,7 +184,7 @@ fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
 
 /// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
 /// model without an answer where that one had one has lost.
-fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
+pub fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
     let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
     let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
     let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };
