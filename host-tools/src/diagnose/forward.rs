@@ -1,5 +1,6 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
+use super::mimicry::is_mimic;
 use super::residual_search::{Structure, search};
 use super::selection::{Judged, Step, TELLS_APART, step};
 use super::trial::{Bench, Trial};
@@ -8,10 +9,6 @@ use super::trial::{Bench, Trial};
 const MOST_EFFECTS: usize = 4;
 /// Most other effects that one is stated to be ambiguous with.
 const MOST_ALTERNATIVES: usize = 2;
-/// An effect is preferred to a dependence that no physics stands behind as long as it gains all but this much of ln
-/// likelihood, or all but this share.
-const PHYSICS_FIRST: (f64, f64) = (6.0, 0.15);
-
 /// What the selection came to.
 #[derive(Debug, Clone)]
 pub struct Selected<'a> {
@@ -74,20 +71,12 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
     selected
 }
 
-/// The best candidate that chance does not explain, unless a bare dependence explains much more, in what was fitted and in
-/// what was not, and is still there beside the candidate.
+/// The best candidate that chance does not explain, unless a bare dependence on a column explains what it does and more.
 fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
-    let effect = &step.ranking[place];
-    let Some(structure) = structures.first().filter(|structure| structure.is_significant()) else { return Some(place) };
-    let margin = PHYSICS_FIRST.0.max(PHYSICS_FIRST.1 * structure.score);
-    let better = structure.score > effect.score + margin
-        && structure.gain_per_row.is_some_and(|gain| gain > effect.gain_per_row);
-    let beaten = better && {
-        let left = search(bench, &effect.trial, effect.trial.fit.dispersion.max(1.0));
-        left.iter().any(|left| left.channel == structure.channel && left.is_significant())
-    };
-    (!beaten).then_some(place)
+    let structure = structures.first().filter(|structure| structure.is_significant());
+    let mimic = structure.is_some_and(|structure| is_mimic(bench, step, &step.ranking[place].trial, structure));
+    (!mimic).then_some(place)
 }
 
 fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {

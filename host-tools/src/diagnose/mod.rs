@@ -17,6 +17,7 @@ mod held_out_errors;
 mod levels;
 mod linearised;
 pub mod measurements;
+mod mimicry;
 mod noise;
 mod outcome;
 mod regressors;

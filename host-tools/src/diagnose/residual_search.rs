@@ -98,6 +98,14 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
     found
 }
 
+/// The terms of a dependence that was found.
+pub fn terms_of(bench: &Bench<'_>, structure: &Structure) -> Option<AddedTerms> {
+    let columns = columns(bench.campaign, bench.measurements);
+    let all = products(&columns).into_iter().chain(columns);
+    let regressor = all.into_iter().find(|regressor| regressor.name == structure.regressor)?;
+    Some(AddedTerms { channel: structure.channel, terms: powers(&regressor, structure.degree) })
+}
+
 /// A constant, what a product is made of, and the powers: a column's effect seldom vanishes at the column's mean.
 fn powers(regressor: &Regressor, degree: usize) -> Vec<Vec<f64>> {
     let constant = vec![1.0; regressor.values.len()];

@@ -18,6 +18,8 @@ pub const TELLS_APART: f64 = 3.0;
 const MISFIT: f64 = 1.5;
 /// Candidates on top of which a second effect is tried to see how far the data can be explained.
 const LEADERS: usize = 4;
+/// The chance below which any gain on runs that were not seen is enough.
+const BEYOND_DOUBT: f64 = 1e-4;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 
@@ -49,7 +51,14 @@ impl Judged<'_> {
 
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT && self.gain_per_row > HELD_OUT_ERRORS * self.gain_std
+        let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { HELD_OUT_ERRORS };
+        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
+    }
+
+    /// A parameter that the data push out of its range is not one that they support.
+    fn is_on_bound(&self) -> bool {
+        let own = self.trial.fit.parameters.len() - self.trial.added_parameters();
+        self.trial.fit.on_bound.iter().skip(own).any(|on_bound| *on_bound)
     }
 }
 
@@ -78,13 +87,16 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
         Judged { score, p_value, gain_per_row, gain_std, trial }
     };
-    let best = best_forms(&base, trials, dispersion);
-    let mut ranking: Vec<_> = best.into_par_iter().map(judge).collect();
-    let misfit = is_misfit(ranking.iter().map(|judged| &judged.trial));
-    ranking.sort_by(|a, b| {
-        let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
-        key(b).total_cmp(&key(a))
-    });
+    let mut all: Vec<_> = trials.into_par_iter().map(judge).collect();
+    let misfit = is_misfit(all.iter().map(|judged| &judged.trial));
+    let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
+    all.sort_by(|a, b| key(b).total_cmp(&key(a)));
+    let mut ranking: Vec<Judged<'a>> = Vec::new();
+    for judged in all {
+        if ranking.iter().all(|other| other.id() != judged.id()) {
+            ranking.push(judged);
+        }
+    }
     Step { base, ranking, dispersion }
 }
 
