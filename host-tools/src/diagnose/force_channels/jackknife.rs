@@ -63,11 +63,13 @@ impl Jackknife {
             let (z, x) = (at(&instruments, row), at(&regressors, row));
             of_run[problem.run[row]].add(&z, &x, problem.readings_n[row]);
         }
-        let all =
-            of_run.iter().fold(Moments::none(instruments.len(), regressors.len()), |sum, run| sum.with(run, 1.0));
-        let whole = all.solve()?;
+        let all = of_run.iter().fold(Moments::none(instruments.len(), regressors.len()), |sum, run| sum.with(run, 1.0));
+        // Readings are predicted from what the instruments say of a force. Its own reading has noise of its own, which would
+        // make a force that is measured well a better answer than the one that acts.
+        let projection = inverse(&all.zz)? * &all.zx;
+        let whole = all.solve(&projection)?;
         let without: Vec<Solution> =
-            of_run.iter().map(|run| all.with(run, -1.0).solve()).collect::<Option<Vec<_>>>()?;
+            of_run.iter().map(|run| all.with(run, -1.0).solve(&projection)).collect::<Option<Vec<_>>>()?;
         let first = problem.fixed.len();
         let share = (count as f64 - 1.0) / count as f64;
         let std = (first..regressors.len()).map(|place| {
@@ -77,10 +79,15 @@ impl Jackknife {
         let mut log_scores = vec![0.0; count];
         for row in 0..problem.rows() {
             let solution = &without[problem.run[row]];
-            log_scores[problem.run[row]] += solution.log_density(&at(&regressors, row), problem.readings_n[row]);
+            let projected = projection.tr_mul(&at(&instruments, row));
+            log_scores[problem.run[row]] += solution.log_density(&projected, problem.readings_n[row]);
         }
         Some(Self {
-            coefficients: scales.iter().enumerate().map(|(term, scale)| whole.coefficients[first + term] / scale).collect(),
+            coefficients: scales
+                .iter()
+                .enumerate()
+                .map(|(term, scale)| whole.coefficients[first + term] / scale)
+                .collect(),
             std: std.zip(&scales).map(|(std, scale)| std / scale).collect(),
             degrees_of_freedom: count as f64 - regressors.len() as f64,
             log_scores,
@@ -155,17 +162,21 @@ impl Moments {
         }
     }
 
-    fn solve(&self) -> Option<Solution> {
+    /// The coefficients; the variance is that about the regressors as `projection` sees them.
+    fn solve(&self, projection: &DMatrix<f64>) -> Option<Solution> {
         let regressors = self.xx.nrows();
         let to_instruments = self.zx.transpose() * inverse(&self.zz)?;
         let projected = &to_instruments * &self.zx;
-        let singular = projected.clone().symmetric_eigenvalues();
-        if regressors > 0 && singular.min() <= SINGULAR * singular.max() {
-            return None;
+        if regressors > 0 {
+            let singular = projected.clone().symmetric_eigenvalues();
+            if singular.min() <= SINGULAR * singular.max() {
+                return None;
+            }
         }
         let spread = inverse(&projected)?;
         let coefficients = &spread * (&to_instruments * &self.zy);
-        let squares = self.yy - 2.0 * coefficients.dot(&self.xy) + coefficients.dot(&(&self.xx * &coefficients));
+        let seen = projection * &coefficients;
+        let squares = self.yy - 2.0 * seen.dot(&self.zy) + seen.dot(&(&self.zz * &seen));
         let variance = squares / (self.rows - regressors as f64);
         // Readings that are all the same, or nearly so, have no noise to measure an effect by.
         (variance > 1e-14 * self.yy / self.rows).then_some(Solution { coefficients, spread, variance })

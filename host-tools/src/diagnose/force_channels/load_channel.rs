@@ -79,7 +79,8 @@ pub fn load_channel(campaign: &Campaign) -> Option<Problem> {
     let levels = LoadLevels::of(&loads)?;
     let kept: Vec<(usize, usize)> =
         rows.iter().zip(&levels.of_reading).filter_map(|(row, level)| Some((*row, (*level)?))).collect();
-    let column = |of: &dyn Fn(usize, usize) -> f64| kept.iter().map(|(row, level)| of(*row, *level)).collect::<Vec<_>>();
+    let column =
+        |of: &dyn Fn(usize, usize) -> f64| kept.iter().map(|(row, level)| of(*row, *level)).collect::<Vec<_>>();
     let intercept = |number| column(&|_, level| if level == number { 1.0 } else { 0.0 });
     // Forces at a slip grow with the load: so do their stand-ins.
     let largest_n = levels.means_n.last().copied().unwrap_or(1.0);

@@ -43,9 +43,8 @@ impl LoadLevels {
         let groups = order.chunk_by(|a, b| !is_step(a, b));
         let levels: Vec<Level> = groups.filter_map(|group| Level::of(readings, group)).collect();
         let rows: usize = levels.iter().map(|level| level.rows.len()).sum();
-        let apart = |pair: &[Level]| {
-            pair[1].mean_n - pair[0].mean_n > LEAST_DISTANCE * pair[0].spread_n.max(pair[1].spread_n)
-        };
+        let apart =
+            |pair: &[Level]| pair[1].mean_n - pair[0].mean_n > LEAST_DISTANCE * pair[0].spread_n.max(pair[1].spread_n);
         if rows == 0 || (rows as f64) < LEAST_SHARE * readings.len() as f64 || !levels.windows(2).all(apart) {
             return None;
         }

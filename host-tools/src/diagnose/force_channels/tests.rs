@@ -40,7 +40,8 @@ struct Made {
     law: Law,
 }
 
-const PLAIN: Made = Made { runs: 30, rows_per_run: 1, levels_n: &[40.0, 80.0], jitter: 0.01, still: false, law: |_| (0.0, 0.0) };
+const PLAIN: Made =
+    Made { runs: 30, rows_per_run: 1, levels_n: &[40.0, 80.0], jitter: 0.01, still: false, law: |_| (0.0, 0.0) };
 
 impl Made {
     /// Forces in proportion to the true load, with saturating thrust: enough to be moved by slip and by load as forces are.
@@ -60,7 +61,7 @@ impl Made {
             let temperature_c = 20.0 + 3.0 * ((run * 5) % 13) as f64 / 13.0;
             for row in 0..self.rows_per_run {
                 let pull_n = load_n * (0.35 * (slip / 0.2).tanh() - 0.1);
-                let torque_nm = 0.03 * load_n * (0.3 + (slip / 0.15).tanh());
+                let torque_nm = 0.05 * load_n * (0.4 + slip);
                 let (load_off, side_off) = (self.law)(State { load_n, pull_n, torque_nm, hours, temperature_c });
                 let fields = [
                     slip + normal(0.005),
@@ -146,7 +147,9 @@ fn one_run_constant_slip_and_equal_loads_say_nothing_of_the_load() {
     let law: Law = |at| (-0.3 * at.pull_n.abs(), 0.0);
     assert_eq!(force_channels(&Made { runs: 1, rows_per_run: 40, law, ..PLAIN }.campaign(11)), []);
     let equal = "run,t_s,slip,load_n,drawbar_pull_n\n".to_owned()
-        + &(0..20).map(|run| format!("r{run},0,{},50,{}\n", 0.04 * f64::from(run), 0.5 * f64::from(run))).collect::<String>();
+        + &(0..20)
+            .map(|run| format!("r{run},0,{},50,{}\n", 0.04 * f64::from(run), 0.5 * f64::from(run)))
+            .collect::<String>();
     let equal = Campaign::parse(Path::new("equal.csv"), &equal, TOML).expect("a campaign");
     assert_eq!(force_channels(&equal), []);
     // At one slip the forces follow the scatter of the load, and nothing tells which follows which.
@@ -160,7 +163,6 @@ fn one_run_constant_slip_and_equal_loads_say_nothing_of_the_load() {
 fn the_measured_rig_loses_load_and_its_side_force_drifts() {
     let campaign = Carried::CmuSmoothStraight.campaign().expect("the project's own figures");
     let found = examine(&campaign);
-    println!("{found:#?}");
     let mu = found.effects.iter().find_map(|effect| effect.parameters.get("mu")).expect("guide friction");
     assert!((mu.value - 0.135).abs() < 0.003 && (mu.std - 0.015).abs() < 0.002, "{mu:?}");
     let side = found.effects.iter().find_map(|effect| effect.parameters.get("side_force_n_per_h")).expect("a drift");
