@@ -138,7 +138,7 @@ mod tests {
             "mm/s.",
             "12 rows",
             "Force channels by themselves",
-            "0.232 ± 0.048 N/h",
+            "0.23 ± 0.05 N/h",
         ] {
             assert!(page.contains(expected), "{expected}");
         }

@@ -154,7 +154,7 @@ mod tests {
             "load-stiffening",
             "side_force_n follows hours_since_zero",
             "Rows not used: 12",
-            "force-drift, side force with hours: side_force_n_per_h = 0.232 ± 0.048 N/h, gain 0.47",
+            "force-drift, side force with hours: side_force_n_per_h = 0.23 ± 0.05 N/h, gain 0.47",
         ] {
             assert!(text.contains(expected), "{expected}\n{text}");
         }
