@@ -3,12 +3,16 @@
 use rayon::prelude::*;
 
 use super::fit::{CHANNELS, HeldOut};
-use super::selection::step;
+use super::selection::best_of;
 use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 
-/// Most groups that the runs are divided into; each is left out in turn.
-const GROUPS: usize = 8;
+/// Groups that many runs are divided into; each is left out in turn.
+const GROUPS: usize = 6;
+/// Runs up to which each is left out by itself.
+const FEW_RUNS: usize = 30;
+/// Rows up to which they are.
+const FEW_ROWS: usize = 60;
 
 /// Predictions of each row by models that did not know its run.
 #[derive(Debug, Clone)]
@@ -27,14 +31,13 @@ pub fn held_out_errors(
     shortlists: &[Vec<EffectForm>],
     progress: &(dyn Fn(&str) + Sync),
 ) -> HeldOutErrors {
-    let groups = groups(bench.measurements.runs.len());
+    let groups = groups(bench.measurements.runs.len(), bench.measurements.rows.len());
     let predict = |group: &Vec<usize>| {
         let bench = bench.without(group);
         let before = bench.refit(base)?;
         let mut after = before.clone();
         for shortlist in shortlists {
-            let best = step(&bench, &after, Some(shortlist)).ranking.into_iter().next();
-            after = best.map_or(after, |best| best.trial);
+            after = best_of(&bench, &after, shortlist).unwrap_or(after);
         }
         progress("held-out runs");
         let predicted = |trial: &Trial<'_>| trial.fit.predict_unseen(&trial.model, group).ok();
@@ -51,8 +54,8 @@ pub fn held_out_errors(
 }
 
 /// Runs dealt out to groups, so that neighbours, which are often alike, are in different ones.
-fn groups(runs: usize) -> Vec<Vec<usize>> {
-    let count = runs.min(GROUPS);
+fn groups(runs: usize, rows: usize) -> Vec<Vec<usize>> {
+    let count = if runs <= FEW_RUNS && rows <= FEW_ROWS { runs } else { runs.min(GROUPS) };
     (0..count).map(|group| (group..runs).step_by(count).collect()).collect()
 }
 

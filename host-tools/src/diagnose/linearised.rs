@@ -1,7 +1,9 @@
 //! A fitted model near its optimum, with terms added to its readings: cheap enough to try hundreds of them.
 
 use super::campaign_model::CampaignModel;
-use super::fit::{CHANNELS, Coordinate, Fit, FitError, Latent, Model, Options, Prediction, Reading, Row, Start, fit};
+use super::fit::{
+    CHANNELS, Coordinate, Fit, FitError, HeldOutRun, Latent, Model, Options, Prediction, Reading, Row, Start, fit,
+};
 
 /// Terms added to a channel: a value for each row, times a coefficient that is fitted.
 #[derive(Debug, Clone)]
@@ -65,6 +67,19 @@ impl<'a> Linearised<'a> {
     /// # Errors
     /// See [`FitError`].
     pub fn fit_with(&self, added: &AddedTerms) -> Result<Fit, FitError> {
+        let (model, start) = self.with(added);
+        fit(&model, self.rows, &start, &self.options)
+    }
+
+    /// Each run predicted without its own help, with added terms.
+    pub fn held_out(&self, added: &AddedTerms, runs: usize) -> Option<Vec<HeldOutRun>> {
+        let (model, start) = self.with(added);
+        let found = fit(&model, self.rows, &start, &self.options).ok()?;
+        let predict = |run: usize| found.leave_out(&model, &[run]).ok()?.runs.pop();
+        (0..runs).map(predict).collect()
+    }
+
+    fn with<'b>(&'b self, added: &'b AddedTerms) -> (WithTerms<'b>, Start) {
         let mut coordinates = self.coordinates.clone();
         for index in 0..added.terms.len() {
             coordinates.push(Coordinate {
@@ -77,8 +92,7 @@ impl<'a> Linearised<'a> {
         }
         let mut parameters = self.parameters.clone();
         parameters.resize(coordinates.len(), 0.0);
-        let model = WithTerms { base: self, added, coordinates };
-        fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
+        (WithTerms { base: self, added, coordinates }, Start { parameters, latents: self.latents.clone() })
     }
 }
 

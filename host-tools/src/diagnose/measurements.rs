@@ -1,5 +1,7 @@
 //! The rows of a campaign that a diagnosis can use.
 
+use std::collections::HashMap;
+
 use kapvik_firmware::terramechanics::effects::{Conditions, Grousers};
 
 use crate::data::campaign::{Campaign, Channel};
@@ -13,6 +15,8 @@ use super::noise::{Noise, channel_noise};
 pub const COLUMNS: [Channel; CHANNELS] =
     [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
 
+/// Rows beyond which those of each run are thinned.
+const MOST_ROWS: usize = 300;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
 const BRAKING: f64 = -0.05;
 
@@ -42,7 +46,11 @@ impl Measurements {
     /// Where the campaign lacks a column without which nothing can be said, or no row is left.
     pub fn of(campaign: &Campaign, braking: bool) -> Result<Self, HostError> {
         check_columns(campaign)?;
-        let mut reasons = [(0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"), (0, "braking")];
+        let mut reasons = [
+            (0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"),
+            (0, "braking"),
+            (0, "a sinkage beyond the wheel's radius"),
+        ];
         let mut usable = Vec::new();
         for row in 0..campaign.rows().len() {
             let readings = COLUMNS.map(|channel| campaign.value(row, channel));
@@ -50,6 +58,9 @@ impl Measurements {
                 reasons[0].0 += 1;
             } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
                 reasons[1].0 += 1;
+            } else if readings[Reading::Sinkage.index()].is_some_and(|sinkage| sinkage.abs() > campaign.wheel.radius_m)
+            {
+                reasons[2].0 += 1;
             } else {
                 usable.push((row, readings));
             }
@@ -74,11 +85,19 @@ impl Measurements {
             noise,
             left_out,
         };
+        let stride = usable.len().div_ceil(MOST_ROWS);
+        if stride > 1 {
+            let reason = format!("thinned to every {stride}. row of a run, to keep within seconds");
+            found.left_out.push(LeftOut { reason, rows: usable.len() - usable.len() / stride });
+        }
+        let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
+            usable.iter().map(|(row, readings)| (*row, readings)).collect();
         for (name, mut places) in campaign.runs() {
+            places.retain(|place| by_place.contains_key(place));
             places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
             let mut of_run = Vec::new();
-            for place in places {
-                let Some((_, readings)) = usable.iter().find(|(row, _)| *row == place) else { continue };
+            for place in places.into_iter().step_by(stride) {
+                let readings = by_place[&place];
                 of_run.push(found.rows.len());
                 found.places.push(place);
                 found.conditions.push(conditions(campaign, place));
@@ -138,19 +157,20 @@ fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
     check_units(campaign)
 }
 
-/// A sinkage beyond the wheel's radius, or slips in per cent, are in other units than the format's.
+/// A sinkage that is mostly beyond the wheel's radius is in other units than the format's. Single ones are gross errors, and
+/// are left out row by row.
 fn check_units(campaign: &Campaign) -> Result<(), HostError> {
     let radius_m = campaign.wheel.radius_m;
-    let deep = |row: &usize| campaign.value(*row, Channel::Sinkage).is_some_and(|sinkage| sinkage.abs() > radius_m);
-    if let Some(row) = (0..campaign.rows().len()).find(deep) {
-        let sinkage = campaign.value(row, Channel::Sinkage).unwrap_or(0.0);
-        return Err(campaign.error_at_row(
+    let sinkages = || (0..campaign.rows().len()).filter_map(|row| Some((row, campaign.value(row, Channel::Sinkage)?)));
+    let middle_m = median(sinkages().map(|(_, sinkage)| sinkage.abs()).collect()).unwrap_or(0.0);
+    match sinkages().find(|(_, sinkage)| sinkage.abs() > radius_m) {
+        Some((row, sinkage)) if middle_m > radius_m => Err(campaign.error_at_row(
             row,
             Channel::Sinkage,
             format!("a sinkage of {sinkage} m under a wheel of {radius_m} m radius: expected metres, 0 to the radius"),
-        ));
+        )),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// A slip, what determines the sinkage, and something to judge that by.

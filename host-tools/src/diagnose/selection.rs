@@ -18,6 +18,8 @@ pub const TELLS_APART: f64 = 3.0;
 const MISFIT: f64 = 1.5;
 /// Candidates on top of which a second effect is tried to see how far the data can be explained.
 const LEADERS: usize = 4;
+/// The chance below which any gain on runs that were not seen is enough.
+const BEYOND_DOUBT: f64 = 1e-4;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 
@@ -49,53 +51,114 @@ impl Judged<'_> {
 
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT && self.gain_per_row > HELD_OUT_ERRORS * self.gain_std
+        let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { HELD_OUT_ERRORS };
+        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
+    }
+
+    /// A parameter that the data push out of its range is not one that they support.
+    fn is_on_bound(&self) -> bool {
+        let own = self.trial.fit.parameters.len() - self.trial.added_parameters();
+        self.trial.fit.on_bound.iter().skip(own).any(|on_bound| *on_bound)
     }
 }
 
 /// What one step of the forward selection found: for each effect its best form, the best effect first.
 #[derive(Debug, Clone)]
 pub struct Step<'a> {
+    /// The model that they were added to, at its best.
+    pub base: Trial<'a>,
     /// The candidates.
     pub ranking: Vec<Judged<'a>>,
     /// The dispersion that gains are measured in, 1 or more.
     pub dispersion: f64,
 }
 
-/// Fits every candidate on top of a model (or those of a shortlist), and judges the best form of each effect.
-pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: Option<&[EffectForm]>) -> Step<'a> {
-    let all = shortlist.map_or_else(
-        || candidates(bench.campaign, bench.measurements, &base.specification),
-        |shortlist| shortlist.iter().filter(|form| !base.specification.has(form.info.id)).cloned().collect(),
-    );
-    let trials: Vec<_> = all.par_iter().filter_map(|candidate| bench.with_effect(base, candidate)).collect();
-    let dispersion = dispersion(bench, base, &trials);
+/// Fits the candidates on top of a model, and judges the best form of each effect.
+pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
+    let all = candidates(bench.campaign, bench.measurements, &base.specification);
+    let trials = trials(bench, base, &all);
+    let base = polished(bench, base, &trials);
+    let dispersion = dispersion(bench, &base, &trials);
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
-    let score = |trial: &Trial<'_>| gain(trial) - PARAMETER_COST * trial.added_parameters() as f64;
+    let before = held_out(bench, &base);
+    let judge = |trial: Trial<'a>| {
+        let (gain_per_row, gain_std) = gain_over(&before, &held_out(bench, &trial));
+        let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
+        let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
+        Judged { score, p_value, gain_per_row, gain_std, trial }
+    };
+    let mut all: Vec<_> = trials.into_par_iter().map(judge).collect();
+    let misfit = is_misfit(all.iter().map(|judged| &judged.trial));
+    let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
+    all.sort_by(|a, b| key(b).total_cmp(&key(a)));
+    let mut ranking: Vec<Judged<'a>> = Vec::new();
+    for judged in all {
+        if ranking.iter().all(|other| other.id() != judged.id()) {
+            ranking.push(judged);
+        }
+    }
+    Step { base, ranking, dispersion }
+}
+
+/// The base at its best: a candidate that changes nothing may still have found a better place for the others.
+fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Trial<'a> {
+    let mut leaders: Vec<_> = trials.iter().collect();
+    leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    let again = leaders.par_iter().take(LEADERS).filter_map(|leader| bench.polish(base, leader));
+    let best = again.reduce_with(|a, b| if b.log_posterior() > a.log_posterior() { b } else { a });
+    best.unwrap_or_else(|| base.clone())
+}
+
+/// The best of a shortlist of candidates, chosen as [`step`] does.
+pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[EffectForm]) -> Option<Trial<'a>> {
+    let new = |form: &&EffectForm| !base.specification.has(form.info.id);
+    let trials: Vec<_> = shortlist.iter().filter(new).filter_map(|form| bench.with_effect(base, form)).collect();
+    let key = |trial: &Trial<'a>| trial.log_posterior() - PARAMETER_COST * trial.added_parameters() as f64;
+    if is_misfit(trials.iter()) {
+        let before = held_out(bench, base);
+        let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
+        let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
+        return judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial);
+    }
+    trials.into_iter().max_by(|a, b| key(a).total_cmp(&key(b)))
+}
+
+/// Whether more than one effect is missing. The best fit that one of them can have then says little, and what it does on runs
+/// that it has not seen says more.
+fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
+    trials.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min) > MISFIT
+}
+
+/// Fits of the candidates: after a short look at every one, the best form of each effect, and every form of the effects that
+/// look best.
+fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Trial<'a>> {
+    let held = bench.held(&base.fit);
+    let glances: Vec<_> = all.par_iter().filter_map(|form| bench.glance(&held, base, form)).collect();
+    let mut best = best_forms(base, glances, 1.0);
+    best.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    let form = |trial: &Trial<'_>| trial.specification.effects.last().cloned();
+    let leaders: Vec<_> = best.iter().take(LEADERS).filter_map(form).collect();
+    let leads = |candidate: &&EffectForm| leaders.iter().any(|leader| leader.info.id == candidate.info.id);
+    let others = best.iter().skip(LEADERS).filter_map(form);
+    let chosen: Vec<_> = all.iter().filter(leads).cloned().chain(others).collect();
+    chosen.par_iter().filter_map(|form| bench.with_effect(base, form)).collect()
+}
+
+/// Of each effect the form that gains most, less the cost of its parameters.
+fn best_forms<'a>(base: &Trial<'a>, trials: Vec<Trial<'a>>, dispersion: f64) -> Vec<Trial<'a>> {
+    let id = |trial: &Trial<'_>| trial.specification.effects.last().map(|effect| effect.info.id);
+    let score = |trial: &Trial<'_>| {
+        (trial.log_posterior() - base.log_posterior()) / dispersion - PARAMETER_COST * trial.added_parameters() as f64
+    };
     let mut best: Vec<Trial<'a>> = Vec::new();
     for trial in trials {
-        let id = |trial: &Trial<'_>| trial.specification.effects.last().map(|effect| effect.info.id);
         match best.iter_mut().find(|other| id(other) == id(&trial)) {
             Some(other) if score(other) < score(&trial) => *other = trial,
             Some(_) => {}
             None => best.push(trial),
         }
     }
-    let before = held_out(bench, base);
-    let judge = |trial: Trial<'a>| {
-        let (gain_per_row, gain_std) = gain_over(&before, &held_out(bench, &trial));
-        let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
-        Judged { score: score(&trial), p_value, gain_per_row, gain_std, trial }
-    };
-    let mut ranking: Vec<_> = best.into_par_iter().map(judge).collect();
-    // Where more than one effect is missing, the best that one of them can do says little; what it does on runs that it has
-    // not seen says more.
-    let misfit = ranking.iter().map(|judged| judged.trial.fit.dispersion).fold(f64::INFINITY, f64::min) > MISFIT;
-    ranking.sort_by(|a, b| {
-        let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
-        key(b).total_cmp(&key(a))
-    });
-    Step { ranking, dispersion }
+    best
 }
 
 /// The dispersion that gains are measured in, 1 or more: that of the best model with one more effect, or with two where one
@@ -111,7 +174,7 @@ fn dispersion<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> 
     leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
     let second = |first: &&Trial<'a>| {
         let next = candidates(bench.campaign, bench.measurements, &first.specification);
-        let next: Vec<_> = next.iter().filter_map(|candidate| bench.with_effect(first, candidate)).collect();
+        let next: Vec<_> = next.par_iter().filter_map(|candidate| bench.with_effect(first, candidate)).collect();
         least(&next, one)
     };
     leaders.par_iter().take(LEADERS).map(second).reduce(|| one, f64::min).max(1.0)
@@ -133,7 +196,7 @@ fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
 
 /// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
 /// model without an answer where that one had one has lost.
-fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
+pub fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
     let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
     let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
     let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };

@@ -116,13 +116,12 @@ impl EffectForm {
         Ok(set.or(reference).unwrap_or(parameter.neutral))
     }
 
-    /// Where a search for a free parameter starts: near neutral where it can grow to both sides and is the form's first, so
-    /// that the first step finds its sign; else at a typical size.
+    /// Where a search for a free parameter starts: a little off neutral where the parameter can grow to both sides and is the
+    /// form's first, so that the first step finds its sign; else at a typical size.
     fn start(&self, parameter: &ParameterInfo) -> f64 {
         let first = self.form.free.first() == Some(&parameter.name);
         let inside = parameter.low < parameter.neutral && parameter.neutral < parameter.high;
-        let shapes = self.form.free.len() > 1 && first;
-        if first && inside && !shapes { parameter.neutral + 0.01 * parameter.typical } else { parameter.typical }
+        if first && inside { parameter.neutral + 0.05 * parameter.typical } else { parameter.typical }
     }
 }
 

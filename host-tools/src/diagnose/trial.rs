@@ -2,14 +2,17 @@
 
 use super::campaign_model::CampaignModel;
 use super::fit::{
-    Coordinate, Fit, FitError, Model, OffsetStd, Options, Reading, Start, fit_from_many, fit_without, scattered_starts,
+    CHANNELS, Coordinate, Fit, FitError, Model, OffsetStd, Options, Reading, Row, Start, fit_from_many, fit_without,
+    scattered_starts,
 };
 use super::measurements::Measurements;
 use super::specification::{EffectForm, Specification};
 use crate::data::campaign::Campaign;
 
 /// Starts of the declared model's fit.
-const STARTS: usize = 6;
+const STARTS: usize = 4;
+/// Steps of a short look at a candidate.
+const GLANCE: usize = 5;
 /// Seed of the places where they lie.
 const SEED: u32 = 1;
 
@@ -22,6 +25,15 @@ pub struct Trial<'a> {
     pub model: CampaignModel<'a>,
     /// The fit.
     pub fit: Fit,
+}
+
+/// Rows and options that hold the scales of noise and offsets.
+#[derive(Debug, Clone)]
+pub struct Held {
+    /// The rows, their noise scaled.
+    pub rows: Vec<Row>,
+    /// The options.
+    pub options: Options,
 }
 
 /// A campaign as every trial sees it.
@@ -41,7 +53,7 @@ impl<'a> Bench<'a> {
     /// All runs of a campaign.
     pub fn new(campaign: &'a Campaign, measurements: &'a Measurements) -> Self {
         let mut options = Options { most_iterations: 40, ..Options::default() };
-        for reading in Reading::JUDGED {
+        for reading in Reading::ALL {
             options.estimate_noise[reading.index()] = !measurements.noise[reading.index()].stated;
         }
         if measurements.runs.len() < 3 {
@@ -70,11 +82,40 @@ impl<'a> Bench<'a> {
     pub fn with_effect(&self, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
         let specification = base.specification.with(effect.clone());
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
-        let mut parameters = base.fit.parameters.clone();
-        parameters.extend(model.coordinates().iter().skip(parameters.len()).map(|coordinate| coordinate.start));
-        let start = Start { parameters, latents: base.fit.latents.clone() };
+        let start = base.start_of(&model);
         let fit = fit_without(&model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
         Some(Trial { specification, model, fit })
+    }
+
+    /// A short look at a model with one more effect: a few steps, with the scales of noise and offsets that the model without
+    /// it has.
+    pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
+        let specification = base.specification.with(effect.clone());
+        let model = CampaignModel::new(self.campaign, self.measurements, &specification);
+        let start = base.start_of(&model);
+        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
+        let fit = fit_without(&model, &held.rows, &self.without, &start, &options).ok()?;
+        Some(Trial { specification, model, fit })
+    }
+
+    /// The rows and options with the scales of a fit's noise and offsets held.
+    pub fn held(&self, fit: &Fit) -> Held {
+        let mut rows = self.measurements.rows.clone();
+        for row in &mut rows {
+            for (noise, scale) in row.noise.iter_mut().zip(&fit.noise_scale) {
+                *noise *= scale;
+            }
+        }
+        let offsets = fit.offset_std.map(|std| if std > 0.0 { OffsetStd::Known(std) } else { OffsetStd::None });
+        Held { rows, options: Options { offsets, estimate_noise: [false; CHANNELS], ..self.options.clone() } }
+    }
+
+    /// A model fitted anew from the place where one with more parameters came to: the better of that and the fit it had.
+    pub fn polish(&self, base: &Trial<'a>, further: &Trial<'a>) -> Option<Trial<'a>> {
+        let parameters = further.fit.parameters.get(..base.fit.parameters.len())?.to_vec();
+        let start = Start { parameters, latents: further.fit.latents.clone() };
+        let fit = fit_without(&base.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
+        Some(Trial { fit, ..base.clone() }).filter(|polished| polished.log_posterior() > base.log_posterior())
     }
 
     /// A trial fitted anew to this bench's runs.
@@ -87,6 +128,13 @@ impl<'a> Bench<'a> {
 }
 
 impl Trial<'_> {
+    /// Where a model with more parameters at the end starts from this one's fit.
+    fn start_of(&self, model: &CampaignModel<'_>) -> Start {
+        let mut parameters = self.fit.parameters.clone();
+        parameters.extend(model.coordinates().iter().skip(parameters.len()).map(|coordinate| coordinate.start));
+        Start { parameters, latents: self.fit.latents.clone() }
+    }
+
     /// ln of likelihood and of the Gaussian priors, up to a constant that every model of a campaign shares.
     pub fn log_posterior(&self) -> f64 {
         self.fit.log_likelihood + self.log_prior(&self.fit.parameters)
