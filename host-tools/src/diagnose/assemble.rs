@@ -9,6 +9,7 @@ use super::document::{
     Unexplained, Verdict,
 };
 use super::fit::Reading;
+use super::force_channels::ForceChannels;
 use super::forward::Selected;
 use super::held_out_errors::{HeldOutErrors, rmse};
 use super::measurements::{COLUMNS, Measurements};
@@ -29,6 +30,7 @@ pub fn assemble(
     selected: &Selected<'_>,
     errors: &HeldOutErrors,
     levels: Option<LevelsLeftOut>,
+    by_themselves: &ForceChannels,
 ) -> Diagnosis {
     let mut document = Diagnosis {
         campaign: campaign.name.clone(),
@@ -39,6 +41,7 @@ pub fn assemble(
         runner_up: runner_up(selected),
         ambiguous_with: selected.found.first().map_or_else(Vec::new, |found| owned(&found.ambiguous_with)),
         deciding_measurement: None,
+        force_channels: by_themselves.effects.clone(),
         unexplained: unexplained(selected),
         found_law: None,
         channels: channels(measurements, selected, errors),
@@ -51,6 +54,7 @@ pub fn assemble(
         left_out: measurements.left_out.clone(),
         caveats: super::caveats::caveats(campaign, measurements, selected),
     };
+    document.caveats.extend(by_themselves.caveats.iter().cloned());
     super::sentence::tell(&mut document, campaign);
     document
 }

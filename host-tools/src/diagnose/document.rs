@@ -28,6 +28,10 @@ pub struct Diagnosis {
     /// What measurement would tell them apart.
     #[serde(default)]
     pub deciding_measurement: Option<String>,
+    /// Effects that the force channels show by themselves, without a model of wheel and soil: of the load against its set
+    /// levels, and of the side force of a wheel that runs straight. Braking rows count as well.
+    #[serde(default)]
+    pub force_channels: Vec<FoundEffect>,
     /// Structure that no known effect explains, the most important first.
     pub unexplained: Vec<Unexplained>,
     /// A law that a search of formulas found for it: found, not understood.

@@ -3,7 +3,8 @@
 //! As data flow: `measurements` of a campaign and a `specification` of effects make a `campaign_model`, which `fit` fits;
 //! `trial` holds both. `selection` fits every one of the `candidates` on top of a model and tests it against chance;
 //! `residual_search` does the same with every column as it stands; `forward` adds what earns its place. `held_out_errors` does
-//! it all again without some runs, to predict those; `assemble` writes the `document`.
+//! it all again without some runs, to predict those; `assemble` writes the `document`. Beside all that, `force_channels` holds
+//! loads that are set and side forces that should be none against what sensors follow, without any model of the soil.
 
 mod assemble;
 pub mod campaign_model;
@@ -12,6 +13,7 @@ mod caveats;
 mod declared_file;
 pub mod document;
 pub mod fit;
+pub mod force_channels;
 mod forward;
 mod held_out_errors;
 mod levels;
@@ -30,4 +32,5 @@ pub mod specification;
 pub mod trial;
 
 pub use declared_file::declared_file;
+pub use force_channels::force_channels;
 pub use outcome::{DiagnoseOptions, Outcome, diagnose};

@@ -4,6 +4,7 @@ use super::assemble::assemble;
 use super::candidates::is_measured;
 use super::document::Diagnosis;
 use super::fit::{CHANNELS, Reading};
+use super::force_channels;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
@@ -81,6 +82,8 @@ pub fn diagnose(
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Outcome, HostError> {
     let single = campaign.runs().len() == 1;
+    // Rows of one run may share what the force channels would take for an effect: these judge by runs as they are.
+    let by_themselves = force_channels::examine(campaign);
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
     let campaign = apart.as_ref().unwrap_or(campaign);
     let measurements = Measurements::of(campaign, options.braking)?;
@@ -90,7 +93,7 @@ pub fn diagnose(
     let selected = select(&bench, base, progress);
     let errors = held_out_errors(&bench, &selected.base, &shortlists(&selected), progress);
     let levels = levels_left_out(&measurements, &selected);
-    let mut document = assemble(campaign, &measurements, &selected, &errors, levels);
+    let mut document = assemble(campaign, &measurements, &selected, &errors, levels, &by_themselves);
     if single {
         document.caveats.insert(0, ONE_RUN.to_owned());
     }

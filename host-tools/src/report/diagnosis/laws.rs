@@ -63,6 +63,28 @@ pub fn parameters(effect: &FoundEffect) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
+/// What the force channels show by themselves, as a table.
+pub fn by_themselves(effects: &[FoundEffect]) -> Markup {
+    html! {
+        div class="scroll" {
+            table class="numbers" {
+                thead { tr { th { "Effect" } th { "Form" } th { "Size" } th { "Gain, nats a row" } th { "p" } } }
+                tbody {
+                    @for effect in effects {
+                        tr {
+                            td { code { (effect.id) } }
+                            td { (effect.form) }
+                            td { (parameters(effect)) }
+                            td { (significant(effect.gain_per_row, 2)) }
+                            td { (probability(effect.p_value)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// What is left, as a table.
 pub fn unexplained(unexplained: &[Unexplained]) -> Markup {
     html! {

@@ -20,6 +20,10 @@ const METHOD: [&str; 5] = [
      rows of one run are not independent.",
 ];
 
+/// What the section of the force channels shows.
+const FORCES_ALONE: &str = "This needs no model of wheel and soil. The load is held against its set levels, the side force of a wheel \
+    that runs straight against none; braking rows count as well. A true force that follows the same column looks alike.";
+
 /// The page.
 pub fn page(findings: &DiagnosisFindings) -> String {
     let diagnosis = &findings.diagnosis;
@@ -52,6 +56,13 @@ pub fn page(findings: &DiagnosisFindings) -> String {
                         section {
                             h2 { "The candidates" }
                             (ranking::charts(findings))
+                        }
+                    }
+                    @if !diagnosis.force_channels.is_empty() {
+                        section {
+                            h2 { "Force channels by themselves" }
+                            p { (FORCES_ALONE) }
+                            (laws::by_themselves(&diagnosis.force_channels))
                         }
                     }
                     section {
@@ -126,6 +137,8 @@ mod tests {
             "Side force",
             "mm/s.",
             "12 rows",
+            "Force channels by themselves",
+            "0.23 ± 0.05 N/h",
         ] {
             assert!(page.contains(expected), "{expected}");
         }
@@ -144,6 +157,7 @@ mod tests {
         diagnosis.effects.clear();
         diagnosis.candidates.clear();
         diagnosis.unexplained.clear();
+        diagnosis.force_channels.clear();
         diagnosis.found_law = None;
         diagnosis.leave_level_out = None;
         diagnosis.ends_apart = None;
@@ -153,6 +167,7 @@ mod tests {
         let page = page(&findings);
         assert!(page.contains("nothing earned its place"));
         assert!(page.contains("Nothing is left"));
+        assert!(!page.contains("Force channels by themselves"));
         assert_eq!(page.matches("class=\"chart\"").count(), 4);
     }
 }

@@ -72,6 +72,13 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
         runner_up: Some(RunnerUp { id: "load-stiffening".to_owned(), form: String::new(), gain_per_row: 0.4 }),
         ambiguous_with: vec!["rate".to_owned()],
         deciding_measurement: Some("Repeat a slip of 0.5 at 30 mm/s in place of 10 mm/s.".to_owned()),
+        force_channels: vec![FoundEffect {
+            id: "force-drift".to_owned(),
+            form: "side force with hours".to_owned(),
+            parameters: one("side_force_n_per_h", 0.232, 0.048),
+            gain_per_row: 0.47,
+            p_value: 0.00052,
+        }],
         unexplained: vec![Unexplained {
             channel: "side_force_n".to_owned(),
             regressor: "hours_since_zero".to_owned(),

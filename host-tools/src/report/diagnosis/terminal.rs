@@ -26,6 +26,7 @@ pub fn terminal(findings: &DiagnosisFindings) -> String {
     if !diagnosis.candidates.is_empty() {
         text += &format!("\nbest candidates, gain on held-out runs in nats a row\n{}\n", candidates(diagnosis));
     }
+    text += &by_themselves(diagnosis);
     text += &left(diagnosis);
     text += "\n";
     for caveat in &diagnosis.caveats {
@@ -90,6 +91,25 @@ fn candidates(diagnosis: &Diagnosis) -> Table {
     table
 }
 
+fn by_themselves(diagnosis: &Diagnosis) -> String {
+    if diagnosis.force_channels.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from("\nforce channels by themselves: no model of wheel and soil, braking rows too\n");
+    for effect in &diagnosis.force_channels {
+        let line = format!(
+            "{}, {}: {}, gain {}, p = {}",
+            effect.id,
+            effect.form,
+            parameters(effect),
+            significant(effect.gain_per_row, 2),
+            probability(effect.p_value)
+        );
+        text += &wrapped(" ", &line);
+    }
+    text
+}
+
 fn left(diagnosis: &Diagnosis) -> String {
     let mut text = String::from("\n");
     if diagnosis.unexplained.is_empty() {
@@ -134,6 +154,7 @@ mod tests {
             "load-stiffening",
             "side_force_n follows hours_since_zero",
             "Rows not used: 12",
+            "force-drift, side force with hours: side_force_n_per_h = 0.23 ± 0.05 N/h, gain 0.47",
         ] {
             assert!(text.contains(expected), "{expected}\n{text}");
         }
