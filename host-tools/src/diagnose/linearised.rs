@@ -24,7 +24,8 @@ pub struct Linearised<'a> {
 }
 
 /// The same with added terms.
-struct WithTerms<'a> {
+#[derive(Debug, Clone)]
+pub struct WithTerms<'a> {
     base: &'a Linearised<'a>,
     added: &'a AddedTerms,
     coordinates: Vec<Coordinate>,
@@ -60,11 +61,8 @@ impl<'a> Linearised<'a> {
         })
     }
 
-    /// A fit with added terms.
-    ///
-    /// # Errors
-    /// See [`FitError`].
-    pub fn fit_with(&self, added: &AddedTerms) -> Result<Fit, FitError> {
+    /// The model with added terms.
+    pub fn with<'b>(&'b self, added: &'b AddedTerms) -> WithTerms<'b> {
         let mut coordinates = self.coordinates.clone();
         for index in 0..added.terms.len() {
             coordinates.push(Coordinate {
@@ -75,9 +73,22 @@ impl<'a> Linearised<'a> {
                 prior: None,
             });
         }
+        WithTerms { base: self, added, coordinates }
+    }
+
+    /// What the fit expects of a reading in each row.
+    pub fn expected(&self, reading: Reading) -> impl Iterator<Item = f64> {
+        self.predictions.iter().map(move |prediction| prediction.value[reading.index()])
+    }
+
+    /// A fit with added terms.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn fit_with(&self, added: &AddedTerms) -> Result<Fit, FitError> {
+        let model = self.with(added);
         let mut parameters = self.parameters.clone();
-        parameters.resize(coordinates.len(), 0.0);
-        let model = WithTerms { base: self, added, coordinates };
+        parameters.resize(model.coordinates.len(), 0.0);
         fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
     }
 }

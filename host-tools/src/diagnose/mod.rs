@@ -3,7 +3,8 @@
 //! As data flow: `measurements` of a campaign and a `specification` of effects make a `campaign_model`, which `fit` fits;
 //! `trial` holds both. `selection` fits every one of the `candidates` on top of a model and tests it against chance;
 //! `residual_search` does the same with every column as it stands; `forward` adds what earns its place. `held_out_errors` does
-//! it all again without some runs, to predict those; `assemble` writes the `document`.
+//! it all again without some runs, to predict those; `formula_search` looks for a law of what is left; `assemble` writes the
+//! `document`.
 
 mod assemble;
 pub mod campaign_model;
@@ -12,6 +13,10 @@ mod caveats;
 mod declared_file;
 pub mod document;
 pub mod fit;
+mod formula;
+mod formula_groups;
+mod formula_screen;
+mod formula_search;
 mod forward;
 mod held_out_errors;
 mod levels;

@@ -4,6 +4,7 @@ use super::assemble::assemble;
 use super::candidates::is_measured;
 use super::document::Diagnosis;
 use super::fit::{CHANNELS, Reading};
+use super::formula_search::law;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
@@ -91,6 +92,11 @@ pub fn diagnose(
     let errors = held_out_errors(&bench, &selected.base, &shortlists(&selected), progress);
     let levels = levels_left_out(&measurements, &selected);
     let mut document = assemble(campaign, &measurements, &selected, &errors, levels);
+    if let Some(structure) = selected.left.first() {
+        progress("a law of no list");
+        let dispersion = selected.last.as_ref().map_or(1.0, |step| step.dispersion);
+        document.found_law = law(&bench, selected.model(), structure, dispersion);
+    }
     if single {
         document.caveats.insert(0, ONE_RUN.to_owned());
     }
