@@ -46,7 +46,7 @@ struct Truth {
     temperature_c: f64,
 }
 
-/// Runs of eight rows at a slip and a load each; the temperature goes through 14 to 34 °C in each.
+/// Runs of nine rows at a slip and a load each; the temperature goes through 14 to 34 °C in each.
 fn campaign(seed: u64, runs: usize, law: impl Fn(&mut Truth)) -> Campaign {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let soil = Soil {
@@ -72,8 +72,8 @@ fn campaign(seed: u64, runs: usize, law: impl Fn(&mut Truth)) -> Campaign {
     for run in 0..runs {
         let slip = 0.05 + 0.1 * (run % 6) as f64;
         let load_n = 40.0 + 20.0 * ((run / 6) % 3) as f64;
-        for row in 0..8 {
-            let temperature_c = 24.0 + (20.0 * ((3 * row + run) % 8) as f64 / 7.0 - 10.0);
+        for row in 0..9 {
+            let temperature_c = 14.0 + 2.5 * ((4 * row + run) % 9) as f64;
             let found = on_soil.at_load(&Conditions::default(), slip, load_n).expect("the soil carries it");
             let mut truth =
                 Truth { torque_nm: found.torque_nm, sinkage_m: found.sinkage_m, load_n, slip, temperature_c };
@@ -105,16 +105,13 @@ fn found(campaign: &Campaign) -> Option<FoundLaw> {
     let trial = bench.from_many_starts(Specification::default()).expect("a fit");
     let dispersion = trial.fit.dispersion.max(1.0);
     let structure = search(&bench, &trial, dispersion).into_iter().next().expect("something was tried");
-    let start = std::time::Instant::now();
-    let law = law(&bench, &trial, &structure, dispersion);
-    println!("{:?} in {:.2?}: {law:?}", structure, start.elapsed());
-    law
+    law(&bench, &trial, &structure, dispersion)
 }
 
 #[test]
 fn a_square_of_the_temperature_is_found() {
     let size = 0.03;
-    let campaign = campaign(1, 36, |row| {
+    let campaign = campaign(1, 33, |row| {
         row.torque_nm += size * RADIUS_M * row.load_n * ((row.temperature_c - 24.0) / 10.0).powi(2);
     });
     let law = found(&campaign).expect("a law");
@@ -129,7 +126,7 @@ fn a_square_of_the_temperature_is_found() {
 #[test]
 fn slip_times_temperature_is_found() {
     let size = -0.04;
-    let campaign = campaign(2, 36, |row| {
+    let campaign = campaign(2, 33, |row| {
         row.sinkage_m += size * RADIUS_M * row.slip * (row.temperature_c - 24.0) / 10.0;
     });
     let law = found(&campaign).expect("a law");
