@@ -1,6 +1,7 @@
 //! What the host does around the flight library: data files, training, identification, the image in QEMU, reports.
 
 pub mod bench;
+pub mod close_loop;
 pub mod commands;
 pub mod data;
 pub mod diagnose;

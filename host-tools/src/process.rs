@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Deserialize;
 
 use crate::error::HostError;
 
@@ -75,6 +76,19 @@ pub fn run_with_spinner(command: &mut Command, what: &str) -> Result<String, Hos
     }
     let tail = said.len().saturating_sub(40);
     Err(failed(format!("{status}\n{}", said.get(tail..).unwrap_or(&[]).join("\n"))))
+}
+
+/// What cargo says of a file that it has made.
+#[derive(Deserialize)]
+struct Artifact {
+    reason: String,
+    executable: Option<PathBuf>,
+}
+
+/// The program among the messages of `cargo build --message-format json…`; none where it made none.
+pub fn built_executable(messages: &str) -> Option<PathBuf> {
+    let artifacts = messages.lines().filter_map(|line| serde_json::from_str::<Artifact>(line).ok());
+    artifacts.filter(|artifact| artifact.reason == "compiler-artifact").find_map(|artifact| artifact.executable)
 }
 
 /// A spinner for what has no known length. Shown on a terminal only.

@@ -173,3 +173,20 @@ fn the_report_of_a_recording_needs_nothing_else() {
     let svg = fs::read_to_string(case.path("picture.svg")).expect("written");
     assert!(svg.starts_with("<svg xmlns") && svg.matches("<svg").count() == 1);
 }
+
+#[test]
+fn the_table_that_is_frozen_in_flies_at_once_and_a_damaged_one_not_at_all() {
+    let case = Case::with(None);
+    let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/weights/kapvik.table");
+    case.command("replay").args(["frames.csv", "-o", "plain.csv"]).assert().success();
+    let flown = case.command("replay").args(["frames.csv", "-o", "out.csv", "--weights", table]).assert().success();
+    let said = String::from_utf8_lossy(&flown.get_output().stdout).into_owned();
+    assert!(said.contains("kapvik.table, trained with none: equations 1-11"), "{said}");
+    assert_eq!(
+        fs::read(case.path("out.csv")).expect("estimates"),
+        fs::read(case.path("plain.csv")).expect("estimates")
+    );
+    let text = fs::read_to_string(table).expect("the table");
+    fs::write(case.path("damaged.table"), text.replacen("note seed: 1", "note seed: 2", 1)).expect("written");
+    case.is_refused(&["frames.csv", "--weights", "damaged.table"], &["damaged.table", "altered"]);
+}

@@ -1,5 +1,6 @@
 //! Measurements, one subject a file.
 
+pub mod closing;
 pub mod diagnose;
 pub mod estimators;
 pub mod estimators_soil;

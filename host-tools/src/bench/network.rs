@@ -3,18 +3,15 @@
 use kapvik_firmware::frozen;
 use kapvik_firmware::network::{Posterior, TARGETS};
 use kapvik_firmware::wheel_state::SoilQuery;
-use rayon::prelude::*;
 
-use crate::train::dataset::stream;
-use crate::train::example::targets;
-use crate::train::observe::observe;
 use crate::train::scene::{Design, scenes};
-use crate::train::score::{Score, TargetScore, score};
+use crate::train::score::{
+    Score, TargetScore, rover_posterior as rover_posterior_of, score_rover as score_rover_table,
+};
 
 /// The posterior of ln c, φ, ln K that the frozen rover network gives for a query.
 pub fn rover_posterior(query: &SoilQuery) -> Posterior {
-    let (context, wheels) = query.rover_features();
-    frozen::ROVER.posterior.read(&frozen::ROVER.outputs(&context, wheels))
+    rover_posterior_of(&frozen::ROVER, query)
 }
 
 /// The mean of [`rover_posterior`].
@@ -33,16 +30,7 @@ pub const DESIGNS: [(&str, Design); 5] = [
 
 /// Scores the frozen rover network on `cases` unseen cases of a design.
 pub fn score_rover(design: Design, cases: usize, seed: u32) -> Score {
-    let scenes = scenes(design, cases, seed);
-    let (posteriors, truths): (Vec<Posterior>, Vec<[f64; TARGETS]>) = scenes
-        .par_iter()
-        .enumerate()
-        .map(|(index, scene)| {
-            let query = observe(scene, &mut stream(u64::from(seed), index));
-            (rover_posterior(&query), targets(scene))
-        })
-        .unzip();
-    score(&posteriors, &truths)
+    score_rover_table(&frozen::ROVER, &scenes(design, cases, seed), seed)
 }
 
 /// Prints errors and coverage for every design.

@@ -6,6 +6,7 @@ mod target;
 
 use clap::{Args, Subcommand};
 
+use crate::bench::closing::{self, ClosingArguments};
 use crate::bench::diagnose::DiagnoseArguments;
 use crate::bench::estimators::{self, EstimatorArguments};
 use crate::bench::faults::{self, FaultArguments};
@@ -16,6 +17,8 @@ use crate::error::HostError;
 /// What to measure.
 #[derive(Subcommand)]
 pub enum Subject {
+    /// Errors of the rover network on soil with slip-sinkage, trained without and with it declared
+    Closing(ClosingArguments),
     /// How often a diagnosis finds what nobody declared, on campaigns drawn from a seed
     Diagnose(DiagnoseArguments),
     /// Errors, coverage and consistency of the wheel-force estimators on simulated drives
@@ -54,6 +57,7 @@ impl Subject {
     /// Where an alternative that is there does not work.
     pub fn execute(self) -> Result<(), HostError> {
         match self {
+            Self::Closing(arguments) => closing::run(&arguments)?,
             Self::Diagnose(arguments) => diagnose::execute(&arguments)?,
             Self::Estimators(arguments) => estimators::run(&arguments),
             Self::Faults(arguments) => faults::run(&arguments),

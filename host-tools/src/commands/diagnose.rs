@@ -64,7 +64,11 @@ pub fn campaign(path: &Path) -> Result<Campaign, HostError> {
     }
 }
 
-fn with_progress(campaign: &Campaign, braking: bool) -> Result<Outcome, HostError> {
+/// [`diagnose`] behind a line that says what is being done.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn with_progress(campaign: &Campaign, braking: bool) -> Result<Outcome, HostError> {
     let bar = ProgressBar::new_spinner();
     let style = ProgressStyle::with_template("{spinner} {elapsed} {msg}");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));

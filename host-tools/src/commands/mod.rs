@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 mod bench;
+mod close_loop;
 mod diagnose;
 mod forward;
 mod identify;
@@ -11,6 +12,7 @@ mod simulate;
 mod soils;
 mod test;
 mod train;
+mod weights;
 
 use clap::Subcommand;
 
@@ -21,6 +23,13 @@ use crate::error::HostError;
 pub enum Command {
     /// The main job: sensor frames through the flight image in QEMU to wheel forces and soil, with a report to open in a browser
     Run(run::Arguments),
+    /// Find what a campaign's model lacks, train the rover network with it, and show the errors before and after
+    ///
+    /// Diagnoses the campaign, writes the declared model with the effect that was found to FOLDER/declared.toml, trains the
+    /// rover network for the model as it was declared and for the one with the effect by the same plan, and prints the
+    /// errors of forces and sinkage on held-out runs, of c, φ and K on simulated rovers on soil with the effect, and the
+    /// intervals on the campaign's own soil.
+    CloseLoop(close_loop::Arguments),
     /// Speed and quality, side by side with the alternatives, in one run
     #[command(subcommand)]
     Bench(bench::Subject),
@@ -74,6 +83,7 @@ impl Command {
             Self::Run(arguments) => run::execute(&arguments),
             Self::Replay(arguments) => replay::execute(&arguments),
             Self::Identify(arguments) => identify::execute(&arguments),
+            Self::CloseLoop(arguments) => close_loop::execute(&arguments),
             Self::Bench(subject) => subject.execute(),
             Self::Diagnose(arguments) => diagnose::execute(&arguments),
             Self::Train(arguments) => train::execute(&arguments),

@@ -11,6 +11,8 @@ use crate::qemu::LogView;
 use crate::replay::{EstimateWriter, Recording, lines, replay};
 use crate::report::link_in_words;
 
+use super::weights::Weights;
+
 /// Options of `kapvik replay`.
 #[derive(Args)]
 pub struct Arguments {
@@ -26,6 +28,9 @@ pub struct Arguments {
     /// Where the flight library runs; both give the same bits
     #[arg(long, value_enum, default_value_t = Computer::Host)]
     on: Computer,
+    /// The table of networks that flies, as `kapvik train` writes it [default: that of the source tree]
+    #[arg(long, value_name = "WEIGHTS")]
+    weights: Option<PathBuf>,
 }
 
 /// Replays a recording.
@@ -33,6 +38,7 @@ pub struct Arguments {
 /// # Errors
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
     let rover = recording.rover.map(|value| value as f32);
     let mut computer = FlightComputer::start(arguments.on, LogView::Nothing)?;
@@ -45,6 +51,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         Ok(())
     })?;
     if let Some(outcome) = &outcome {
+        if let Some(weights) = &weights {
+            println!("networks: {}", weights.in_words());
+        }
         lines(outcome).iter().for_each(|line| println!("{line}"));
         if arguments.on == Computer::Qemu {
             println!("link: {}", link_in_words(&outcome.health));

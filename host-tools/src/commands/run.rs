@@ -11,7 +11,9 @@ use crate::error::HostError;
 use crate::flight_computer::Computer;
 use crate::process::workspace;
 use crate::report::traverse::{self, Source, TraverseFindings};
-use crate::report::{self, Findings};
+use crate::report::{self, Findings, FlownNetworks};
+
+use super::weights::Weights;
 
 /// Options of `kapvik run`.
 #[derive(Args)]
@@ -29,6 +31,9 @@ pub struct Arguments {
     /// Where the flight library runs; both give the same bits
     #[arg(long, value_enum, default_value_t = Computer::Qemu)]
     on: Computer,
+    /// The table of networks that flies, as `kapvik train` writes it [default: that of the source tree]
+    #[arg(long, value_name = "WEIGHTS")]
+    weights: Option<PathBuf>,
     /// Where the report goes [default: target/kapvik-run/report.html]
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
@@ -51,14 +56,16 @@ struct Told {
 /// # Errors
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
+    let (on, weights) = (arguments.on, weights.as_ref());
     let told = match &arguments.input {
-        None if arguments.measured => campaign(Campaign::carried()?, arguments.on)?,
-        None => traverse(Source::carried()?, arguments.on)?,
+        None if arguments.measured => campaign(Campaign::carried()?, on, weights)?,
+        None => traverse(Source::carried()?, on, weights)?,
         Some(path) if frame_file::is_one(path)? => {
-            traverse(Source::recorded(path, arguments.rover.as_deref())?, arguments.on)?
+            traverse(Source::recorded(path, arguments.rover.as_deref())?, on, weights)?
         }
         Some(path) => match &arguments.rover {
-            None => campaign(Campaign::read(path)?, arguments.on)?,
+            None => campaign(Campaign::read(path)?, on, weights)?,
             Some(rover) => return Err(no_place_for_a_rover(path, rover)),
         },
     };
@@ -81,8 +88,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     Ok(())
 }
 
-fn traverse(source: Source, on: Computer) -> Result<Told, HostError> {
-    let findings = TraverseFindings::gather(source, on)?;
+fn traverse(source: Source, on: Computer, weights: Option<&Weights>) -> Result<Told, HostError> {
+    let mut findings = TraverseFindings::gather(source, on)?;
+    findings.flight.networks = weights.map(networks);
     Ok(Told {
         terminal: traverse::terminal(&findings),
         flight: report::flight_lines(&findings.flight),
@@ -91,14 +99,19 @@ fn traverse(source: Source, on: Computer) -> Result<Told, HostError> {
     })
 }
 
-fn campaign(campaign: Campaign, on: Computer) -> Result<Told, HostError> {
-    let findings = Findings::gather(campaign, on)?;
+fn campaign(campaign: Campaign, on: Computer, weights: Option<&Weights>) -> Result<Told, HostError> {
+    let mut findings = Findings::gather(campaign, on)?;
+    findings.flight.networks = weights.map(networks);
     Ok(Told {
         terminal: report::terminal(&findings),
         flight: report::flight_lines(&findings.flight),
         page: report::page(&findings),
         picture: report::picture(&findings),
     })
+}
+
+fn networks(weights: &Weights) -> FlownNetworks {
+    FlownNetworks { in_words: weights.in_words(), effects: weights.effects().to_owned() }
 }
 
 fn no_place_for_a_rover(campaign: &Path, rover: &Path) -> HostError {

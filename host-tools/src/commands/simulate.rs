@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use kapvik_firmware::rover::Rover;
 use kapvik_firmware::terramechanics::Soil;
 
 use crate::data::atomic_write::write_atomically;
@@ -15,7 +14,7 @@ use crate::data::soil_file::SoilTable;
 use crate::data::truth_file::{truth_path, write_truth};
 use crate::data::{frame_file, truth_file};
 use crate::error::HostError;
-use crate::simulate::effects::{KNOWN, SensorEffects};
+use crate::simulate::effects::RoverEffects;
 use crate::simulate::faults::{FAILURES, Fault};
 use crate::simulate::ground_soils::{Becomes, Change};
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
@@ -50,8 +49,12 @@ pub struct Arguments {
     then: Vec<String>,
     /// An effect or a fault, may be repeated
     ///
-    /// Effects: drive-friction (N·m), drive-viscosity (N·m·s/rad), torque-scale, force-bias (N), force-drift (N/h),
-    /// crosstalk, rolling-radius (m), pitch-misalignment (rad), velocity-scale, latency (s), each with a number.
+    /// Effects of the soil, each with the number of its first parameter: slip-sinkage, multi-pass, load-stiffening, rate,
+    /// grouser-ripple, rear-contact, peak-stress-shift, grouser-thrust, interface-friction, shear-hump, bulldozing. Of sensors
+    /// and drives: drive-friction (N·m), drive-viscosity (N·m·s/rad), torque-scale, force-bias (of the load cells, N),
+    /// force-drift (of the load cells, N/h), crosstalk (of the force along the link into the load cells), guide-friction,
+    /// rolling-radius (m), pitch-misalignment (of accelerometer and gyro, rad), velocity-scale, latency (s). Any parameter
+    /// of an effect: ID.PARAMETER=VALUE.
     ///
     /// Faults: nan, inf, outlier (a million), stuck, dropout, each with SENSOR@T1-T2: a column of the frames, or a pattern with
     /// `*`, and times in s. repeat-frames and skip-frames take @T1-T2.
@@ -64,9 +67,9 @@ pub struct Arguments {
 /// # Errors
 /// Where an argument or a file is not what is expected, or the rover gets stuck: then nothing is written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let rover = match &arguments.rover {
-        Some(path) => RoverFile::read(path)?.rover,
-        None => Rover::assumed(),
+    let RoverFile { rover, grousers } = match &arguments.rover {
+        Some(path) => RoverFile::read(path)?,
+        None => RoverFile::assumed(),
     };
     let (effects, faults) = effects_and_faults(&arguments.effect)?;
     let soil = arguments.soil.as_deref().map(soil).transpose()?;
@@ -76,6 +79,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         rate_hz: Some(arguments.rate),
         soil,
         changes: (!changes.is_empty()).then_some(changes),
+        grousers: Some(grousers),
         effects,
         faults,
     };
@@ -163,8 +167,8 @@ fn change(text: &str) -> Result<Change, HostError> {
     Ok(Change { from_m, becomes })
 }
 
-fn effects_and_faults(texts: &[String]) -> Result<(SensorEffects, Vec<Fault>), HostError> {
-    let mut effects = SensorEffects::default();
+fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), HostError> {
+    let mut effects = RoverEffects::default();
     let mut faults = Vec::new();
     for text in texts {
         let refuse = |message: String| HostError::Failed(format!("--effect {text}: {message}"));
@@ -174,16 +178,21 @@ fn effects_and_faults(texts: &[String]) -> Result<(SensorEffects, Vec<Fault>), H
             continue;
         }
         let number = f64::from_str(value).ok().filter(|number| number.is_finite());
-        let known = KNOWN.iter().any(|known| known.id == id);
+        // A wrong name is told before a wrong number.
+        let mut tried = effects;
+        let said =
+            tried.set(id, number.unwrap_or(0.0)).map_err(|message| match message.contains("no effect is named") {
+                true => format!("{message}, {}", FAILURES.map(|(name, _)| name).join(", ")),
+                false => message,
+            });
         match number {
-            Some(number) if effects.set(id, number) => {}
-            None if known => return Err(refuse(format!("`{value}`: expected a number"))),
-            _ => {
-                let ids = KNOWN.iter().map(|known| known.id).chain(FAILURES.iter().map(|(name, _)| *name));
-                let ids = ids.collect::<Vec<_>>().join(", ");
-                return Err(refuse(format!("no effect is named `{id}`: expected one of {ids}")));
+            Some(_) => said.map_err(refuse)?,
+            None => {
+                said.map_err(&refuse)?;
+                return Err(refuse(format!("`{value}`: expected a number")));
             }
         }
+        effects = tried;
     }
     Ok((effects, faults))
 }

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::data::atomic_write::write_text;
+use crate::data::campaign::Declared;
 use crate::error::HostError;
 use crate::train::comparison::{Row, compare_fifth_inputs, compare_trainers};
 use crate::train::curve::draw;
@@ -13,9 +13,11 @@ use crate::train::emit::{Provenance, table_file};
 use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
 use crate::train::prior::COMPARED_SLOPE_STD_RAD;
+use crate::train::progress::with_progress;
 use crate::train::rover_training::train_rover;
-use crate::train::scene::{Design, Scene, scenes};
+use crate::train::scene::{Design, Scene, scenes_in};
 use crate::train::wheel_training::train_wheel;
+use crate::train::world::World;
 
 /// The fifth input that the flight side makes.
 const SHIPPED: Candidate = Candidate::ContactAngle;
@@ -32,6 +34,9 @@ pub struct Arguments {
     /// A run of seconds, to see that everything works; its table is not worth flying.
     #[arg(long)]
     quick: bool,
+    /// A file with a table `[declared]`, such as a campaign's NAME.toml: the effects of the world that is trained for
+    #[arg(long, value_name = "D.toml")]
+    declared: Option<PathBuf>,
     /// Also draw the validation curves.
     #[arg(long, value_name = "SVG")]
     picture: Option<PathBuf>,
@@ -43,8 +48,14 @@ pub struct Arguments {
 /// Where a file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let plan = if arguments.quick { Plan::quick(arguments.seed) } else { Plan::full(arguments.seed) };
-    let training = with_progress("scenes", |_| scenes(Design::Training, plan.scenes, plan.seed));
-    let held_out = with_progress("held-out scenes", |_| scenes(Design::Training, plan.held_out, !plan.seed));
+    let world = match &arguments.declared {
+        Some(path) => World::declared(&Declared::read_from(path)?),
+        None => World::seed(),
+    };
+    println!("Effects: {world}\n");
+    let drawn = |count, seed| scenes_in(&world, Design::Training, count, seed);
+    let training = with_progress("scenes", |_| drawn(plan.scenes, plan.seed))?;
+    let held_out = with_progress("held-out scenes", |_| drawn(plan.held_out, !plan.seed))?;
     let six = |scenes: &[Scene]| -> Vec<Scene> {
         let six = scenes.iter().filter(|scene| scene.wheels.len() == scene.wheels.capacity()).cloned();
         let six = six.map(|scene| scene.with_slope_seen(COMPARED_SLOPE_STD_RAD));
@@ -61,7 +72,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
     println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
     let losses = [wheel_curve.last(), rover_curve.last()];
-    let file = table_file(wheel, rover, &Provenance { plan: &plan, fifth: SHIPPED, losses });
+    let file = table_file(wheel, rover, &Provenance { plan: &plan, world: &world, fifth: SHIPPED, losses });
     write_text(&arguments.output, &file.to_text())?;
     if let Some(picture) = &arguments.picture {
         let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
@@ -83,17 +94,6 @@ fn judge_fifth_inputs(rows: &[Row]) {
     let easier = Candidate::ALL.into_iter().filter(|&fifth| fifth != Candidate::Sinkage);
     let Some(best) = easier.min_by(|&a, &b| loss(a).total_cmp(&loss(b))) else { return };
     println!("Best without a sinkage sensor: {}. Shipped: {} (optional).\n", best.name(), SHIPPED.name());
-}
-
-fn with_progress<T>(name: &'static str, work: impl FnOnce(&ProgressBar) -> T) -> T {
-    let bar = ProgressBar::new(1);
-    let style = ProgressStyle::with_template("{prefix:20} {bar:30} {pos}/{len} {elapsed} {msg}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.set_prefix(name);
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let result = work(&bar);
-    bar.finish_and_clear();
-    result
 }
 
 fn print_rows(title: &str, rows: &[Row]) {

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use kapvik_firmware::terramechanics::Wheel;
+use kapvik_firmware::terramechanics::effects::Grousers as LibraryGrousers;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -28,6 +29,13 @@ pub struct Grousers {
     pub height_m: f64,
     /// How many there are around the rim.
     pub count: u32,
+}
+
+impl Grousers {
+    /// As the wheel–soil equations take them.
+    pub fn of_library(self) -> LibraryGrousers<f64> {
+        LibraryGrousers { height_m: self.height_m, count: self.count.into() }
+    }
 }
 
 impl WheelTable {

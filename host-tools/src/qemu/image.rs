@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-
 use crate::error::HostError;
-use crate::process::{run_with_spinner, workspace};
+use crate::process::{built_executable, run_with_spinner, workspace};
 use crate::setup::Toolchain;
 
 /// A program for the board.
@@ -44,13 +42,6 @@ pub struct Image {
     elf: PathBuf,
 }
 
-/// What cargo says of a file that it has made.
-#[derive(Deserialize)]
-struct Artifact {
-    reason: String,
-    executable: Option<PathBuf>,
-}
-
 impl Image {
     /// Compiles and links an image.
     ///
@@ -67,11 +58,7 @@ impl Image {
         }
         cargo.args(["--bin", binary.name(), "--message-format", "json-render-diagnostics"]);
         let messages = run_with_spinner(&mut cargo, &format!("build {}", binary.name()))?;
-        let elf = messages
-            .lines()
-            .filter_map(|line| serde_json::from_str::<Artifact>(line).ok())
-            .filter(|artifact| artifact.reason == "compiler-artifact")
-            .find_map(|artifact| artifact.executable)
+        let elf = built_executable(&messages)
             .ok_or_else(|| HostError::Failed(format!("build {}: cargo named no executable", binary.name())))?;
         Ok(Self { elf })
     }

@@ -127,10 +127,14 @@ fn missing_physics(findings: &Findings) -> Option<String> {
     (!missed.is_empty()).then(|| {
         format!(
             "Equations 1–11 are not the whole truth here: with the soil that direct tests measured they miss {} (root mean \
-             square), more than noise. The networks were trained on these equations alone, so they may put what is missing \
+             square), more than noise. The networks were trained {}, so they may put what is missing \
              into c, φ and K, and an interval may exclude the truth. Curves that pass through the points are no proof that \
              the parameters behind them are right.",
-            missed.join(", ")
+            missed.join(", "),
+            match &findings.flight.networks {
+                None => "on these equations alone".to_owned(),
+                Some(networks) => format!("on these equations with effects ({})", networks.effects),
+            }
         )
     })
 }
@@ -138,7 +142,13 @@ fn missing_physics(findings: &Findings) -> Option<String> {
 fn declared(findings: &Findings) -> Option<String> {
     let ids = findings.campaign.declared.ids();
     (!ids.is_empty()).then(|| {
-        format!("The campaign declares effects ({}) that these networks were not trained with.", ids.join(", "))
+        let ids = ids.join(", ");
+        match &findings.flight.networks {
+            None => format!("The campaign declares effects ({ids}) that these networks were not trained with."),
+            Some(networks) => {
+                format!("The campaign declares effects: {ids}. These networks were trained with: {}.", networks.effects)
+            }
+        }
     })
 }
 

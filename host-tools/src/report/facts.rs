@@ -26,6 +26,17 @@ pub struct FlightFacts {
     pub log: Vec<LogLine>,
     /// See [`super::fingerprint`].
     pub fingerprint: String,
+    /// The networks that flew, where they are not those of the source tree.
+    pub networks: Option<FlownNetworks>,
+}
+
+/// Networks that flew in place of those of the source tree.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FlownNetworks {
+    /// Their file, and what they were trained with.
+    pub in_words: String,
+    /// The effects that they were trained with.
+    pub effects: String,
 }
 
 /// The facts, as a table with what else is to be told.
@@ -56,6 +67,7 @@ fn facts(flight: &FlightFacts) -> Vec<(&'static str, String)> {
     [
         Some(("Flight library", format!("version {major}.{minor}.{patch}, {}", place(flight.computer)))),
         Some(("Self-test at boot", self_test(&flight.boot.self_test))),
+        flight.networks.as_ref().map(|networks| ("Networks", networks.in_words.clone())),
         image.map(|image| ("Image", image)),
         flight.health.stack_high_water_bytes.map(|stack| ("Deepest stack", kib(stack))),
         Some(("Link", link(&flight.health))),

@@ -34,7 +34,7 @@ impl Findings {
         let fingerprint = fingerprint(&answers)
             .map_err(|error| HostError::Failed(format!("the answers have no fingerprint: {error}")))?;
         let (memory, log) = (computer.memory(), computer.settled_log());
-        let flight = FlightFacts { computer: on, boot, health, memory, log, fingerprint };
+        let flight = FlightFacts { computer: on, boot, health, memory, log, fingerprint, networks: None };
         Ok(Self { model: ModelCheck::of(&campaign), campaign, identification, flight })
     }
 }

@@ -18,7 +18,7 @@ mod terminal;
 pub mod traverse;
 mod verdict;
 
-pub use facts::{FlightFacts, lines as flight_lines, link as link_in_words};
+pub use facts::{FlightFacts, FlownNetworks, lines as flight_lines, link as link_in_words};
 pub use findings::{EstimateRow, Findings, RowKind, fingerprint};
 pub use page::page;
 pub use parameter::Parameter;

@@ -4,7 +4,8 @@ use kapvik_firmware::rover::{
     Axes, Axle, Contact, PerAxle, PerSide, PerWheel, Planar, Rover, Side, SideLayout, body_moment_nm, bogie_moment_nm,
     rocker_moment_nm,
 };
-use kapvik_firmware::terramechanics::{ForceError, WheelForces};
+use kapvik_firmware::terramechanics::effects::{Conditions, Effects, Grousers};
+use kapvik_firmware::terramechanics::{ForceError, Quadrature, Soil, WheelForces, WheelOnSoil};
 
 use super::ground_soils::SoilsAlongTheWay;
 use super::pose::{Coordinates, Pose};
@@ -23,6 +24,10 @@ pub struct World {
     pub terrain: Terrain,
     /// The soil.
     pub soils: SoilsAlongTheWay,
+    /// The wheels' grousers, which act only through an effect.
+    pub grousers: Grousers<f64>,
+    /// What acts beside equations 1–11.
+    pub effects: Effects<f64>,
     /// How far a bogie can turn against its rocker before a stop holds it, rad, both ways; infinite: no stop.
     pub bogie_stop_rad: f64,
 }
@@ -38,6 +43,8 @@ pub struct Motion {
     pub acceleration_m_s2: Axes<f64>,
     /// Rim speeds that the drives hold against the links, m/s.
     pub rim_speed_m_s: PerWheel<f64>,
+    /// Way of the rims against the links since the start, m.
+    pub rim_way_m: PerWheel<f64>,
 }
 
 /// One wheel at one instant.
@@ -79,7 +86,7 @@ impl World {
     /// # Errors
     /// Where a wheel is beyond the wheel–soil equations.
     pub fn instant(&self, motion: &Motion) -> Result<Instant, ForceError> {
-        let Motion { pose, rates, acceleration_m_s2, rim_speed_m_s } = motion;
+        let Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, .. } = motion;
         let gravity = self.rover.gravity_m_s2;
         let felt = Axes { z: acceleration_m_s2.z + gravity, ..*acceleration_m_s2 };
         let specific_force = pose.into_body(felt);
@@ -113,15 +120,43 @@ impl World {
             let rim_speed = *rim_speeds.of(axle) - self.rover.wheel.radius_m * *link_rates.of(axle);
             let hub = *layout.hubs.of(axle);
             let hub_m = Axes { x: hub.x, y: layout.y_m, z: hub.z };
-            self.wheel(side, axle, &motion.pose, hub_m, *velocities.of(axle), rim_speed)
+            let conditions = self.conditions(side, axle, motion);
+            self.wheel((side, axle), &conditions, &motion.pose, hub_m, *velocities.of(axle), rim_speed)
         };
         Ok(PerAxle { front: place(Axle::Front)?, middle: place(Axle::Middle)?, rear: place(Axle::Rear)? })
     }
 
+    /// What the effects at a wheel follow. Front wheels meet fresh soil, the others that of the wheels before them.
+    pub fn conditions(&self, side: Side, axle: Axle, motion: &Motion) -> Conditions<f64> {
+        let pass = match axle {
+            Axle::Front => 1.0,
+            Axle::Middle => 2.0,
+            Axle::Rear => 3.0,
+        };
+        Conditions {
+            pass: Some(pass),
+            wheel_angle_rad: Some(motion.rim_way_m.of_wheel(side, axle) / self.rover.wheel.radius_m),
+            pitch_rad: Some(motion.pose.pitch),
+            ..Conditions::default()
+        }
+    }
+
+    /// A wheel on a soil, with the effects.
+    pub fn on<'a>(&'a self, soil: &'a Soil<f64>) -> WheelOnSoil<'a, f64> {
+        WheelOnSoil {
+            wheel: &self.rover.wheel,
+            grousers: &self.grousers,
+            soil,
+            effects: &self.effects,
+            gravity_m_s2: self.rover.gravity_m_s2,
+            quadrature: Quadrature::for_scalar::<f64>(),
+        }
+    }
+
     fn wheel(
         &self,
-        side: Side,
-        axle: Axle,
+        (side, axle): (Side, Axle),
+        conditions: &Conditions<f64>,
         pose: &Pose,
         hub_m: Axes<f64>,
         velocity_m_s: Planar<f64>,
@@ -144,7 +179,7 @@ impl World {
             sinking_m_s: -velocity_m_s.dot(contact.normal) - turned_m_s,
         };
         let soil = self.soils.at(pose.x + from_axis.x);
-        let forces = motion.forces(&self.rover.wheel, &soil)?;
+        let forces = motion.forces(&self.on(&soil), conditions)?;
         let contact_angle_rad = libm::asin(in_world(contact.tangent).z.clamp(-1.0, 1.0));
         Ok(WheelInstant { hub_m, contact, contact_angle_rad, motion, forces, side_force_n: 0.0 })
     }

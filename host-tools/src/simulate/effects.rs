@@ -1,83 +1,174 @@
 //! What acts on the rover beside the wheel–soil equations: by id, with a value.
+//!
+//! Effects are those of the library. On soil and contact they act as there. On sensors they act where the rover has the
+//! channel: a load cell is the load, the force along its link the pull that leaks into it, the drive torque the torque. An
+//! attitude that is misaligned tilts accelerometer and gyro; a wrong rolling radius makes the wheels turn otherwise. What
+//! has no channel on the rover means nothing here, and is refused.
 
-/// Effects on sensors and drives, each absent at zero.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SensorEffects {
-    /// Coulomb friction of each drive, N·m at the wheel, against its turning.
-    pub drive_friction_nm: f64,
-    /// Viscous friction of each drive, N·m·s/rad at the wheel.
-    pub drive_viscosity_nm_s: f64,
-    /// Gain error of the drive torques.
-    pub torque_scale: f64,
-    /// Offset of every load cell, N.
-    pub force_bias_n: f64,
-    /// Drift of every load cell, N per hour.
-    pub force_drift_n_h: f64,
-    /// Share of the force along the link that leaks into the load cell.
-    pub crosstalk: f64,
+use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Effects, Form, effect_info};
+
+/// Effects on soil, sensors and drives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoverEffects {
+    /// Those of the library.
+    pub library: Effects<f64>,
     /// By how much the wheels' radius exceeds that of the rover file, m.
     pub rolling_radius_m: f64,
-    /// Nose-up tilt at which accelerometer and gyro are mounted, rad.
-    pub pitch_misalignment_rad: f64,
     /// Gain error of the velocimeter.
     pub velocity_scale: f64,
     /// How late the velocimeter is, s.
     pub latency_s: f64,
 }
 
-/// An effect as the command line names it.
-pub struct KnownEffect {
-    /// Its id.
-    pub id: &'static str,
-    /// What its value is.
-    pub value: &'static str,
-    place: fn(&mut SensorEffects) -> &mut f64,
+/// An effect that the rover has beside those of the library, or by a name of its own.
+struct OwnEffect {
+    id: &'static str,
+    place: fn(&mut RoverEffects, f64),
 }
 
-/// Every effect that can be asked for. Effects of the soil are not among them: they belong to the wheel–soil equations.
-pub const KNOWN: [KnownEffect; 10] = [
-    KnownEffect {
-        id: "drive-friction",
-        value: "Coulomb friction at the wheel, N·m",
-        place: |e| &mut e.drive_friction_nm,
-    },
-    KnownEffect {
-        id: "drive-viscosity",
-        value: "viscous friction at the wheel, N·m·s/rad",
-        place: |e| &mut e.drive_viscosity_nm_s,
-    },
-    KnownEffect { id: "torque-scale", value: "gain error of the drive torques", place: |e| &mut e.torque_scale },
-    KnownEffect { id: "force-bias", value: "offset of the load cells, N", place: |e| &mut e.force_bias_n },
-    KnownEffect { id: "force-drift", value: "drift of the load cells, N/h", place: |e| &mut e.force_drift_n_h },
-    KnownEffect {
-        id: "crosstalk",
-        value: "share of the force along the link in the load cells",
-        place: |e| &mut e.crosstalk,
-    },
-    KnownEffect {
-        id: "rolling-radius",
-        value: "wheel radius over that of the rover file, m",
-        place: |e| &mut e.rolling_radius_m,
-    },
-    KnownEffect {
-        id: "pitch-misalignment",
-        value: "nose-up tilt of accelerometer and gyro, rad",
-        place: |e| &mut e.pitch_misalignment_rad,
-    },
-    KnownEffect { id: "velocity-scale", value: "gain error of the velocimeter", place: |e| &mut e.velocity_scale },
-    KnownEffect { id: "latency", value: "delay of the velocimeter, s", place: |e| &mut e.latency_s },
+const OWN: [OwnEffect; 4] = [
+    OwnEffect { id: "drive-viscosity", place: |e, value| _ = e.library.set("drive-friction", "viscous_nm_s", value) },
+    OwnEffect { id: "rolling-radius", place: |e, value| e.rolling_radius_m = value },
+    OwnEffect { id: "velocity-scale", place: |e, value| e.velocity_scale = value },
+    OwnEffect { id: "latency", place: |e, value| e.latency_s = value },
 ];
 
-impl SensorEffects {
-    /// Sets the effect of that id; false where there is none.
-    pub fn set(&mut self, id: &str, value: f64) -> bool {
-        let known = KNOWN.iter().find(|known| known.id == id);
-        known.map(|known| *(known.place)(self) = value).is_some()
+impl Default for RoverEffects {
+    fn default() -> Self {
+        Self { library: Effects::none(), rolling_radius_m: 0.0, velocity_scale: 0.0, latency_s: 0.0 }
+    }
+}
+
+impl RoverEffects {
+    /// Sets an effect: by its id, which stands for the first free parameter of its first form that shows on a rover, or by
+    /// `ID.PARAMETER`.
+    ///
+    /// # Errors
+    /// What is wrong with the name or the value, in words: there is no such effect or parameter, it means nothing on a
+    /// rover, or the value is outside its bounds.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), String> {
+        if let Some(own) = OWN.iter().find(|own| own.id == name) {
+            (own.place)(self, value);
+            return Ok(());
+        }
+        let (id, parameter) = match name.split_once('.') {
+            Some((id, parameter)) => (id, Some(parameter)),
+            None => (name, None),
+        };
+        let info = effect_info(id).ok_or_else(|| format!("no effect is named `{id}`: expected one of {}", known()))?;
+        let parameter = match parameter {
+            Some(parameter) => parameter,
+            None => self.take_form(info)?,
+        };
+        let Some(about) = info.parameter(parameter) else {
+            let names: Vec<_> = info.parameters.iter().map(|parameter| parameter.name).collect();
+            return Err(format!("{id} has no parameter `{parameter}`: expected {}", names.join(", ")));
+        };
+        if let Some(reason) = lacks(id, parameter) {
+            return Err(format!("{name} means nothing on a rover: {reason}. What does: {}", known()));
+        }
+        if !acts_on_sensors(id) && !(about.low..=about.high).contains(&value) {
+            return Err(format!("{parameter} = {value}: expected {} to {} {}", about.low, about.high, about.unit));
+        }
+        self.library.set(id, parameter, value);
+        Ok(())
     }
 
-    /// Friction of a drive that turns, N·m; none of one that stands.
-    pub fn friction_nm(&self, rate_rad_s: f64) -> f64 {
-        let sign = if rate_rad_s == 0.0 { 0.0 } else { rate_rad_s.signum() };
-        sign * self.drive_friction_nm + rate_rad_s * self.drive_viscosity_nm_s
+    /// Sets what the first form that shows on a rover has set, and gives its first free parameter.
+    fn take_form(&mut self, info: &'static EffectInfo) -> Result<&'static str, String> {
+        let Some(form) = form_on_a_rover(info) else {
+            let reason = info.parameters.iter().find_map(|parameter| lacks(info.id, parameter.name));
+            let reason = reason.unwrap_or("it has no form");
+            return Err(format!("{} means nothing on a rover: {reason}. What does: {}", info.id, known()));
+        };
+        for (name, value) in form.set {
+            self.library.set(info.id, name, *value);
+        }
+        form.free.first().copied().ok_or_else(|| format!("{} has nothing to set", info.id))
+    }
+}
+
+/// The first form of an effect whose parameters all mean something on a rover.
+fn form_on_a_rover(info: &'static EffectInfo) -> Option<&'static Form> {
+    info.forms.iter().find(|form| form.free.iter().all(|parameter| lacks(info.id, parameter).is_none()))
+}
+
+/// The ids that can be set, in a list for people.
+pub fn known() -> String {
+    let library = CATALOGUE.iter().filter(|info| form_on_a_rover(info).is_some()).map(|info| info.id);
+    let own = OWN.iter().map(|own| own.id).filter(|id| effect_info(id).is_none());
+    library.chain(own).collect::<Vec<_>>().join(", ")
+}
+
+/// Effects of sensors and drives alone, which may be of any size.
+fn acts_on_sensors(id: &str) -> bool {
+    ["drive-friction", "torque-scale", "force-bias", "force-drift", "crosstalk", "guide-friction", "pitch-misalignment"]
+        .contains(&id)
+}
+
+/// Why a parameter means nothing on a rover; none where it does something.
+fn lacks(id: &str, parameter: &str) -> Option<&'static str> {
+    const SINKAGE: &str = "it has no sensor of the sinkage";
+    const PULL: &str = "it has no sensor of the drawbar pull, only of the load";
+    const SIDE: &str = "it has no sensor of the side force, only of the load";
+    match (id, parameter) {
+        ("sinkage-lag" | "sinkage-reference", _) => Some(SINKAGE),
+        ("slip-sinkage", "apparent") | ("grouser-ripple", "sinkage_sin_m" | "sinkage_cos_m") => Some(SINKAGE),
+        ("lateral-slip", _) => Some("it holds its heading and its track, so that no wheel has a slip angle"),
+        ("force-drift", "drawbar_pull_n_per_c" | "load_n_per_c" | "side_force_n_per_c" | "reference_c") => {
+            Some("the simulation knows no temperature")
+        }
+        ("force-bias", "drawbar_pull_n") | ("force-drift", "drawbar_pull_n_per_h") => Some(PULL),
+        ("grouser-ripple", "drawbar_pull_sin_n" | "drawbar_pull_cos_n") => Some(PULL),
+        ("crosstalk", "load_to_drawbar_pull" | "side_force_to_drawbar_pull") => Some(PULL),
+        ("force-bias", "side_force_n") | ("force-drift", "side_force_n_per_h") => Some(SIDE),
+        ("crosstalk", "drawbar_pull_to_side_force" | "load_to_side_force") => Some(SIDE),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_effect_is_set_or_refused_for_a_reason() {
+        for info in CATALOGUE {
+            let mut effects = RoverEffects::default();
+            let said = effects.set(info.id, 0.1);
+            let refused = ["lateral-slip", "sinkage-lag", "sinkage-reference"].contains(&info.id);
+            assert_eq!(said.is_err(), refused, "{}: {said:?}", info.id);
+        }
+    }
+
+    #[test]
+    fn an_id_stands_for_the_form_that_a_rover_shows() {
+        let mut effects = RoverEffects::default();
+        for (id, value) in [("force-bias", 2.0), ("force-drift", 720.0), ("shear-hump", 0.6), ("drive-viscosity", 0.5)]
+        {
+            effects.set(id, value).expect("a value");
+        }
+        let get = |id, parameter| effects.library.get(id, parameter);
+        assert_eq!(get("force-bias", "load_n"), Some(2.0));
+        assert_eq!(get("force-bias", "drawbar_pull_n"), Some(0.0));
+        assert_eq!(get("force-drift", "load_n_per_h"), Some(720.0));
+        assert_eq!(get("shear-hump", "share"), Some(1.0), "what the form has set");
+        assert_eq!(get("drive-friction", "viscous_nm_s"), Some(0.5));
+    }
+
+    #[test]
+    fn what_is_refused_says_why() {
+        let mut effects = RoverEffects::default();
+        for (name, value, words) in [
+            ("slip-sinking", 0.3, "no effect is named `slip-sinking`: expected one of slip-sinkage"),
+            ("slip-sinkage.n2", 0.3, "no parameter `n2`: expected n1, saturation"),
+            ("slip-sinkage", 30.0, "n1 = 30: expected -0.5 to 2"),
+            ("slip-sinkage.apparent", 0.3, "no sensor of the sinkage"),
+            ("force-drift.load_n_per_c", 0.3, "no temperature"),
+        ] {
+            let said = effects.set(name, value).expect_err(name);
+            assert!(said.contains(words), "{name}: {said}");
+        }
+        assert_eq!(effects, RoverEffects::default());
     }
 }

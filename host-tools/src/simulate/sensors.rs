@@ -2,22 +2,26 @@
 
 use kapvik_firmware::rover::{Axes, Axle, PerAxle, PerSide, PerWheel, Planar, SensorNoise, Side};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
+use kapvik_firmware::terramechanics::effects::Conditions;
+use kapvik_firmware::terramechanics::{Memory, WheelTruth};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::balance::Instant;
-use super::effects::SensorEffects;
+use super::balance::{Instant, World};
+use super::effects::RoverEffects;
 use super::programme::WheelTurn;
 use crate::data::sensor_channels::{values, values_mut};
 
-/// The readings of an instant without noise, with the effects that act on sensors and drives.
+/// The readings of an instant without noise, with the effects that act on sensors and drives. Force sensors were zeroed
+/// at time zero.
 pub fn readings(
+    world: &World,
     instant: &Instant,
     turns: &PerWheel<WheelTurn>,
-    radius_m: f64,
-    inertia_kg_m2: f64,
-    effects: &SensorEffects,
+    time_s: f64,
+    effects: &RoverEffects,
 ) -> SensorFrame {
+    let (radius_m, inertia_kg_m2) = (world.rover.wheel.radius_m, world.rover.drive.reflected_inertia_kg_m2);
     let motion = &instant.motion;
     let body = motion.pose.motion(&motion.rates);
     let brackets = Side::ALL.map(|side| bracket_axes(instant, side));
@@ -25,20 +29,36 @@ pub fn readings(
         let (wheel, turn) = (instant.wheels.of_wheel(side, axle), turns.of_wheel(side, axle));
         let rate_rad_s = turn.rim_speed_m_s / radius_m;
         let soil_nm = wheel.forces.torque_nm;
-        let drive_nm =
-            soil_nm + inertia_kg_m2 * turn.rim_acceleration_m_s2 / radius_m + effects.friction_nm(rate_rad_s);
+        let drive_nm = soil_nm + inertia_kg_m2 * turn.rim_acceleration_m_s2 / radius_m;
         let up = *brackets.of_wheel(side, axle);
         let ahead = Planar { x: up.z, z: -up.x };
         let force = wheel.hub_force_n();
-        let cell_n = force.dot(up) + effects.crosstalk * force.dot(ahead);
+        // The load cell is the load, and what it squares with the pull.
+        let truth = WheelTruth {
+            slip: wheel.motion.slip().unwrap_or(0.0),
+            load_n: force.dot(up),
+            drawbar_pull_n: force.dot(ahead),
+            torque_nm: drive_nm,
+            sinkage_m: wheel.motion.sinkage_m,
+            side_force_n: wheel.side_force_n,
+        };
+        let conditions = Conditions {
+            wheel_rate_rad_s: Some(rate_rad_s),
+            hours_since_zero: Some(time_s / 3600.0),
+            ..world.conditions(side, axle, motion)
+        };
+        let soil = world.soils.at(motion.pose.x + motion.pose.into_world(wheel.hub_m).x);
+        let read = world.on(&soil).readings(&conditions, &truth, &mut Memory::start());
         WheelSensors {
             rate_rad_s: reading(rate_rad_s),
-            motor_torque_nm: reading(drive_nm * (1.0 + effects.torque_scale)),
-            load_cell_n: reading(cell_n + effects.force_bias_n),
+            motor_torque_nm: reading(read.torque_nm),
+            load_cell_n: reading(read.load_n),
         }
     };
+    let misaligned = effects.library.pitch_misalignment;
+    let tilt_rad = misaligned.map_or(0.0, |tilt| tilt.tilt_rad + tilt.pitch_share * motion.pose.pitch);
     let mounted = |vector: Axes<f64>| {
-        let tilted = Planar { x: vector.x, z: vector.z }.turned_back(libm::sincos(effects.pitch_misalignment_rad));
+        let tilted = Planar { x: vector.x, z: vector.z }.turned_back(libm::sincos(tilt_rad));
         Axes { x: tilted.x, z: tilted.z, ..vector }.map(reading)
     };
     SensorFrame {

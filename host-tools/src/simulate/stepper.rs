@@ -1,11 +1,11 @@
 //! From one instant to the next: implicit in time, so that forces and motion agree at each.
 
 use kapvik_firmware::rover::{Axes, PerWheel};
-use kapvik_firmware::terramechanics::sinkage_for_load;
 
 use super::balance::{Instant, Motion, World};
 use super::newton::{Newton, Residual};
 use super::pose::{Coordinates, Pose};
+use super::wheel_soil::standing_conditions;
 
 /// The longest step, s.
 const LONGEST_STEP_S: f64 = 0.05;
@@ -24,6 +24,8 @@ pub struct Stepper {
     /// Time between the last two instants, s.
     between_s: f64,
     rates: Coordinates,
+    /// At the last instant: rim speeds, m/s, and the way of the rims, m.
+    rims: (PerWheel<f64>, PerWheel<f64>),
 }
 
 /// The backward differentiation formula of second order for steps of unequal length:
@@ -75,7 +77,8 @@ impl Residual for AtRest<'_> {
         let rates = Pose { x: pose.x, ..Pose::default() };
         pose.x = self.x_m;
         let rim_speed_m_s = PerWheel::default();
-        let motion = Motion { pose, rates, acceleration_m_s2: Axes::default(), rim_speed_m_s };
+        let (acceleration_m_s2, rim_way_m) = (Axes::default(), PerWheel::default());
+        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, rim_way_m };
         let instant = self.world.instant(&motion).ok()?;
         Some((instant.residual, instant))
     }
@@ -87,6 +90,7 @@ struct Step<'a> {
     stepper: &'a Stepper,
     difference: BackwardDifference,
     rim_speed_m_s: PerWheel<f64>,
+    rim_way_m: PerWheel<f64>,
 }
 
 impl Residual for Step<'_> {
@@ -102,7 +106,8 @@ impl Residual for Step<'_> {
             y: self.difference.rate(velocity.y, last.y, before.y),
             z: self.difference.rate(velocity.z, last.z, before.z),
         };
-        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s: self.rim_speed_m_s };
+        let (rim_speed_m_s, rim_way_m) = (self.rim_speed_m_s, self.rim_way_m);
+        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, rim_way_m };
         let instant = self.world.instant(&motion).ok()?;
         Some((instant.residual, instant))
     }
@@ -123,6 +128,7 @@ impl Stepper {
             before: past,
             between_s: LONGEST_STEP_S,
             rates: Coordinates::zeros(),
+            rims: (PerWheel::default(), PerWheel::default()),
         };
         Some((stepper, instant))
     }
@@ -159,15 +165,26 @@ impl Stepper {
     /// One step; `None` where no balance is found.
     fn step(&mut self, world: &World, step_s: f64, rim_speed_m_s: PerWheel<f64>) -> Option<Instant> {
         let difference = BackwardDifference::new(step_s, self.between_s);
+        let rim_way_m = self.rim_way_m(step_s, &rim_speed_m_s);
         let mut newton = std::mem::take(&mut self.newton);
-        let solved = newton.solve(&Step { world, stepper: self, difference, rim_speed_m_s }, self.rates)?;
+        let step = Step { world, stepper: self, difference, rim_speed_m_s, rim_way_m };
+        let solved = newton.solve(&step, self.rates)?;
         let Motion { pose, rates, .. } = solved.state.motion;
         self.newton = newton;
         self.before = self.last;
         self.between_s = step_s;
         self.last = Past { pose: pose.into(), centre_velocity_m_s: centre_velocity_m_s(world, &pose, &rates) };
         self.rates = solved.unknowns;
+        self.rims = (rim_speed_m_s, rim_way_m);
         Some(solved.state)
+    }
+
+    /// The way of the rims at the end of a step, by the mean of the speeds at its ends.
+    fn rim_way_m(&self, step_s: f64, rim_speed_m_s: &PerWheel<f64>) -> PerWheel<f64> {
+        let (last_m_s, mut way_m) = self.rims;
+        let speeds = last_m_s.iter_wheels().zip(rim_speed_m_s.iter_wheels());
+        way_m.iter_wheels_mut().zip(speeds).for_each(|(way, (last, now))| *way += 0.5 * step_s * (last + now));
+        way_m
     }
 }
 
@@ -189,7 +206,7 @@ fn standing(world: &World) -> Option<Pose> {
     let suspension = &world.rover.suspension;
     let weight_n = world.rover.mass_kg * world.rover.gravity_m_s2;
     let soil = world.soils.at(0.0);
-    let sinkage_m = sinkage_for_load(&world.rover.wheel, &soil, 0.0, weight_n / 6.0).ok()?;
+    let sinkage_m = world.on(&soil).at_load(&standing_conditions(), 0.0, weight_n / 6.0).ok()?.sinkage_m;
     let rear = suspension.bogie_pivot + suspension.rear_hub;
     let height = |side, axle, x| world.terrain.at(side, axle, x).height_m;
     let front = Side::ALL.map(|side| height(side, Axle::Front, suspension.front_hub.x));

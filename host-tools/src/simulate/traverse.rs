@@ -11,14 +11,16 @@ use thiserror::Error;
 
 use super::audit::imbalance;
 use super::balance::{Instant, WheelInstant, World};
-use super::effects::SensorEffects;
+use super::effects::RoverEffects;
 use super::faults::{Fault, Faults};
 use super::ground_soils::{Change, SoilsAlongTheWay};
 use super::programme::Programme;
 use super::scenario::{Draw, Scenario};
 use super::sensors::{add_noise, readings, standard_deviations};
 use super::stepper::Stepper;
+use crate::data::rover_file::RoverFile;
 use crate::data::truth_file::{TrueSoil, Truth, WheelTruth};
+use crate::data::wheel_file::Grousers;
 
 /// What every frame's bodies balance to, N and N·m.
 pub const BALANCE: f64 = 1.0e-6;
@@ -36,8 +38,10 @@ pub struct Options {
     pub soil: Option<Soil<f64>>,
     /// Changes of the soil, in place of the scenario's; absent: the scenario's.
     pub changes: Option<Vec<Change>>,
-    /// Effects on sensors and drives.
-    pub effects: SensorEffects,
+    /// The wheels' grousers, which act only through an effect; absent: those of the assumed set K0.
+    pub grousers: Option<Grousers>,
+    /// Effects on soil, sensors and drives.
+    pub effects: RoverEffects,
     /// Faults of sensors, beside those of the scenario.
     pub faults: Vec<Fault>,
 }
@@ -77,7 +81,7 @@ pub enum SimulationError {
 pub struct Traverse {
     world: World,
     programme: Programme,
-    effects: SensorEffects,
+    effects: RoverEffects,
     faults: Faults,
     stepper: Stepper,
     instant: Instant,
@@ -100,12 +104,16 @@ impl Traverse {
         let mut draw = Draw { random: &mut random, rover, soil: options.soil };
         let course = scenario.draw(&mut draw).ok_or(SimulationError::NoSoil)?;
         let mut truly = *rover;
-        truly.wheel.radius_m += options.effects.rolling_radius_m;
+        let excess = options.effects.library.rolling_radius.map_or(0.0, |wrong| wrong.excess);
+        truly.wheel.radius_m = rover.wheel.radius_m / (1.0 + excess) + options.effects.rolling_radius_m;
+        let grousers = options.grousers.unwrap_or(RoverFile::assumed().grousers);
         let changes = options.changes.clone().unwrap_or(course.changes);
         let world = World {
             rover: truly,
             terrain: course.terrain,
             soils: SoilsAlongTheWay::new(course.soil, &changes),
+            grousers: grousers.of_library(),
+            effects: options.effects.library,
             bogie_stop_rad: course.bogie_stop_rad,
         };
         let (stepper, instant) = Stepper::at_rest(&world).ok_or(SimulationError::Standing)?;
@@ -175,13 +183,10 @@ impl Traverse {
         if worst.is_nan() || worst > BALANCE {
             return Err(SimulationError::Unbalanced { time_s, worst });
         }
-        let Rover { wheel, drive, .. } = self.world.rover;
         let turns = self.programme.at(time_s);
-        let mut frame = readings(&self.instant, &turns, wheel.radius_m, drive.reflected_inertia_kg_m2, &self.effects);
+        let mut frame = readings(&self.world, &self.instant, &turns, time_s, &self.effects);
         frame.time_us = time_us;
         frame.velocity_m_s = self.late_velocity(time_s, frame.velocity_m_s);
-        let drift_n = (self.effects.force_drift_n_h * time_s / 3600.0) as f32;
-        frame.wheels.iter_wheels_mut().for_each(|wheel| wheel.load_cell_n = wheel.load_cell_n.map(|n| n + drift_n));
         add_noise(&mut frame, &self.noise, &mut self.random);
         let truth = self.truth(time_us);
         Ok(self.faults.applied(&frame).map(|frame| (frame, truth)))

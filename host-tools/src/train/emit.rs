@@ -6,6 +6,10 @@ use kapvik_table_file::{Block, TableFile};
 use super::fifth_input::Candidate;
 use super::plan::Plan;
 use super::prior::{self, Range};
+use super::world::World;
+
+/// The note that says which effects the networks were trained with.
+pub const EFFECTS_NOTE: &str = "effects";
 
 /// Collects the parts of a table as blocks.
 struct Blocks(Vec<Block>);
@@ -22,6 +26,8 @@ impl PartVisitor for Blocks {
 pub struct Provenance<'a> {
     /// The run that made the table.
     pub plan: &'a Plan,
+    /// The world that the scenes were drawn from.
+    pub world: &'a World,
     /// The per-wheel network's fifth input.
     pub fifth: Candidate,
     /// Held-out losses of the per-wheel and of the rover network.
@@ -29,15 +35,20 @@ pub struct Provenance<'a> {
 }
 
 /// The file of two tables.
-pub fn table_file(mut wheel: WheelTable, mut rover: RoverTable, provenance: &Provenance<'_>) -> TableFile {
+pub fn table_file(wheel: WheelTable, rover: RoverTable, provenance: &Provenance<'_>) -> TableFile {
+    TableFile { notes: notes(provenance), blocks: blocks(wheel, rover) }
+}
+
+/// The numbers of two tables, as their file has them.
+pub fn blocks(mut wheel: WheelTable, mut rover: RoverTable) -> Vec<Block> {
     let mut blocks = Blocks(Vec::new());
     wheel.visit_parts(&mut blocks);
     rover.visit_parts(&mut blocks);
-    TableFile { notes: notes(provenance), blocks: blocks.0 }
+    blocks.0
 }
 
 fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
-    let Provenance { plan, fifth, losses } = provenance;
+    let Provenance { plan, world, fifth, losses } = provenance;
     let noise = prior::INSTANT_NOISE;
     let notes = [
         ("made by", format!("kapvik train {}", env!("CARGO_PKG_VERSION"))),
@@ -46,7 +57,7 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("epochs", format!("{} rover network, {} per-wheel network", plan.rover_epochs, plan.wheel_epochs)),
         ("held-out loss", format!("{:.4} per-wheel, {:.4} rover (nats)", losses[0], losses[1])),
         ("activation", "bipolar sigmoid 2 / (1 + exp(-A x)) - 1, A in the blocks *.gradient".into()),
-        ("effects", "none: equations 1-11".into()),
+        (EFFECTS_NOTE, world.to_string()),
         ("fifth input", fifth.name().into()),
         ("targets", "ln c (Pa), phi (rad), ln K (m); means, then log-variances on the scale of the prior".into()),
         ("prior c", range(prior::COHESION_PA, "Pa")),

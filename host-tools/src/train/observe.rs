@@ -14,7 +14,7 @@ pub fn observe(scene: &Scene, random: &mut ChaCha8Rng) -> SoilQuery {
         value + std * normal
     };
     let wheels = scene
-        .wheels
+        .read()
         .iter()
         .map(|state| WheelState {
             drawbar_pull_n: blur(state.drawbar_pull_n, noise.drawbar_pull_n),

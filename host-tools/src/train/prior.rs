@@ -4,6 +4,7 @@
 //! 5–35 mm, n 0.8–1.3, k_φ 0.8–5 MPa/mⁿ, 0.5 N, 1 N, 0.05 N·m, 2 mm and 0.01 per instant on the assumed Kapvik wheel).
 
 use kapvik_firmware::terramechanics::Wheel;
+use kapvik_firmware::terramechanics::effects::Grousers;
 
 /// A range, and how a number lies in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,6 +68,8 @@ pub const SPREAD_SHARE: f64 = 0.7;
 
 /// Kapvik's wheel. Assumed, not published (assumption set K0).
 pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
+/// Kapvik's grousers. Assumed, not published (assumption set K0). They act only through an effect.
+pub const KAPVIK_GROUSERS: Grousers<f64> = Grousers { height_m: 0.005, count: 24.0 };
 /// Mean load of Kapvik's wheels in the comparison experiment, N; 40 kg on six wheels.
 pub const KAPVIK_LOAD_N: f64 = 65.4;
 /// Mean load of Kapvik's wheels in training, N.
@@ -101,6 +104,21 @@ pub const INSTANT_NOISE: RelativeNoise = RelativeNoise {
 pub const AVERAGING: Range = Range::logarithmic(0.05, 1.0);
 /// Further factor on the noise of a single channel, for other sensors than Kapvik's.
 pub const OTHER_SENSOR: Range = Range::logarithmic(0.25, 3.0);
+
+/// Gravity, m/s²; the same as of assumption set K0.
+pub const GRAVITY_M_S2: f64 = 9.81;
+/// Speed of the hubs over the ground, m/s.
+pub const SPEED_M_S: Range = Range::logarithmic(0.01, 0.04);
+/// Temperature, °C.
+pub const TEMPERATURE_C: Range = Range::linear(-40.0, 40.0);
+/// Time since the force sensors were zeroed, h: a day's drive.
+pub const HOURS_SINCE_ZERO: Range = Range::linear(0.0, 8.0);
+/// Way travelled since the last stop, m.
+pub const TRAVEL_M: Range = Range::logarithmic(0.1, 30.0);
+/// Slip angle, rad: up to 10° to either side.
+pub const SLIP_ANGLE_RAD: Range = Range::linear(-0.174_532_925_199_432_95, 0.174_532_925_199_432_95);
+/// Height of the grousers of other wheels over radius.
+pub const GROUSER_RATIO: Range = Range::linear(0.0, 0.15);
 
 /// Standard deviation of the slope under the rover, rad; it does not average away.
 pub const SLOPE_STD_RAD: Range = Range::logarithmic(0.004, 0.05);

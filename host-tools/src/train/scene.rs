@@ -1,12 +1,17 @@
 //! Draws of the prior: a rover's wheels on a soil, as they truly are.
 
-use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::effects::{Effects, Grousers};
+use kapvik_firmware::terramechanics::{Memory, Quadrature, Soil, Wheel, WheelOnSoil, WheelTruth};
 use kapvik_firmware::wheel_state::{Slope, WHEELS, WheelNoise, WheelState};
 use rayon::prelude::*;
 
-use super::prior;
+use crate::error::HostError;
 
-/// Wheels of one instant, true to the wheel–soil equations, and how noisily they will be seen.
+use super::drive::Drive;
+use super::prior;
+use super::world::World;
+
+/// Wheels of one instant, true to the wheel–soil equations and the effects of a world, and how noisily they will be seen.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// The geometry that the wheels share.
@@ -15,6 +20,8 @@ pub struct Scene {
     pub soil: Soil<f64>,
     /// True states; the sinkage is always there.
     pub wheels: heapless::Vec<WheelState, WHEELS>,
+    /// What the sensors read of them but for their noise, where that is not the truth.
+    pub misread: Option<heapless::Vec<WheelState, WHEELS>>,
     /// Standard deviations of what is seen.
     pub noise: WheelNoise,
     /// Whether the sinkage is seen.
@@ -27,11 +34,21 @@ impl Scene {
     /// Lets the slope be seen. A rover that drives at steady speed on plane ground pulls itself up it, no more and no
     /// less: its tangent is the total drawbar pull over the total load.
     pub fn with_slope_seen(mut self, std_rad: f64) -> Self {
-        let pull: f32 = self.wheels.iter().map(|state| state.drawbar_pull_n).sum();
-        let load: f32 = self.wheels.iter().map(|state| state.load_n).sum();
-        self.slope = Some(Slope { angle_rad: libm::atan2f(pull, load), std_rad: std_rad as f32 });
+        self.slope = Some(Slope { angle_rad: slope_rad(&self.wheels), std_rad: std_rad as f32 });
         self
     }
+
+    /// What the sensors read but for their noise.
+    pub fn read(&self) -> &[WheelState] {
+        self.misread.as_ref().unwrap_or(&self.wheels)
+    }
+}
+
+/// The slope, rad, that wheels pull their rover up at steady speed.
+fn slope_rad(wheels: &[WheelState]) -> f32 {
+    let pull: f32 = wheels.iter().map(|state| state.drawbar_pull_n).sum();
+    let load: f32 = wheels.iter().map(|state| state.load_n).sum();
+    libm::atan2f(pull, load)
 }
 
 /// What a set of scenes is for.
@@ -58,10 +75,17 @@ struct Shares {
 impl Shares {
     /// Points in one Sobol' sequence; later ones start another, scrambled anew.
     const BLOCK: u32 = 1 << 16;
+    /// Where the coordinates of effects begin: behind those of soil, wheels and noise, of which there are fewer.
+    const OF_EFFECTS: u32 = 64;
 
     fn new(index: u32, seed: u32) -> Self {
         let block = index / Self::BLOCK;
         Self { index: index % Self::BLOCK, seed: seed.wrapping_add(block.wrapping_mul(0x9e37_79b9)), dimension: 0 }
+    }
+
+    /// The same point, from the first coordinate of effects on.
+    fn of_effects(&self) -> Self {
+        Self { dimension: Self::OF_EFFECTS, ..*self }
     }
 
     fn next(&mut self) -> f64 {
@@ -71,25 +95,55 @@ impl Shares {
     }
 }
 
-/// `count` scenes. The same seed gives the same scenes; draws that the soil cannot carry are left out and replaced.
+/// `count` scenes of the seed's world. The same seed gives the same scenes; draws that the soil cannot carry are left out
+/// and replaced.
 pub fn scenes(design: Design, count: usize, seed: u32) -> Vec<Scene> {
+    gather(&World::seed(), design, count, seed, u32::MAX)
+}
+
+/// [`scenes`] of a world with effects.
+///
+/// # Errors
+/// Where the effects leave next to no scene in which the soil carries the wheels.
+pub fn scenes_in(world: &World, design: Design, count: usize, seed: u32) -> Result<Vec<Scene>, HostError> {
+    const DRAWS_A_SCENE: u32 = 50;
+    let draws = (count as u32).saturating_mul(DRAWS_A_SCENE).saturating_add(1000);
+    let scenes = gather(world, design, count, seed, draws);
+    if scenes.len() == count {
+        return Ok(scenes);
+    }
+    Err(HostError::Failed(format!(
+        "with the declared effects ({world}) the soil carries the wheels in {} of {draws} scenes: \
+         expected effects of a size that a rover can drive with",
+        scenes.len()
+    )))
+}
+
+fn gather(world: &World, design: Design, count: usize, seed: u32, draws: u32) -> Vec<Scene> {
     let mut scenes = Vec::with_capacity(count);
     let mut next = 0_u32;
-    while scenes.len() < count {
+    while scenes.len() < count && next < draws {
         let wanted = (count - scenes.len()) as u32 + 16;
-        scenes.par_extend((next..next + wanted).into_par_iter().filter_map(|index| draw(design, index, seed)));
+        scenes.par_extend((next..next + wanted).into_par_iter().filter_map(|index| draw(world, design, index, seed)));
         next += wanted;
     }
     scenes.truncate(count);
     scenes
 }
 
-fn draw(design: Design, index: u32, seed: u32) -> Option<Scene> {
+fn draw(world: &World, design: Design, index: u32, seed: u32) -> Option<Scene> {
     let mut shares = Shares::new(index, seed);
+    let mut of_effects = shares.of_effects();
     let soil = draw_soil(&mut shares);
+    let ground = Ground {
+        soil,
+        drive: Drive::draw(|| of_effects.next()),
+        effects: world.draw(|| of_effects.next()),
+        faultless: world.is_seed(),
+    };
     match design {
-        Design::Training => draw_training(&mut shares, soil),
-        Design::Kapvik { instants, sinkage } => draw_kapvik(&mut shares, soil, instants, sinkage),
+        Design::Training => draw_training(&mut shares, &ground),
+        Design::Kapvik { instants, sinkage } => draw_kapvik(&mut shares, &ground, instants, sinkage),
     }
 }
 
@@ -107,15 +161,16 @@ fn draw_soil(shares: &mut Shares) -> Soil<f64> {
     }
 }
 
-fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
+fn draw_training(shares: &mut Shares, ground: &Ground) -> Option<Scene> {
     let kapvik = shares.next() < prior::KAPVIK_SHARE;
     let (radius, width, load) = (shares.next(), shares.next(), shares.next());
     let radius_m = prior::RADIUS_M.at(radius);
     let other = Wheel { radius_m, width_m: radius_m * prior::WIDTH_RATIO.at(width) };
-    let (wheel, load_n) = if kapvik {
-        (prior::KAPVIK_WHEEL, prior::KAPVIK_LOADS_N.at(load))
+    let (wheel, grousers, load_n) = if kapvik {
+        (prior::KAPVIK_WHEEL, prior::KAPVIK_GROUSERS, prior::KAPVIK_LOADS_N.at(load))
     } else {
-        (other, prior::PRESSURE_PA.at(load) * other.radius_m * other.width_m)
+        let load_n = prior::PRESSURE_PA.at(load) * other.radius_m * other.width_m;
+        (other, ground.drive.other_grousers(other.radius_m), load_n)
     };
     let spread = prior::LOAD_SPREAD.at(shares.next());
     let slips = Slips::draw(shares);
@@ -124,14 +179,14 @@ fn draw_training(shares: &mut Shares, soil: Soil<f64>) -> Option<Scene> {
     let count = if fewer < prior::WHOLE_ROVER_SHARE { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
     let sinkage_seen = shares.next() < 0.5;
     let (slope_seen, slope_std) = (shares.next() < 0.7, prior::SLOPE_STD_RAD.at(shares.next()));
-    let wheels = (0..count)
-        .map(|place| {
-            let slip = slips.of(place, count, shares.next());
-            let load = load_n * (1.0 + spread * (2.0 * shares.next() - 1.0));
-            state(&wheel, &soil, slip, load)
-        })
-        .collect::<Option<_>>()?;
-    let scene = Scene { wheel, soil, wheels, noise, sinkage_seen, slope: None };
+    let mut asked = heapless::Vec::new();
+    for place in 0..count {
+        let slip = slips.of(place, count, shares.next());
+        let load = load_n * (1.0 + spread * (2.0 * shares.next() - 1.0));
+        asked.push((slip, load)).ok()?;
+    }
+    let (wheels, misread) = ground.states(&wheel, &grousers, &asked)?;
+    let scene = Scene { wheel, soil: ground.soil, wheels, misread, noise, sinkage_seen, slope: None };
     // Only all the wheels of a rover together tell the slope.
     Some(if slope_seen && count == WHEELS { scene.with_slope_seen(slope_std) } else { scene })
 }
@@ -158,30 +213,81 @@ impl Slips {
     }
 }
 
-fn draw_kapvik(shares: &mut Shares, soil: Soil<f64>, instants: u32, sinkage: bool) -> Option<Scene> {
+fn draw_kapvik(shares: &mut Shares, ground: &Ground, instants: u32, sinkage: bool) -> Option<Scene> {
     let wheel = prior::KAPVIK_WHEEL;
-    let wheels = (0..WHEELS)
-        .map(|place| {
-            let slip = 0.05 + 0.55 * place as f64 / (WHEELS - 1) as f64;
-            let load = prior::KAPVIK_LOAD_N * (1.0 + 0.08 * (2.0 * shares.next() - 1.0));
-            state(&wheel, &soil, slip, load)
-        })
-        .collect::<Option<_>>()?;
+    let mut asked = heapless::Vec::new();
+    for place in 0..WHEELS {
+        let slip = 0.05 + 0.55 * place as f64 / (WHEELS - 1) as f64;
+        let load = prior::KAPVIK_LOAD_N * (1.0 + 0.08 * (2.0 * shares.next() - 1.0));
+        asked.push((slip, load)).ok()?;
+    }
+    let (wheels, misread) = ground.states(&wheel, &prior::KAPVIK_GROUSERS, &asked)?;
     let noise = noise(&wheel, prior::KAPVIK_LOAD_N, [1.0 / libm::sqrt(f64::from(instants)); 5]);
-    Some(Scene { wheel, soil, wheels, noise, sinkage_seen: sinkage, slope: None })
+    Some(Scene { wheel, soil: ground.soil, wheels, misread, noise, sinkage_seen: sinkage, slope: None })
 }
 
-/// A true wheel state, or none where the wheel would be stuck.
-fn state(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64) -> Option<WheelState> {
-    let sinkage_m = sinkage_for_load(wheel, soil, slip, load_n).ok()?;
-    let forces = wheel_forces(wheel, soil, slip, sinkage_m).ok()?;
-    (sinkage_m <= prior::DEEPEST * wheel.radius_m).then_some(WheelState {
-        drawbar_pull_n: forces.drawbar_pull_n as f32,
-        load_n: load_n as f32,
-        torque_nm: forces.torque_nm as f32,
-        slip: slip as f32,
-        sinkage_m: Some(sinkage_m as f32),
-    })
+/// The wheels of a scene.
+type States = heapless::Vec<WheelState, WHEELS>;
+
+/// What the wheels of a scene drive on, and how.
+struct Ground {
+    soil: Soil<f64>,
+    drive: Drive,
+    effects: Effects<f64>,
+    /// There is no effect that could make a sensor misread.
+    faultless: bool,
+}
+
+impl Ground {
+    /// The true states of wheels at (slip, load), and what the sensors read of them but for their noise; none where a
+    /// wheel would be stuck, or is read as one without load.
+    fn states(
+        &self,
+        wheel: &Wheel<f64>,
+        grousers: &Grousers<f64>,
+        asked: &heapless::Vec<(f64, f64), WHEELS>,
+    ) -> Option<(States, Option<States>)> {
+        let on_soil = WheelOnSoil {
+            wheel,
+            grousers,
+            soil: &self.soil,
+            effects: &self.effects,
+            gravity_m_s2: prior::GRAVITY_M_S2,
+            quadrature: Quadrature::for_scalar::<f64>(),
+        };
+        // The pitch follows from the pulls, and none of these from the pitch.
+        let truth = |(place, (slip, load_n)): (usize, &(f64, f64))| {
+            let truth = on_soil.at_load(&self.drive.at(place, 0.0), *slip, *load_n).ok()?;
+            (truth.sinkage_m <= prior::DEEPEST * wheel.radius_m).then_some(WheelTruth { load_n: *load_n, ..truth })
+        };
+        let truths: heapless::Vec<_, WHEELS> = asked.iter().enumerate().map(truth).collect::<Option<_>>()?;
+        let wheels: States = truths.iter().map(true_state).collect();
+        if self.faultless {
+            return Some((wheels, None));
+        }
+        let pitch_rad = f64::from(slope_rad(&wheels));
+        let read = |(place, truth): (usize, &WheelTruth<f64>)| {
+            let readings = on_soil.readings(&self.drive.at(place, pitch_rad), truth, &mut Memory::start());
+            (readings.load_n > 0.0).then_some(WheelState {
+                drawbar_pull_n: readings.drawbar_pull_n as f32,
+                load_n: readings.load_n as f32,
+                torque_nm: readings.torque_nm as f32,
+                slip: readings.slip as f32,
+                sinkage_m: Some(readings.sinkage_m as f32),
+            })
+        };
+        Some((wheels, Some(truths.iter().enumerate().map(read).collect::<Option<_>>()?)))
+    }
+}
+
+fn true_state(truth: &WheelTruth<f64>) -> WheelState {
+    WheelState {
+        drawbar_pull_n: truth.drawbar_pull_n as f32,
+        load_n: truth.load_n as f32,
+        torque_nm: truth.torque_nm as f32,
+        slip: truth.slip as f32,
+        sinkage_m: Some(truth.sinkage_m as f32),
+    }
 }
 
 /// Half of the scenes have Kapvik's sensors, averaged over more or fewer instants; half have others.

@@ -1,9 +1,13 @@
 //! How good a network is on cases that it has not seen.
 
-use kapvik_firmware::network::{Marginal, OUTPUTS, Posterior, PosteriorScale, TARGETS};
+use kapvik_firmware::network::{Marginal, OUTPUTS, Posterior, PosteriorScale, RoverTable, TARGETS};
+use kapvik_firmware::wheel_state::SoilQuery;
 use rayon::prelude::*;
 
-use super::example::Example;
+use super::dataset::stream;
+use super::example::{Example, targets};
+use super::observe::observe;
+use super::scene::Scene;
 use super::trainable::Trainable;
 
 /// Errors and coverage of one target.
@@ -56,6 +60,25 @@ pub fn score(posteriors: &[Posterior], truths: &[[f64; TARGETS]]) -> Score {
             std_coverage: [share(&|truth, m| within(truth, m, 1.0)), share(&|truth, m| within(truth, m, 1.96))],
         }
     })
+}
+
+/// The posterior of ln c, φ, ln K that a rover network gives for a query.
+pub fn rover_posterior(table: &RoverTable, query: &SoilQuery) -> Posterior {
+    let (context, wheels) = query.rover_features();
+    table.posterior.read(&table.outputs(&context, wheels))
+}
+
+/// Scores a rover network on one noisy observation of each scene, through the functions that fly.
+pub fn score_rover(table: &RoverTable, scenes: &[Scene], seed: u32) -> Score {
+    let (posteriors, truths): (Vec<Posterior>, Vec<[f64; TARGETS]>) = scenes
+        .par_iter()
+        .enumerate()
+        .map(|(index, scene)| {
+            let query = observe(scene, &mut stream(u64::from(seed), index));
+            (rover_posterior(table, &query), targets(scene))
+        })
+        .unzip();
+    score(&posteriors, &truths)
 }
 
 /// Outputs of a network on a set.

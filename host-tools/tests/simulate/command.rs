@@ -106,8 +106,8 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         (&["--soil", "lete-sand", "--then", "ice"], "--then ice: expected SOIL@METRES"),
         (&["--then", "ice@far"], "--then ice@far: expected SOIL@METRES"),
         (
-            &["--effect", "slip-sinkage=0.3"],
-            "--effect slip-sinkage=0.3: no effect is named `slip-sinkage`: expected one of drive-friction",
+            &["--effect", "slip-sinking=0.3"],
+            "--effect slip-sinking=0.3: no effect is named `slip-sinking`: expected one of slip-sinkage",
         ),
         (&["--effect", "latency"], "--effect latency: expected ID=VALUE"),
         (&["--effect", "latency=late"], "--effect latency=late: `late`: expected a number"),

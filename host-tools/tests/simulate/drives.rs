@@ -2,7 +2,7 @@
 
 use kapvik_firmware::rover::{Rover, Side};
 use kapvik_host::data::truth_file::{Truth, WheelTruth};
-use kapvik_host::simulate::effects::SensorEffects;
+use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::ground_soils::{Becomes, Change};
 use kapvik_host::simulate::{Options, Scenario, SimulationError, Traverse};
 
@@ -168,7 +168,7 @@ fn a_rover_that_cannot_do_it_says_so() {
     let heavy = Rover { mass_kg: 4.0e5, ..Rover::assumed() };
     let found = Traverse::new(Scenario::Level, 1, &heavy, &Options::default()).map(|_| ());
     assert_eq!(found, Err(SimulationError::NoSoil));
-    let given = Options { soil: Some(soil(0.6)), effects: SensorEffects::default(), ..Options::default() };
+    let given = Options { soil: Some(soil(0.6)), effects: RoverEffects::default(), ..Options::default() };
     let found = Traverse::new(Scenario::Level, 1, &heavy, &given).map(|_| ());
     assert_eq!(found, Err(SimulationError::Standing));
 }

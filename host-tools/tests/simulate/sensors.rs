@@ -1,8 +1,9 @@
 //! Sensors as the conventions define them, and their noise.
 
 use kapvik_firmware::rover::Rover;
+use kapvik_firmware::terramechanics::{Soil, wheel_forces};
 use kapvik_host::data::sensor_channels::{names, values};
-use kapvik_host::simulate::effects::SensorEffects;
+use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 
 use super::{drive, given};
@@ -126,11 +127,11 @@ fn noise_is_white_and_as_large_as_the_rover_file_says() {
 
 /// A drive with one effect, and the same without.
 fn with_effect(id: &str, value: f64) -> Vec<[(kapvik_firmware::sensor_frame::SensorFrame, f64); 2]> {
-    let mut effects = SensorEffects::default();
-    assert!(effects.set(id, value), "{id}");
+    let mut effects = RoverEffects::default();
+    effects.set(id, value).unwrap();
     let options = Options { duration_s: Some(20.0), effects, ..Options::default() };
     let with = drive(Scenario::Slope, 6, &options);
-    let without = drive(Scenario::Slope, 6, &Options { effects: SensorEffects::default(), ..options });
+    let without = drive(Scenario::Slope, 6, &Options { effects: RoverEffects::default(), ..options });
     with.iter()
         .zip(&without)
         .map(|(with, without)| {
@@ -184,4 +185,38 @@ fn effects_do_what_their_names_say() {
     let [(with, _), (without, _)] = rows[rows.len() - 1];
     let leaked = cell(&with) - cell(&without);
     assert!(leaked > 0.5 && leaked < 2.5, "a tenth of the rear wheel's pull: {leaked}");
+}
+
+/// n = n₀ + n₁ i is, wheel by wheel, the seed's model on a soil of another exponent.
+#[test]
+fn slip_sinkage_acts_on_each_wheel_by_its_slip() {
+    let soil = Soil {
+        sinkage_exponent: 1.0,
+        cohesive_modulus: 0.0,
+        frictional_modulus: 2.0e6,
+        cohesion_pa: 500.0,
+        friction_angle_rad: 0.6,
+        shear_modulus_m: 0.012,
+        peak_stress_c1: 0.3,
+        peak_stress_c2: 0.1,
+        rebound_ratio: 0.0,
+    };
+    let mut effects = RoverEffects::default();
+    effects.set("slip-sinkage.n1", 0.5).unwrap();
+    let options = Options { duration_s: Some(15.0), soil: Some(soil), effects, ..Options::default() };
+    let wheel = Rover::assumed().wheel;
+    let mut slips = Vec::new();
+    for (_, truth) in drive(Scenario::Spread, 6, &options).iter().skip(100) {
+        for truth in truth.wheels.iter_wheels() {
+            let slip = truth.slip.unwrap();
+            let soil = Soil { sinkage_exponent: 1.0 + 0.5 * slip.abs(), ..soil };
+            let forces = wheel_forces(&wheel, &soil, slip, truth.sinkage_m).unwrap();
+            assert!((truth.drawbar_pull_n - forces.drawbar_pull_n).abs() < 1e-9);
+            assert!((truth.resistive_torque_nm - forces.torque_nm).abs() < 1e-9);
+            // The load also holds the damping of the sinking motion.
+            assert!((truth.normal_load_n / forces.load_n - 1.0).abs() < 0.01);
+            slips.push(slip);
+        }
+    }
+    assert!(slips.iter().copied().fold(0.0, f64::max) > 0.3, "wheels that slip");
 }

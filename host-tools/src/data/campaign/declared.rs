@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::path::Path;
 
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Form, effect_info};
 use serde::de::{MapAccess, Visitor};
@@ -11,6 +12,7 @@ use toml::Spanned;
 use crate::error::HostError;
 
 use super::super::soil_file::Parameter;
+use super::super::text::TextFile;
 use super::super::toml_file::TomlFile;
 use super::ground::{Knowledge, knowledge};
 
@@ -19,6 +21,12 @@ use super::ground::{Knowledge, knowledge};
 pub(super) struct DeclaredTable {
     effects: Vec<Spanned<String>>,
     parameters: Vec<(Spanned<String>, Entries)>,
+}
+
+/// A file that holds the table, whatever else.
+#[derive(Deserialize)]
+struct Holder {
+    declared: Option<DeclaredTable>,
 }
 
 /// The table of an effect.
@@ -75,6 +83,29 @@ impl Declared {
             }
         }
         Ok(declared)
+    }
+
+    /// The table `[declared]` of a file, whatever else it holds.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or has no such table, and as for a campaign's.
+    pub fn read_from(path: &Path) -> Result<Self, HostError> {
+        Self::of_file(&TomlFile::read(path)?)
+    }
+
+    /// [`Self::read_from`] of a text, under the name `path`.
+    ///
+    /// # Errors
+    /// As [`Self::read_from`].
+    pub fn parse(path: &Path, text: &str) -> Result<Self, HostError> {
+        Self::of_file(&TomlFile::new(TextFile::new(path, text)))
+    }
+
+    fn of_file(file: &TomlFile) -> Result<Self, HostError> {
+        let Holder { declared } = file.whole()?;
+        let table =
+            declared.ok_or_else(|| file.error_at_start("no table [declared]: expected one with `effects = […]`"))?;
+        Self::read(table, file)
     }
 
     /// The ids alone.

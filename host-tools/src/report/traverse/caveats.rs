@@ -8,9 +8,14 @@ use crate::report::parameter::Parameter;
 /// The caveats that hold for these findings, in plain sentences.
 pub fn caveats(findings: &TraverseFindings) -> Vec<String> {
     let simulated = matches!(findings.origin, Origin::Simulated { .. }).then(|| {
-        "The drive is simulated: a rocker-bogie on uneven sand whose wheels obey equations 1–11, the same that the networks \
-         were trained with. Real sand does more than these equations."
-            .to_owned()
+        let trained = match &findings.flight.networks {
+            None => "the same that the networks were trained with".to_owned(),
+            Some(networks) => format!("while the networks were trained with effects ({})", networks.effects),
+        };
+        format!(
+            "The drive is simulated: a rocker-bogie on uneven sand whose wheels obey equations 1–11, {trained}. Real sand \
+             does more than these equations."
+        )
     });
     let assumed = findings.rover_is_assumed().then(|| {
         "The rover's dimensions and the noise of its sensors are the set K0, which is assumed: Kapvik's were not published, \

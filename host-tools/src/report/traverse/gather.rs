@@ -114,6 +114,7 @@ impl TraverseFindings {
             memory: computer.memory(),
             log: computer.settled_log(),
             fingerprint: format!("{fingerprint:08x}"),
+            networks: None,
         };
         Ok(Self { origin, rover: flight_rover, samples, errors, outcome, flight })
     }
