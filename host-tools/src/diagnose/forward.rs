@@ -1,5 +1,6 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
+use super::mimicry::is_mimic;
 use super::residual_search::{Structure, search};
 use super::selection::{Judged, Step, TELLS_APART, step};
 use super::trial::{Bench, Trial};
@@ -8,10 +9,6 @@ use super::trial::{Bench, Trial};
 const MOST_EFFECTS: usize = 4;
 /// Most other effects that one is stated to be ambiguous with.
 const MOST_ALTERNATIVES: usize = 2;
-/// An effect is preferred to a dependence that no physics stands behind as long as it gains all but this much of ln
-/// likelihood, or all but this share.
-const PHYSICS_FIRST: (f64, f64) = (6.0, 0.3);
-
 /// What the selection came to.
 #[derive(Debug, Clone)]
 pub struct Selected<'a> {
@@ -52,11 +49,14 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         progress(&format!("effect {}", selected.found.len() + 1));
         let here = step(bench, selected.model());
         selected.left = search(bench, selected.model(), here.dispersion);
+        match selected.found.last_mut() {
+            Some(last) => last.winner.trial = here.base.clone(),
+            None => selected.base = here.base.clone(),
+        }
         if selected.found.is_empty() {
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
-        let structure = selected.left.first().filter(|structure| structure.is_significant());
-        match winner(&here, structure) {
+        match winner(bench, &here, &selected.left) {
             Some(place) => selected.found.push(found(here, place)),
             None => {
                 selected.last = Some(here);
@@ -71,13 +71,12 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
     selected
 }
 
-/// The best candidate that chance does not explain, unless a bare dependence explains much more.
-fn winner(step: &Step<'_>, structure: Option<&Structure>) -> Option<usize> {
+/// The best candidate that chance does not explain, unless a bare dependence on a column explains what it does and more.
+fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
-    let effect = step.ranking[place].score;
-    let beaten = structure
-        .is_some_and(|structure| structure.score - effect > PHYSICS_FIRST.0.max(PHYSICS_FIRST.1 * structure.score));
-    (!beaten).then_some(place)
+    let structure = structures.first().filter(|structure| structure.is_significant());
+    let mimic = structure.is_some_and(|structure| is_mimic(bench, step, &step.ranking[place].trial, structure));
+    (!mimic).then_some(place)
 }
 
 fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {

@@ -1,7 +1,9 @@
 //! A fitted model near its optimum, with terms added to its readings: cheap enough to try hundreds of them.
 
 use super::campaign_model::CampaignModel;
-use super::fit::{CHANNELS, Coordinate, Fit, FitError, Latent, Model, Options, Prediction, Reading, Row, Start, fit};
+use super::fit::{
+    CHANNELS, Coordinate, Fit, FitError, HeldOutRun, Latent, Model, Options, Prediction, Reading, Row, Start, fit,
+};
 
 /// Terms added to a channel: a value for each row, times a coefficient that is fitted.
 #[derive(Debug, Clone)]
@@ -90,6 +92,14 @@ impl<'a> Linearised<'a> {
         let mut parameters = self.parameters.clone();
         parameters.resize(model.coordinates.len(), 0.0);
         fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
+    }
+
+    /// Each run predicted without its own help, with added terms.
+    pub fn held_out(&self, added: &AddedTerms, runs: usize) -> Option<Vec<HeldOutRun>> {
+        let model = self.with(added);
+        let found = self.fit_with(added).ok()?;
+        let predict = |run: usize| found.leave_out(&model, &[run]).ok()?.runs.pop();
+        (0..runs).map(predict).collect()
     }
 }
 

@@ -16,7 +16,7 @@ pub const COLUMNS: [Channel; CHANNELS] =
     [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
 
 /// Rows beyond which those of each run are thinned.
-const MOST_ROWS: usize = 500;
+const MOST_ROWS: usize = 300;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
 const BRAKING: f64 = -0.05;
 
@@ -46,7 +46,11 @@ impl Measurements {
     /// Where the campaign lacks a column without which nothing can be said, or no row is left.
     pub fn of(campaign: &Campaign, braking: bool) -> Result<Self, HostError> {
         check_columns(campaign)?;
-        let mut reasons = [(0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"), (0, "braking")];
+        let mut reasons = [
+            (0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"),
+            (0, "braking"),
+            (0, "a sinkage beyond the wheel's radius"),
+        ];
         let mut usable = Vec::new();
         for row in 0..campaign.rows().len() {
             let readings = COLUMNS.map(|channel| campaign.value(row, channel));
@@ -54,6 +58,9 @@ impl Measurements {
                 reasons[0].0 += 1;
             } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
                 reasons[1].0 += 1;
+            } else if readings[Reading::Sinkage.index()].is_some_and(|sinkage| sinkage.abs() > campaign.wheel.radius_m)
+            {
+                reasons[2].0 += 1;
             } else {
                 usable.push((row, readings));
             }
@@ -150,19 +157,20 @@ fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
     check_units(campaign)
 }
 
-/// A sinkage beyond the wheel's radius, or slips in per cent, are in other units than the format's.
+/// A sinkage that is mostly beyond the wheel's radius is in other units than the format's. Single ones are gross errors, and
+/// are left out row by row.
 fn check_units(campaign: &Campaign) -> Result<(), HostError> {
     let radius_m = campaign.wheel.radius_m;
-    let deep = |row: &usize| campaign.value(*row, Channel::Sinkage).is_some_and(|sinkage| sinkage.abs() > radius_m);
-    if let Some(row) = (0..campaign.rows().len()).find(deep) {
-        let sinkage = campaign.value(row, Channel::Sinkage).unwrap_or(0.0);
-        return Err(campaign.error_at_row(
+    let sinkages = || (0..campaign.rows().len()).filter_map(|row| Some((row, campaign.value(row, Channel::Sinkage)?)));
+    let middle_m = median(sinkages().map(|(_, sinkage)| sinkage.abs()).collect()).unwrap_or(0.0);
+    match sinkages().find(|(_, sinkage)| sinkage.abs() > radius_m) {
+        Some((row, sinkage)) if middle_m > radius_m => Err(campaign.error_at_row(
             row,
             Channel::Sinkage,
             format!("a sinkage of {sinkage} m under a wheel of {radius_m} m radius: expected metres, 0 to the radius"),
-        ));
+        )),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// A slip, what determines the sinkage, and something to judge that by.

@@ -22,6 +22,7 @@ mod held_out_errors;
 mod levels;
 mod linearised;
 pub mod measurements;
+mod mimicry;
 mod noise;
 mod outcome;
 mod regressors;

@@ -12,6 +12,8 @@ pub struct Regressor {
     pub name: String,
     /// Its value in each row; 0 where the row does not have it.
     pub values: Vec<f64>,
+    /// Of a product, the values of what it is made of.
+    pub factors: Vec<Vec<f64>>,
     parts: Vec<String>,
 }
 
@@ -56,7 +58,9 @@ pub fn products(columns: &[Regressor]) -> Vec<Regressor> {
         for other in &columns[place + 1..] {
             let values: Vec<_> = one.values.iter().zip(&other.values).map(|(a, b)| Some(a * b)).collect();
             let parts = vec![one.name.clone(), other.name.clone()];
-            found.extend(standardised(format!("{}*{}", one.name, other.name), parts, &values));
+            let product = standardised(format!("{}*{}", one.name, other.name), parts, &values);
+            let factors = vec![one.values.clone(), other.values.clone()];
+            found.extend(product.map(|product| Regressor { factors, ..product }));
         }
     }
     found
@@ -89,7 +93,12 @@ fn standardised(name: String, parts: Vec<String>, values: &[Option<f64>]) -> Opt
     let std = (known.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
     let flat = std <= 1e-9 * mean.abs();
     let scale = |value: &Option<f64>| value.map_or(0.0, |value| (value - mean) / std);
-    (!flat && std > 0.0).then(|| Regressor { name, values: values.iter().map(scale).collect(), parts })
+    (!flat && std > 0.0).then(|| Regressor {
+        name,
+        values: values.iter().map(scale).collect(),
+        factors: Vec::new(),
+        parts,
+    })
 }
 
 /// Correlation of two columns whose means are zero.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised};
 use super::regressors::{Regressor, columns, products};
-use super::selection::{PARAMETER_COST, SIGNIFICANT, family_chance};
+use super::selection::{PARAMETER_COST, SIGNIFICANT, family_chance, gain_over};
 use super::trial::{Bench, Trial};
 
 /// A channel's dependence on a column.
@@ -15,21 +15,27 @@ pub struct Structure {
     pub channel: Reading,
     /// The column, or the product of two.
     pub regressor: String,
+    /// Greatest power of it.
+    degree: usize,
     /// Gain in ln likelihood in units of the dispersion, less the cost of the terms' coefficients.
     pub score: f64,
     /// Share of the channel's residual that follows it.
     pub share_of_variance: f64,
     /// The chance of such a gain, over all channels and columns that were tried.
     pub p_value: f64,
+    /// Gain in log predictive density on runs that the fit did not see, nats a row: of the best few, none of the others.
+    pub gain_per_row: Option<f64>,
 }
 
 impl Structure {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT
+        self.p_value < SIGNIFICANT && self.gain_per_row.is_some_and(|gain| gain > 0.0)
     }
 }
 
+/// The best few, which are judged on runs that the fit did not see.
+const JUDGED: usize = 8;
 /// Powers of one column that are tried: a line, and a curve that may turn twice.
 const DEGREES: [usize; 2] = [1, 3];
 
@@ -54,15 +60,18 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
         .collect();
     let examine = |&(channel, regressor, degree): &(Reading, &Regressor, usize)| {
         let added = AddedTerms { channel, terms: powers(regressor, degree) };
+        let terms = added.terms.len();
         let fit = linearised.fit_with(&added).ok()?;
         let prior = trial.log_prior(&fit.parameters) - trial.log_prior(&nothing.parameters);
         let gain = (fit.log_likelihood - nothing.log_likelihood + prior) / dispersion;
         Some(Structure {
             channel,
             regressor: regressor.name.clone(),
-            score: gain - PARAMETER_COST * degree as f64,
+            degree,
+            score: gain - PARAMETER_COST * terms as f64,
             share_of_variance: share(&nothing, &fit, channel),
-            p_value: family_chance(gain, degree, tries.len()),
+            p_value: family_chance(gain, terms, tries.len()),
+            gain_per_row: None,
         })
     };
     let mut found: Vec<_> = tries.par_iter().filter_map(examine).collect();
@@ -74,13 +83,34 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
         seen.push(key);
         new
     });
+    let runs = measurements.runs.len();
+    let before = linearised.held_out(&AddedTerms { channel: Reading::Sinkage, terms: Vec::new() }, runs);
+    let judge = |structure: &mut Structure| {
+        let regressor = columns.iter().chain(&products).find(|regressor| regressor.name == structure.regressor)?;
+        let after = linearised
+            .held_out(&AddedTerms { channel: structure.channel, terms: powers(regressor, structure.degree) }, runs)?;
+        structure.gain_per_row = Some(gain_over(before.as_ref()?, &after).0);
+        Some(())
+    };
+    found.par_iter_mut().take(JUDGED).for_each(|structure| {
+        judge(structure);
+    });
     found
 }
 
+/// The terms of a dependence that was found.
+pub fn terms_of(bench: &Bench<'_>, structure: &Structure) -> Option<AddedTerms> {
+    let columns = columns(bench.campaign, bench.measurements);
+    let all = products(&columns).into_iter().chain(columns);
+    let regressor = all.into_iter().find(|regressor| regressor.name == structure.regressor)?;
+    Some(AddedTerms { channel: structure.channel, terms: powers(&regressor, structure.degree) })
+}
+
+/// A constant, what a product is made of, and the powers: a column's effect seldom vanishes at the column's mean.
 fn powers(regressor: &Regressor, degree: usize) -> Vec<Vec<f64>> {
-    (1..=degree as i32)
-        .map(|power| regressor.values.iter().map(|value| value.clamp(-4.0, 4.0).powi(power)).collect())
-        .collect()
+    let constant = vec![1.0; regressor.values.len()];
+    let power = |power: i32| regressor.values.iter().map(|value| value.clamp(-4.0, 4.0).powi(power)).collect();
+    std::iter::once(constant).chain(regressor.factors.iter().cloned()).chain((1..=degree as i32).map(power)).collect()
 }
 
 /// Share of the squares of a channel's standardised residual that is gone.

@@ -18,6 +18,8 @@ pub const TELLS_APART: f64 = 3.0;
 const MISFIT: f64 = 1.5;
 /// Candidates on top of which a second effect is tried to see how far the data can be explained.
 const LEADERS: usize = 4;
+/// The chance below which any gain on runs that were not seen is enough.
+const BEYOND_DOUBT: f64 = 1e-4;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 
@@ -49,13 +51,22 @@ impl Judged<'_> {
 
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT && self.gain_per_row > HELD_OUT_ERRORS * self.gain_std
+        let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { HELD_OUT_ERRORS };
+        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
+    }
+
+    /// A parameter that the data push out of its range is not one that they support.
+    fn is_on_bound(&self) -> bool {
+        let own = self.trial.fit.parameters.len() - self.trial.added_parameters();
+        self.trial.fit.on_bound.iter().skip(own).any(|on_bound| *on_bound)
     }
 }
 
 /// What one step of the forward selection found: for each effect its best form, the best effect first.
 #[derive(Debug, Clone)]
 pub struct Step<'a> {
+    /// The model that they were added to, at its best.
+    pub base: Trial<'a>,
     /// The candidates.
     pub ranking: Vec<Judged<'a>>,
     /// The dispersion that gains are measured in, 1 or more.
@@ -66,23 +77,36 @@ pub struct Step<'a> {
 pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let all = candidates(bench.campaign, bench.measurements, &base.specification);
     let trials = trials(bench, base, &all);
-    let dispersion = dispersion(bench, base, &trials);
+    let base = polished(bench, base, &trials);
+    let dispersion = dispersion(bench, &base, &trials);
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
-    let before = held_out(bench, base);
+    let before = held_out(bench, &base);
     let judge = |trial: Trial<'a>| {
         let (gain_per_row, gain_std) = gain_over(&before, &held_out(bench, &trial));
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
         Judged { score, p_value, gain_per_row, gain_std, trial }
     };
-    let best = best_forms(base, trials, dispersion);
-    let mut ranking: Vec<_> = best.into_par_iter().map(judge).collect();
-    let misfit = is_misfit(ranking.iter().map(|judged| &judged.trial));
-    ranking.sort_by(|a, b| {
-        let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
-        key(b).total_cmp(&key(a))
-    });
-    Step { ranking, dispersion }
+    let mut all: Vec<_> = trials.into_par_iter().map(judge).collect();
+    let misfit = is_misfit(all.iter().map(|judged| &judged.trial));
+    let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
+    all.sort_by(|a, b| key(b).total_cmp(&key(a)));
+    let mut ranking: Vec<Judged<'a>> = Vec::new();
+    for judged in all {
+        if ranking.iter().all(|other| other.id() != judged.id()) {
+            ranking.push(judged);
+        }
+    }
+    Step { base, ranking, dispersion }
+}
+
+/// The base at its best: a candidate that changes nothing may still have found a better place for the others.
+fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Trial<'a> {
+    let mut leaders: Vec<_> = trials.iter().collect();
+    leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    let again = leaders.par_iter().take(LEADERS).filter_map(|leader| bench.polish(base, leader));
+    let best = again.reduce_with(|a, b| if b.log_posterior() > a.log_posterior() { b } else { a });
+    best.unwrap_or_else(|| base.clone())
 }
 
 /// The best of a shortlist of candidates, chosen as [`step`] does.
@@ -172,7 +196,7 @@ fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
 
 /// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
 /// model without an answer where that one had one has lost.
-fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
+pub fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
     let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
     let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
     let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };

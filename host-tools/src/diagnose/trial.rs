@@ -10,7 +10,7 @@ use super::specification::{EffectForm, Specification};
 use crate::data::campaign::Campaign;
 
 /// Starts of the declared model's fit.
-const STARTS: usize = 6;
+const STARTS: usize = 4;
 /// Steps of a short look at a candidate.
 const GLANCE: usize = 5;
 /// Seed of the places where they lie.
@@ -53,7 +53,7 @@ impl<'a> Bench<'a> {
     /// All runs of a campaign.
     pub fn new(campaign: &'a Campaign, measurements: &'a Measurements) -> Self {
         let mut options = Options { most_iterations: 40, ..Options::default() };
-        for reading in Reading::JUDGED {
+        for reading in Reading::ALL {
             options.estimate_noise[reading.index()] = !measurements.noise[reading.index()].stated;
         }
         if measurements.runs.len() < 3 {
@@ -108,6 +108,14 @@ impl<'a> Bench<'a> {
         }
         let offsets = fit.offset_std.map(|std| if std > 0.0 { OffsetStd::Known(std) } else { OffsetStd::None });
         Held { rows, options: Options { offsets, estimate_noise: [false; CHANNELS], ..self.options.clone() } }
+    }
+
+    /// A model fitted anew from the place where one with more parameters came to: the better of that and the fit it had.
+    pub fn polish(&self, base: &Trial<'a>, further: &Trial<'a>) -> Option<Trial<'a>> {
+        let parameters = further.fit.parameters.get(..base.fit.parameters.len())?.to_vec();
+        let start = Start { parameters, latents: further.fit.latents.clone() };
+        let fit = fit_without(&base.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
+        Some(Trial { fit, ..base.clone() }).filter(|polished| polished.log_posterior() > base.log_posterior())
     }
 
     /// A trial fitted anew to this bench's runs.
