@@ -10,6 +10,7 @@ use crate::error::HostError;
 use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
 use super::noise::{Noise, channel_noise};
+use super::settings::settle;
 
 /// The column of each reading, in the order of [`Reading::ALL`].
 pub const COLUMNS: [Channel; CHANNELS] =
@@ -112,6 +113,7 @@ impl Measurements {
                 found.rows_of_run.push(of_run);
             }
         }
+        settle(&mut found.rows, &found.rows_of_run);
         found
     }
 

@@ -29,6 +29,7 @@ mod regressors;
 mod residual_search;
 mod selection;
 mod sentence;
+mod settings;
 mod soil_coordinates;
 pub mod specification;
 pub mod trial;

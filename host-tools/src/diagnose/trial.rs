@@ -53,7 +53,7 @@ impl<'a> Bench<'a> {
     /// All runs of a campaign.
     pub fn new(campaign: &'a Campaign, measurements: &'a Measurements) -> Self {
         let mut options = Options { most_iterations: 40, ..Options::default() };
-        for reading in Reading::ALL {
+        for reading in Reading::JUDGED {
             options.estimate_noise[reading.index()] = !measurements.noise[reading.index()].stated;
         }
         if measurements.runs.len() < 3 {

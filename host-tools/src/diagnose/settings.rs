@@ -1,0 +1,152 @@
+//! Slip and load as they were set, told from how noisily they were read.
+//!
+//! A reading of a quantity that a rig holds at a level scatters about the level. Whoever takes each reading for what the
+//! wheel had, expects forces to follow the scatter, which they do not (regression dilution); the soil would then seem to
+//! resist any change of load. So readings are moved to what they tell of the true value given all the others: towards the
+//! mean of their run, where runs hold still, and of their level, as far as the scatter there is that of the noise
+//! (empirical Bayes; James and Stein's shrinkage).
+
+use super::fit::{Reading, Row};
+
+/// Rows of a run that tell its scatter.
+const ROWS_OF_RUN: usize = 3;
+/// Values of a level that tell its scatter.
+const OF_LEVEL: usize = 4;
+/// True scatter over that of the noise below which runs hold still.
+const STILL: f64 = 1.0;
+/// A gap between levels, in standard deviations of the noise.
+const GAP: f64 = 4.0;
+
+/// Moves slips and loads to what is expected of the true ones, and their noise to what is left unknown of them.
+pub fn settle(rows: &mut [Row], rows_of_run: &[Vec<usize>]) {
+    for reading in [Reading::Slip, Reading::Load] {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let still = hold_still(rows, rows_of_run, reading);
+        for run in rows_of_run {
+            let known: Vec<usize> =
+                run.iter().copied().filter(|row| rows[*row].readings[reading.index()].is_some()).collect();
+            if still && known.len() >= ROWS_OF_RUN {
+                shrink(rows, &known.iter().map(|row| vec![*row]).collect::<Vec<_>>(), reading);
+                groups.push(known);
+            } else {
+                groups.extend(known.into_iter().map(|row| vec![row]));
+            }
+        }
+        for level in levels(rows, groups, reading) {
+            if level.len() >= OF_LEVEL {
+                shrink(rows, &level, reading);
+            }
+        }
+    }
+}
+
+/// Whether the scatter within runs is mostly noise.
+fn hold_still(rows: &[Row], rows_of_run: &[Vec<usize>], reading: Reading) -> bool {
+    let (mut scatter, mut noise) = (0.0, 0.0);
+    for run in rows_of_run.iter().filter(|run| run.len() >= ROWS_OF_RUN) {
+        let values: Vec<(f64, f64)> = run.iter().filter_map(|row| value(&rows[*row], reading)).collect();
+        let mean = values.iter().map(|(value, _)| value).sum::<f64>() / values.len().max(1) as f64;
+        scatter += values.iter().map(|(value, _)| (value - mean).powi(2)).sum::<f64>();
+        noise +=
+            values.iter().map(|(_, std)| std * std).sum::<f64>() - values.first().map_or(0.0, |(_, std)| std * std);
+    }
+    noise > 0.0 && scatter < (1.0 + STILL) * noise
+}
+
+fn value(row: &Row, reading: Reading) -> Option<(f64, f64)> {
+    Some((row.readings[reading.index()]?, row.noise[reading.index()]))
+}
+
+/// Groups whose means lie closer than a gap, in one level each.
+fn levels(rows: &[Row], mut groups: Vec<Vec<usize>>, reading: Reading) -> Vec<Vec<Vec<usize>>> {
+    let middle = |group: &[usize]| mean(rows, group, reading);
+    groups.sort_by(|a, b| middle(a).0.total_cmp(&middle(b).0));
+    let mut levels: Vec<Vec<Vec<usize>>> = Vec::new();
+    for group in groups {
+        let (here, std) = middle(&group);
+        let near = levels.last().and_then(|level| level.last()).is_some_and(|last| here - middle(last).0 < GAP * std);
+        match levels.last_mut() {
+            Some(level) if near => level.push(group),
+            _ => levels.push(vec![group]),
+        }
+    }
+    levels
+}
+
+/// Mean and middling noise of a group.
+fn mean(rows: &[Row], group: &[usize], reading: Reading) -> (f64, f64) {
+    let values = group.iter().filter_map(|row| value(&rows[*row], reading));
+    let (sum, squares, count) = values
+        .fold((0.0, 0.0, 0.0), |(sum, squares, count), (value, std)| (sum + value, squares + std * std, count + 1.0));
+    (sum / f64::max(count, 1.0), (squares / f64::max(count, 1.0)).sqrt())
+}
+
+/// Moves groups towards their common mean, as far as their scatter is that of their noise.
+fn shrink(rows: &mut [Row], groups: &[Vec<usize>], reading: Reading) {
+    let count = groups.len() as f64;
+    let means: Vec<(f64, f64)> = groups.iter().map(|group| mean(rows, group, reading)).collect();
+    let common = means.iter().map(|(mean, _)| mean).sum::<f64>() / count;
+    let scatter = means.iter().map(|(mean, _)| (mean - common).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    let noise = means.iter().map(|(_, std)| std * std).sum::<f64>() / count;
+    let true_variance = (scatter - noise).max(0.0);
+    let kept = true_variance / (true_variance + noise).max(f64::MIN_POSITIVE);
+    let std = (kept * noise + noise / count).sqrt().min(noise.sqrt());
+    let channel = reading.index();
+    for (group, (mean, _)) in groups.iter().zip(&means) {
+        let moved = (1.0 - kept) * (common - mean);
+        for row in group {
+            rows[*row].readings[channel] = rows[*row].readings[channel].map(|value| value + moved);
+            rows[*row].noise[channel] = std;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::fit::CHANNELS;
+
+    fn row(run: usize, load_n: f64) -> Row {
+        let mut readings = [None; CHANNELS];
+        readings[Reading::Load.index()] = Some(load_n);
+        Row { run, readings, noise: [1.0; CHANNELS] }
+    }
+
+    fn load(row: &Row) -> (f64, f64) {
+        value(row, Reading::Load).expect("a load")
+    }
+
+    /// Scatter of less than the noise is all noise: every row at the mean, known to σ/√n.
+    #[test]
+    fn one_level_is_one_load() {
+        let mut rows: Vec<Row> =
+            [24.5, 25.5, 25.0, 24.0, 26.0].into_iter().enumerate().map(|(run, n)| row(run, n)).collect();
+        let runs: Vec<Vec<usize>> = (0..5).map(|row| vec![row]).collect();
+        settle(&mut rows, &runs);
+        assert!(rows.iter().all(|row| load(row) == (25.0, 1.0 / 5_f64.sqrt())));
+    }
+
+    /// Loads far apart are what they are.
+    #[test]
+    fn spread_loads_stay() {
+        let loads: Vec<f64> = (0..20).map(|place| 30.0 + 10.0 * f64::from(place)).collect();
+        let mut rows: Vec<Row> = loads.iter().enumerate().map(|(run, n)| row(run, *n)).collect();
+        let runs: Vec<Vec<usize>> = (0..20).map(|row| vec![row]).collect();
+        settle(&mut rows, &runs);
+        assert!(rows.iter().zip(&loads).all(|(row, load_n)| load(row) == (*load_n, 1.0)));
+    }
+
+    /// Two levels of runs that hold still: each run at its level.
+    #[test]
+    fn runs_at_two_levels() {
+        let mut rows = Vec::new();
+        for run in 0..8 {
+            let level = if run % 2 == 0 { 30.0 } else { 60.0 };
+            rows.extend([-1.0, 0.0, 1.0].map(|noise| row(run, level + noise)));
+        }
+        let runs: Vec<Vec<usize>> = (0..8).map(|run| (3 * run..3 * run + 3).collect()).collect();
+        settle(&mut rows, &runs);
+        assert!(rows.iter().all(|row| (load(row).0 - if row.run % 2 == 0 { 30.0 } else { 60.0 }).abs() < 1e-9));
+        assert!(rows.iter().all(|row| load(row).1 < 0.5));
+    }
+}
