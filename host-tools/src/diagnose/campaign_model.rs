@@ -83,6 +83,15 @@ impl<'a> CampaignModel<'a> {
         &self.effects_free
     }
 
+    /// The soil at some parameters, its stiffness all in k_φ.
+    pub fn soil(&self, parameters: &[f64]) -> Soil<f64> {
+        let mut soil = self.soil;
+        for (parameter, value) in self.soil_free.iter().zip(parameters) {
+            *parameter.place(&mut soil) = parameter.value(*value);
+        }
+        soil
+    }
+
     fn run<const N: usize>(
         &self,
         parameters: &[f64],

@@ -54,7 +54,7 @@ pub fn held_out_errors(
 }
 
 /// Runs dealt out to groups, so that neighbours, which are often alike, are in different ones.
-fn groups(runs: usize, rows: usize) -> Vec<Vec<usize>> {
+pub(super) fn groups(runs: usize, rows: usize) -> Vec<Vec<usize>> {
     let count = if runs <= FEW_RUNS && rows <= FEW_ROWS { runs } else { runs.min(GROUPS) };
     (0..count).map(|group| (group..runs).step_by(count).collect()).collect()
 }

@@ -26,7 +26,8 @@ pub struct Linearised<'a> {
 }
 
 /// The same with added terms.
-struct WithTerms<'a> {
+#[derive(Debug, Clone)]
+pub struct WithTerms<'a> {
     base: &'a Linearised<'a>,
     added: &'a AddedTerms,
     coordinates: Vec<Coordinate>,
@@ -62,24 +63,8 @@ impl<'a> Linearised<'a> {
         })
     }
 
-    /// A fit with added terms.
-    ///
-    /// # Errors
-    /// See [`FitError`].
-    pub fn fit_with(&self, added: &AddedTerms) -> Result<Fit, FitError> {
-        let (model, start) = self.with(added);
-        fit(&model, self.rows, &start, &self.options)
-    }
-
-    /// Each run predicted without its own help, with added terms.
-    pub fn held_out(&self, added: &AddedTerms, runs: usize) -> Option<Vec<HeldOutRun>> {
-        let (model, start) = self.with(added);
-        let found = fit(&model, self.rows, &start, &self.options).ok()?;
-        let predict = |run: usize| found.leave_out(&model, &[run]).ok()?.runs.pop();
-        (0..runs).map(predict).collect()
-    }
-
-    fn with<'b>(&'b self, added: &'b AddedTerms) -> (WithTerms<'b>, Start) {
+    /// The model with added terms.
+    pub fn with<'b>(&'b self, added: &'b AddedTerms) -> WithTerms<'b> {
         let mut coordinates = self.coordinates.clone();
         for index in 0..added.terms.len() {
             coordinates.push(Coordinate {
@@ -90,9 +75,31 @@ impl<'a> Linearised<'a> {
                 prior: None,
             });
         }
+        WithTerms { base: self, added, coordinates }
+    }
+
+    /// What the fit expects of a reading in each row.
+    pub fn expected(&self, reading: Reading) -> impl Iterator<Item = f64> {
+        self.predictions.iter().map(move |prediction| prediction.value[reading.index()])
+    }
+
+    /// A fit with added terms.
+    ///
+    /// # Errors
+    /// See [`FitError`].
+    pub fn fit_with(&self, added: &AddedTerms) -> Result<Fit, FitError> {
+        let model = self.with(added);
         let mut parameters = self.parameters.clone();
-        parameters.resize(coordinates.len(), 0.0);
-        (WithTerms { base: self, added, coordinates }, Start { parameters, latents: self.latents.clone() })
+        parameters.resize(model.coordinates.len(), 0.0);
+        fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
+    }
+
+    /// Each run predicted without its own help, with added terms.
+    pub fn held_out(&self, added: &AddedTerms, runs: usize) -> Option<Vec<HeldOutRun>> {
+        let model = self.with(added);
+        let found = self.fit_with(added).ok()?;
+        let predict = |run: usize| found.leave_out(&model, &[run]).ok()?.runs.pop();
+        (0..runs).map(predict).collect()
     }
 }
 

@@ -9,7 +9,7 @@ use super::trial::{Bench, Trial};
 /// What the dependence must still gain in ln likelihood beside the effect to be more than the effect is.
 const MORE: f64 = 6.0;
 /// What the effect must still gain beside the dependence to be more than its mimic.
-const OWN: f64 = 3.0;
+const OWN: f64 = 6.0;
 
 /// Each is added to the model beside the other. An effect that then gains nothing of its own, while the dependence still
 /// gains much, only mimics it. An effect that is real carries over to every channel, and its mimics gain nothing beside it.

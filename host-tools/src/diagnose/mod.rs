@@ -3,17 +3,23 @@
 //! As data flow: `measurements` of a campaign and a `specification` of effects make a `campaign_model`, which `fit` fits;
 //! `trial` holds both. `selection` fits every one of the `candidates` on top of a model and tests it against chance;
 //! `residual_search` does the same with every column as it stands; `forward` adds what earns its place. `held_out_errors` does
-//! it all again without some runs, to predict those; `assemble` writes the `document`. Beside all that, `force_channels` holds
-//! loads that are set and side forces that should be none against what sensors follow, without any model of the soil.
+//! it all again without some runs, to predict those; `formula_search` looks for a law of what is left; `assemble` writes the
+//! `document`. Beside all that, `force_channels` holds loads that are set and side forces that should be none against what
+//! sensors follow, without any model of the soil.
 
 mod assemble;
 pub mod campaign_model;
 mod candidates;
 mod caveats;
+mod curvature;
 mod declared_file;
 pub mod document;
 pub mod fit;
 pub mod force_channels;
+mod formula;
+mod formula_groups;
+mod formula_screen;
+mod formula_search;
 mod forward;
 mod held_out_errors;
 mod levels;

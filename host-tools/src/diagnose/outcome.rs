@@ -2,9 +2,11 @@
 
 use super::assemble::assemble;
 use super::candidates::is_measured;
+use super::curvature::{add_curvature, curvature};
 use super::document::Diagnosis;
 use super::fit::{CHANNELS, Reading};
 use super::force_channels;
+use super::formula_search::law;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
@@ -87,13 +89,23 @@ pub fn diagnose(
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
     let campaign = apart.as_ref().unwrap_or(campaign);
     let measurements = Measurements::of(campaign, options.braking)?;
-    let bench = Bench::new(campaign, &measurements);
     progress("declared model");
+    let first = declared_model(&Bench::new(campaign, &measurements))?;
+    let bends = curvature(&first, &measurements);
+    drop(first);
+    let mut measurements = measurements;
+    add_curvature(&mut measurements, &bends);
+    let bench = Bench::new(campaign, &measurements);
     let base = declared_model(&bench)?;
     let selected = select(&bench, base, progress);
     let errors = held_out_errors(&bench, &selected.base, &shortlists(&selected), progress);
     let levels = levels_left_out(&measurements, &selected);
     let mut document = assemble(campaign, &measurements, &selected, &errors, levels, &by_themselves);
+    if let Some(structure) = selected.left.first() {
+        progress("a law of no list");
+        let dispersion = selected.last.as_ref().map_or(1.0, |step| step.dispersion);
+        document.found_law = law(&bench, selected.model(), structure, dispersion);
+    }
     if single {
         document.caveats.insert(0, ONE_RUN.to_owned());
     }

@@ -67,11 +67,12 @@ pub fn products(columns: &[Regressor]) -> Vec<Regressor> {
 }
 
 /// Columns that say how a channel scattered within a window are results, not causes.
-fn is_scatter(name: &str) -> bool {
+pub(super) fn is_scatter(name: &str) -> bool {
     name.contains("_sd") || name.contains("std")
 }
 
-fn value(campaign: &Campaign, name: &str, place: usize) -> Option<f64> {
+/// What a column says in a row of the campaign.
+pub(super) fn value(campaign: &Campaign, name: &str, place: usize) -> Option<f64> {
     if name == Channel::Time.name() {
         Some(campaign.rows().get(place)?.t_s)
     } else {
@@ -100,7 +101,8 @@ fn standardised(name: String, parts: Vec<String>, values: &[Option<f64>]) -> Opt
     })
 }
 
-fn correlation(a: &[f64], b: &[f64]) -> f64 {
+/// Correlation of two columns whose means are zero.
+pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
     product / (squares(a) * squares(b)).sqrt().max(f64::MIN_POSITIVE)

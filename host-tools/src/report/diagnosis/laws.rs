@@ -20,7 +20,7 @@ pub fn cards(findings: &DiagnosisFindings) -> Markup {
                     h3 { "A formula, found and not understood" }
                     div class="value formula" { (law.formula) }
                     p class="verdict" { "for " (Quantity::of_column(&law.channel).name.to_lowercase()) }
-                    p { "coefficient " (with_std(law.coefficient, 1.0)) ", gain " (significant(law.gain_per_row, 2)) " nats a row" }
+                    p { "coefficient " (with_std(law.coefficient, 1.0)) ", gain " (significant(law.gain_per_row, 2)) " nats a row on held-out runs" }
                 }
             }
         }

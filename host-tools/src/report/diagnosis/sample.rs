@@ -87,8 +87,8 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
         }],
         found_law: Some(FoundLaw {
             channel: "side_force_n".to_owned(),
-            formula: "0.21 N × hours_since_zero^½ × (1 − slip)".to_owned(),
-            coefficient: Estimate { value: 0.21, std: 0.05 },
+            formula: "side_force_n += 0.014 W sqrt(hours_since_zero/1 h)".to_owned(),
+            coefficient: Estimate { value: 0.014, std: 0.003 },
             gain_per_row: 0.19,
         }),
         channels: BTreeMap::from([

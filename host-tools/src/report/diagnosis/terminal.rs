@@ -2,7 +2,7 @@
 
 use comfy_table::Table;
 
-use super::figures::{beside_noise, change, probability, significant};
+use super::figures::{beside_noise, change, probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::laws::parameters;
 use super::quantity::Quantity;
@@ -127,9 +127,9 @@ fn left(diagnosis: &Diagnosis) -> String {
     }
     if let Some(law) = &diagnosis.found_law {
         let line = format!(
-            "found, not understood: {} in {} explains it, gain {}",
+            "found, not understood: {} (coefficient {}, gain {} nats a row on held-out runs)",
             law.formula,
-            law.channel,
+            with_std(law.coefficient, 1.0),
             significant(law.gain_per_row, 2)
         );
         text += &wrapped("", &line);
@@ -153,6 +153,7 @@ mod tests {
             "−73 %",
             "load-stiffening",
             "side_force_n follows hours_since_zero",
+            "found, not understood: side_force_n",
             "Rows not used: 12",
             "force-drift, side force with hours: side_force_n_per_h = 0.23 ± 0.05 N/h, gain 0.47",
         ] {

@@ -1,0 +1,157 @@
+//! The dimensionless groups of a campaign's rows, and the scale that makes a channel of one.
+
+use kapvik_firmware::terramechanics::Soil;
+
+use crate::data::campaign::{Campaign, Channel};
+
+use super::fit::Reading;
+use super::formula::{Group, figure, rounded};
+use super::linearised::Linearised;
+use super::measurements::median;
+use super::regressors::{correlation, is_scatter, value};
+use super::trial::{Bench, Trial};
+
+/// Share of the rows that must have a column.
+const KNOWN_SHARE: f64 = 0.8;
+/// Spread over size below which a column does not vary.
+const FLAT: f64 = 1e-3;
+/// Correlation beyond which two groups say the same.
+const SAME: f64 = 0.999;
+/// Degrees of temperature that count as one.
+const DEGREES: f64 = 10.0;
+
+/// What makes a channel of a dimensionless number.
+#[derive(Debug, Clone)]
+pub struct Scale {
+    /// How it is written.
+    pub symbol: &'static str,
+    /// Its value in each row, in the channel's unit.
+    pub values: Vec<f64>,
+}
+
+/// The scale of a channel: the load for forces, with the radius for a torque, the radius for a sinkage.
+pub fn scale(bench: &Bench<'_>, trial: &Trial<'_>, channel: Reading) -> Scale {
+    let radius_m = bench.campaign.wheel.radius_m;
+    let loads = loads(bench, trial);
+    match channel {
+        Reading::Torque => Scale { symbol: "r W", values: loads.iter().map(|load| radius_m * load).collect() },
+        Reading::Sinkage => Scale { symbol: "r", values: vec![radius_m; loads.len()] },
+        _ => Scale { symbol: "W", values: loads },
+    }
+}
+
+/// Every group that the campaign's columns allow, those of the columns in `first` before all others.
+pub fn groups(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>, first: &[&str]) -> Vec<Group> {
+    let mut all = of_contact(bench, trial, linearised);
+    let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
+    let contact = [Channel::Slip, Channel::Load, Channel::Sinkage];
+    let known = Channel::ALL.into_iter().filter(|channel| !results.contains(channel) && !contact.contains(channel));
+    all.extend(known.flat_map(|channel| of_channel(bench, channel)));
+    let others = bench.campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name));
+    all.extend(others.filter_map(|name| of_unknown(name, &column(bench, name)?)));
+    all.sort_by_key(|group| !first.contains(&group.column.as_str()));
+    let mut found: Vec<Group> = Vec::new();
+    for group in all.into_iter().filter(varies) {
+        if !found.iter().any(|other| correlation(&centred(other), &centred(&group)).abs() > SAME) {
+            found.push(group);
+        }
+    }
+    found
+}
+
+/// The load of each row: as measured, else as the fit has it.
+fn loads(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<f64> {
+    let rows = bench.measurements.rows.iter().zip(&trial.fit.latents);
+    rows.map(|(row, latent)| row.readings[Reading::Load.index()].unwrap_or(latent.load_n)).collect()
+}
+
+/// Slip, sinkage and load. The sinkage is the model's: errors of a measured one would be common to both sides of a law.
+fn of_contact(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>) -> Vec<Group> {
+    let wheel = &bench.campaign.wheel;
+    let Soil { sinkage_exponent, frictional_modulus, .. } = trial.model.soil(&trial.fit.parameters);
+    let reference_n = frictional_modulus * wheel.width_m * wheel.radius_m.powf(1.0 + sinkage_exponent);
+    let rows = bench.measurements.rows.iter().zip(&trial.fit.latents);
+    let slips = rows.map(|(row, latent)| row.readings[Reading::Slip.index()].unwrap_or(latent.slip)).collect();
+    let sinkages = linearised.expected(Reading::Sinkage).map(|sinkage_m| sinkage_m / wheel.radius_m).collect();
+    let loads = loads(bench, trial).iter().map(|load| load / reference_n).collect();
+    vec![
+        group("slip".to_owned(), Channel::Slip.name(), slips),
+        group("(z/r)".to_owned(), Channel::Sinkage.name(), sinkages),
+        group("(W/(k b r^(1+n)))".to_owned(), Channel::Load.name(), loads),
+    ]
+}
+
+/// The groups of a column that the format names.
+fn of_channel(bench: &Bench<'_>, channel: Channel) -> Vec<Group> {
+    let name = channel.name();
+    let Some(values) = column(bench, name) else { return Vec::new() };
+    let of = |symbol: String, law: &dyn Fn(f64) -> f64| {
+        group(symbol, name, values.iter().map(|value| law(*value)).collect())
+    };
+    let middle = rounded(median(values.clone()).unwrap_or(0.0));
+    let typical = rounded(median(values.iter().map(|value| value.abs()).collect()).unwrap_or(0.0));
+    let radius_m = bench.campaign.wheel.radius_m;
+    match channel {
+        Channel::Temperature => {
+            let symbol = format!("(({name} - {})/{DEGREES})", figure(middle));
+            vec![of(symbol, &|value| (value - middle) / DEGREES)]
+        }
+        Channel::Pass => vec![of(format!("({name} - 1)"), &|value| value - 1.0)],
+        Channel::HoursSinceZero => vec![of(format!("({name}/1 h)"), &|value| value)],
+        Channel::Travel => vec![of(format!("({name}/r)"), &|value| value / radius_m)],
+        Channel::Pitch | Channel::SlipAngle => vec![of(name.to_owned(), &|value| value)],
+        Channel::WheelAngle => {
+            let wave = |symbol: &str, law: &dyn Fn(f64) -> f64| Group {
+                has_shapes: false,
+                ..of(format!("{symbol}({name})"), law)
+            };
+            vec![wave("sin", &f64::sin), wave("cos", &f64::cos)]
+        }
+        _ if typical > 0.0 => vec![of(format!("({name}/{})", figure(typical)), &|value| value / typical)],
+        _ => Vec::new(),
+    }
+}
+
+/// The group of a column that the format does not name: over its middle size, or about its mean where it changes sign.
+fn of_unknown(name: &str, values: &[f64]) -> Option<Group> {
+    let both = values.iter().any(|value| *value < 0.0) && values.iter().any(|value| *value > 0.0);
+    let (from, over) = if both {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        (rounded(mean), rounded((values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()))
+    } else {
+        (0.0, rounded(median(values.iter().map(|value| value.abs()).collect())?))
+    };
+    let symbol = match from {
+        0.0 => format!("({name}/{})", figure(over)),
+        below if below < 0.0 => format!("(({name} + {})/{})", figure(-below), figure(over)),
+        _ => format!("(({name} - {})/{})", figure(from), figure(over)),
+    };
+    (over > 0.0).then(|| group(symbol, name, values.iter().map(|value| (value - from) / over).collect()))
+}
+
+/// A column's value in each row, its middle one where it is not known; none where that is often.
+fn column(bench: &Bench<'_>, name: &str) -> Option<Vec<f64>> {
+    let known: Vec<_> = bench.measurements.places.iter().map(|place| of_row(bench.campaign, name, *place)).collect();
+    let middle = median(known.iter().flatten().copied().collect())?;
+    let share = known.iter().flatten().count() as f64 / known.len() as f64;
+    (share >= KNOWN_SHARE).then(|| known.into_iter().map(|value| value.unwrap_or(middle)).collect())
+}
+
+fn of_row(campaign: &Campaign, name: &str, place: usize) -> Option<f64> {
+    value(campaign, name, place).filter(|value| value.is_finite())
+}
+
+fn group(symbol: String, column: &str, values: Vec<f64>) -> Group {
+    Group { symbol, column: column.to_owned(), values, has_shapes: true }
+}
+
+fn varies(group: &Group) -> bool {
+    let size = group.values.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    centred(group).iter().any(|value| value.abs() > FLAT * size)
+}
+
+fn centred(group: &Group) -> Vec<f64> {
+    let mean = group.values.iter().sum::<f64>() / group.values.len() as f64;
+    group.values.iter().map(|value| value - mean).collect()
+}
