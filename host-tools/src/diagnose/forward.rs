@@ -9,6 +9,9 @@ use super::trial::{Bench, Trial};
 const MOST_EFFECTS: usize = 4;
 /// Most other effects that one is stated to be ambiguous with.
 const MOST_ALTERNATIVES: usize = 2;
+/// Bare dependences that an effect is held against.
+const SUSPECTS: usize = 3;
+
 /// What the selection came to.
 #[derive(Debug, Clone)]
 pub struct Selected<'a> {
@@ -71,11 +74,15 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
     selected
 }
 
-/// The best candidate that chance does not explain, unless a bare dependence on a column explains what it does and more.
+/// The best candidate that chance does not explain, unless a bare dependence on a column explains what it does and more:
+/// one of those that the model without it shows, or of those that it leaves.
 fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
-    let structure = structures.first().filter(|structure| structure.is_significant());
-    let mimic = structure.is_some_and(|structure| is_mimic(bench, step, &step.ranking[place].trial, structure));
+    let effect = &step.ranking[place].trial;
+    let left = search(bench, effect, step.dispersion);
+    let shown = structures.iter().filter(|structure| structure.is_significant()).take(SUSPECTS);
+    let left = left.iter().filter(|structure| structure.is_significant()).take(SUSPECTS);
+    let mimic = shown.chain(left).any(|structure| is_mimic(bench, step, effect, structure));
     (!mimic).then_some(place)
 }
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised};
 use super::regressors::{Regressor, columns, products};
-use super::selection::{PARAMETER_COST, SIGNIFICANT, family_chance, gain_over};
+use super::selection::{PARAMETER_COST, family_chance, gain_over};
 use super::trial::{Bench, Trial};
 
 /// A channel's dependence on a column.
@@ -30,10 +30,13 @@ pub struct Structure {
 impl Structure {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT && self.gain_per_row.is_some_and(|gain| gain > 0.0)
+        self.p_value < SIGNIFICANT_STRUCTURE && self.gain_per_row.is_some_and(|gain| gain > 0.0)
     }
 }
 
+/// The chance, over all channels and columns, below which a dependence is taken for one. Less than for an effect: behind an
+/// effect stands an equation that was written before the data.
+const SIGNIFICANT_STRUCTURE: f64 = 0.001;
 /// The best few, which are judged on runs that the fit did not see.
 const JUDGED: usize = 8;
 /// Powers of one column that are tried: a line, and a curve that may turn twice.

@@ -9,7 +9,7 @@ use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 
 /// The chance, over all candidates, below which a gain is taken for an effect.
-pub const SIGNIFICANT: f64 = 0.01;
+pub const SIGNIFICANT: f64 = 0.005;
 /// What a free parameter must gain in ln likelihood to be worth itself.
 pub const PARAMETER_COST: f64 = 1.5;
 /// Difference in ln likelihood below which two candidates are not told apart: odds of one to twenty.
