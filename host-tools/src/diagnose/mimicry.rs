@@ -16,10 +16,10 @@ const OWN: f64 = 6.0;
 pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structure: &Structure) -> bool {
     let Some(added) = terms_of(bench, structure) else { return false };
     let nothing = AddedTerms { channel: structure.channel, terms: Vec::new() };
-    let held = bench.held(&step.base.fit);
     let fitted = |trial: &Trial<'_>, added: &AddedTerms| {
         let measurements = bench.measurements;
-        let about = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options)?;
+        let rows = &measurements.rows;
+        let about = Linearised::about(&trial.model, &trial.fit, rows, &measurements.rows_of_run, &bench.options)?;
         let found = about.fit_with(added).ok()?;
         Some(log_posterior(trial, &found))
     };

@@ -1,11 +1,12 @@
 //! Structure in a residual: whether a channel follows a column, known or unknown, more than chance and a refit explain.
 
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised};
 use super::regressors::{Regressor, columns, products};
-use super::selection::{PARAMETER_COST, family_chance, gain_over};
+use super::selection::{PARAMETER_COST, gain_over};
 use super::trial::{Bench, Trial};
 
 /// A channel's dependence on a column.
@@ -23,7 +24,7 @@ pub struct Structure {
     pub share_of_variance: f64,
     /// The chance of such a gain, over all channels and columns that were tried.
     pub p_value: f64,
-    /// Gain in log predictive density on runs that the fit did not see, nats a row: of the best few, none of the others.
+    /// Gain in log predictive density on runs that the fit did not see, nats a row.
     pub gain_per_row: Option<f64>,
 }
 
@@ -37,23 +38,37 @@ impl Structure {
 /// The chance, over all channels and columns, below which a dependence is taken for one. Less than for an effect: behind an
 /// effect stands an equation that was written before the data.
 const SIGNIFICANT_STRUCTURE: f64 = 0.001;
-/// The best few, which are judged on runs that the fit did not see.
-const JUDGED: usize = 8;
+/// The best of each channel that are looked at again.
+const OF_CHANNEL: usize = 8;
 /// Powers of one column that are tried: a line, and a curve that may turn twice.
 const DEGREES: [usize; 2] = [1, 3];
 
 /// Every channel against every column and every product of two, refitted with the model's parameters; the best first. One
 /// entry a channel and column.
 pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Structure> {
+    let columns = columns(bench.campaign, bench.measurements);
+    let products = products(&columns);
+    let all: Vec<_> = columns.iter().chain(&products).collect();
+    let (screened, tried) = screen(bench, trial, dispersion, &columns, &products).unwrap_or_default();
+    let looked_at = second_look(bench, trial, dispersion, &all, screened, tried);
+    let mut found = looked_at.unwrap_or_default();
+    found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    found
+}
+
+/// All of them at the model's own scales of noise and offsets, which is quick: the best of each channel, and how many were
+/// tried.
+fn screen(
+    bench: &Bench<'_>,
+    trial: &Trial<'_>,
+    dispersion: f64,
+    columns: &[Regressor],
+    products: &[Regressor],
+) -> Option<(Vec<Structure>, usize)> {
     let measurements = bench.measurements;
     let held = bench.held(&trial.fit);
-    let about = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options);
-    let Some(linearised) = about else { return Vec::new() };
-    let Ok(nothing) = linearised.fit_with(&AddedTerms { channel: Reading::Sinkage, terms: Vec::new() }) else {
-        return Vec::new();
-    };
-    let columns = columns(bench.campaign, measurements);
-    let products = products(&columns);
+    let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options)?;
+    let nothing = linearised.fit_with(&no_terms()).ok()?;
     let channels = Reading::JUDGED.into_iter().filter(|channel| measurements.has(*channel));
     let singles = columns.iter().flat_map(|column| DEGREES.map(|degree| (column, degree)));
     let all: Vec<_> = singles.chain(products.iter().map(|product| (product, 1))).collect();
@@ -63,42 +78,91 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
         .collect();
     let examine = |&(channel, regressor, degree): &(Reading, &Regressor, usize)| {
         let added = AddedTerms { channel, terms: powers(regressor, degree) };
-        let terms = added.terms.len();
         let fit = linearised.fit_with(&added).ok()?;
-        let prior = trial.log_prior(&fit.parameters) - trial.log_prior(&nothing.parameters);
-        let gain = (fit.log_likelihood - nothing.log_likelihood + prior) / dispersion;
         Some(Structure {
             channel,
             regressor: regressor.name.clone(),
             degree,
-            score: gain - PARAMETER_COST * terms as f64,
+            score: gain(trial, &nothing, &fit) / dispersion - PARAMETER_COST * added.terms.len() as f64,
             share_of_variance: share(&nothing, &fit, channel),
-            p_value: family_chance(gain, terms, tries.len()),
+            p_value: 1.0,
             gain_per_row: None,
         })
     };
     let mut found: Vec<_> = tries.par_iter().filter_map(examine).collect();
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let mut seen = Vec::new();
+    let mut seen: Vec<(Reading, String)> = Vec::new();
     found.retain(|structure| {
         let key = (structure.channel, structure.regressor.clone());
-        let new = !seen.contains(&key);
-        seen.push(key);
-        new
+        let in_channel = seen.iter().filter(|(channel, _)| *channel == structure.channel).count();
+        let wanted = in_channel < OF_CHANNEL && !seen.contains(&key);
+        seen.extend(wanted.then_some(key));
+        wanted
     });
-    let runs = measurements.runs.len();
-    let before = linearised.held_out(&AddedTerms { channel: Reading::Sinkage, terms: Vec::new() }, runs);
-    let judge = |structure: &mut Structure| {
-        let regressor = columns.iter().chain(&products).find(|regressor| regressor.name == structure.regressor)?;
-        let after = linearised
-            .held_out(&AddedTerms { channel: structure.channel, terms: powers(regressor, structure.degree) }, runs)?;
-        structure.gain_per_row = Some(gain_over(before.as_ref()?, &after).0);
-        Some(())
+    Some((found, tries.len()))
+}
+
+/// The best again, with the scales of noise and offsets as they are beside them: an offset of each run that is really a
+/// dependence hides it from the first look. And on runs that the fit did not see.
+fn second_look(
+    bench: &Bench<'_>,
+    trial: &Trial<'_>,
+    dispersion: f64,
+    regressors: &[&Regressor],
+    screened: Vec<Structure>,
+    tried: usize,
+) -> Option<Vec<Structure>> {
+    let measurements = bench.measurements;
+    let (rows, runs) = (&measurements.rows, measurements.runs.len());
+    let linearised = Linearised::about(&trial.model, &trial.fit, rows, &measurements.rows_of_run, &bench.options)?;
+    let nothing = linearised.fit_with(&no_terms()).ok()?;
+    let before = linearised.held_out(&no_terms(), runs)?;
+    let look = |structure: Structure| {
+        let regressor = regressors.iter().find(|regressor| regressor.name == structure.regressor)?;
+        let added = AddedTerms { channel: structure.channel, terms: powers(regressor, structure.degree) };
+        let terms = added.terms.len();
+        let fit = linearised.fit_with(&added).ok()?;
+        let gain = gain(trial, &nothing, &fit) / dispersion;
+        let after = linearised.held_out(&added, runs)?;
+        Some(Structure {
+            score: gain - PARAMETER_COST * terms as f64,
+            p_value: chance_of(gain, terms, observations(bench, &nothing, structure.channel), tried),
+            gain_per_row: Some(gain_over(&before, &after).0),
+            ..structure
+        })
     };
-    found.par_iter_mut().take(JUDGED).for_each(|structure| {
-        judge(structure);
-    });
-    found
+    Some(screened.into_par_iter().filter_map(look).collect())
+}
+
+fn no_terms() -> AddedTerms {
+    AddedTerms { channel: Reading::Sinkage, terms: Vec::new() }
+}
+
+/// Gain in ln likelihood and Gaussian priors.
+fn gain(trial: &Trial<'_>, before: &Fit, after: &Fit) -> f64 {
+    after.log_likelihood - before.log_likelihood + trial.log_prior(&after.parameters)
+        - trial.log_prior(&before.parameters)
+}
+
+/// What a channel's scale is estimated from: its runs, where they have offsets of their own, else its rows.
+fn observations(bench: &Bench<'_>, fit: &Fit, channel: Reading) -> usize {
+    if fit.offset_std[channel.index()] > 0.0 {
+        return bench.measurements.runs.len();
+    }
+    bench.measurements.rows.iter().filter(|row| row.readings[channel.index()].is_some()).count()
+}
+
+/// The chance, over all that were tried, of a gain where the scale is estimated beside it: the likelihood ratio as the F
+/// ratio that it is for a linear model.
+fn chance_of(gain: f64, terms: usize, observations: usize, tried: usize) -> f64 {
+    let (terms, count) = (terms as f64, observations as f64);
+    let left = count - terms - 1.0;
+    if left < 1.0 {
+        return 1.0;
+    }
+    let ratio = ((2.0 * gain.max(0.0) / count).min(300.0).exp_m1()) * left / terms;
+    let chance = FisherSnedecor::new(terms, left).map_or(1.0, |law| law.sf(ratio));
+    -(f64::ln_1p(-chance.clamp(0.0, 1.0 - 1e-12)) * tried as f64).exp_m1()
 }
 
 /// The terms of a dependence that was found.
