@@ -38,6 +38,8 @@ impl Structure {
 /// The chance, over all channels and columns, below which a dependence is taken for one. Less than for an effect: behind an
 /// effect stands an equation that was written before the data.
 const SIGNIFICANT_STRUCTURE: f64 = 0.001;
+/// Fewest observations for each coefficient of a dependence.
+const PER_TERM: f64 = 4.0;
 /// The best of each channel that are looked at again.
 const OF_CHANNEL: usize = 8;
 /// Powers of one column that are tried: a line, and a curve that may turn twice.
@@ -156,10 +158,10 @@ fn observations(bench: &Bench<'_>, fit: &Fit, channel: Reading) -> usize {
 /// ratio that it is for a linear model.
 fn chance_of(gain: f64, terms: usize, observations: usize, tried: usize) -> f64 {
     let (terms, count) = (terms as f64, observations as f64);
-    let left = count - terms - 1.0;
-    if left < 1.0 {
+    if count < PER_TERM * terms {
         return 1.0;
     }
+    let left = count - terms - 1.0;
     let ratio = ((2.0 * gain.max(0.0) / count).min(300.0).exp_m1()) * left / terms;
     let chance = FisherSnedecor::new(terms, left).map_or(1.0, |law| law.sf(ratio));
     -(f64::ln_1p(-chance.clamp(0.0, 1.0 - 1e-12)) * tried as f64).exp_m1()
