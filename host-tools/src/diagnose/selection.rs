@@ -55,10 +55,13 @@ impl Judged<'_> {
         self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
     }
 
-    /// A parameter that the data push out of its range is not one that they support.
+    /// A size that the data push out of its range is not one that they support. Of the parameters that only shape an effect
+    /// the data may well know only a side.
     fn is_on_bound(&self) -> bool {
-        let own = self.trial.fit.parameters.len() - self.trial.added_parameters();
-        self.trial.fit.on_bound.iter().skip(own).any(|on_bound| *on_bound)
+        let model = &self.trial.model;
+        let size = self.effect().and_then(|effect| Some((effect.info.id, *effect.form.free.first()?)));
+        let place = model.effect_parameters().iter().position(|parameter| Some(*parameter) == size);
+        place.is_some_and(|place| self.trial.fit.on_bound.get(model.soil_count() + place).copied().unwrap_or(false))
     }
 }
 

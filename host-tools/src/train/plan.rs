@@ -35,7 +35,7 @@ impl Plan {
 
     /// A run of a minute or two a network: enough to compare by what the networks know of the world.
     pub fn medium(seed: u32) -> Self {
-        Self { scenes: 160_000, held_out: 20_000, rover_epochs: 70, wheel_epochs: 15, ..Self::full(seed) }
+        Self { scenes: 120_000, held_out: 20_000, rover_epochs: 60, wheel_epochs: 15, ..Self::full(seed) }
     }
 
     /// A run of seconds, to see that everything works; its table is not worth flying.
