@@ -15,6 +15,17 @@ const SAND: Soil<f64> = table_1_sand();
 const GROUSERS: Grousers<f64> = Grousers { height_m: 0.005, count: 24.0 };
 const LOAD_N: f64 = 65.4;
 const SLIPS: [f64; 3] = [0.1, 0.3, 0.6];
+const EVERYTHING_KNOWN: Conditions<f64> = Conditions {
+    pass: Some(2.0),
+    temperature_c: Some(31.0),
+    hours_since_zero: Some(3.0),
+    speed_m_s: Some(0.015),
+    wheel_rate_rad_s: Some(0.3),
+    wheel_angle_rad: Some(12.3),
+    travel_m: Some(0.4),
+    pitch_rad: Some(0.1),
+    slip_angle_rad: Some(0.2),
+};
 
 fn on_sand(effects: &Effects<f64>) -> WheelOnSoil<'_, f64> {
     WheelOnSoil {
@@ -122,17 +133,7 @@ fn lateral_slip() {
 /// Without effects, and with every effect at its neutral parameters, the states are those of equations 1–11.
 #[test]
 fn neutral_effects_are_the_seed() {
-    let conditions = Conditions {
-        pass: Some(2.0),
-        temperature_c: Some(31.0),
-        hours_since_zero: Some(3.0),
-        speed_m_s: Some(0.015),
-        wheel_rate_rad_s: Some(0.3),
-        wheel_angle_rad: Some(12.3),
-        travel_m: Some(0.4),
-        pitch_rad: Some(0.1),
-        slip_angle_rad: Some(0.2),
-    };
+    let conditions = EVERYTHING_KNOWN;
     for slip in [-0.6, -0.1, 0.0, 0.1, 0.4, 0.8] {
         let sinkage_m = sinkage_for_load(&WHEEL, &SAND, slip, LOAD_N).expect("carried");
         let seed = wheel_forces(&WHEEL, &SAND, slip, sinkage_m).expect("in range");
@@ -165,17 +166,7 @@ fn neutral_effects_are_the_seed() {
 /// Every parameter of every form is known, in its range, and changes something where its columns are given.
 #[test]
 fn every_form_is_whole() {
-    let conditions = Conditions {
-        pass: Some(2.0),
-        temperature_c: Some(31.0),
-        hours_since_zero: Some(3.0),
-        speed_m_s: Some(0.015),
-        wheel_rate_rad_s: Some(0.3),
-        wheel_angle_rad: Some(12.3),
-        travel_m: Some(0.04),
-        pitch_rad: Some(0.1),
-        slip_angle_rad: Some(0.2),
-    };
+    let conditions = EVERYTHING_KNOWN;
     assert_eq!(CATALOGUE.len(), 22);
     for info in CATALOGUE {
         for form in info.forms {

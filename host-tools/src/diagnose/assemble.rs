@@ -159,14 +159,7 @@ fn ends_apart(measurements: &Measurements, errors: &HeldOutErrors) -> Option<End
     if !(4..=FEW_RUNS).contains(&count) {
         return None;
     }
-    let slip = |run: usize| {
-        let slips = measurements.rows_of_run[run]
-            .iter()
-            .filter_map(|row| measurements.rows[*row].readings[Reading::Slip.index()]);
-        let (sum, count) = slips.fold((0.0, 0.0), |(sum, count), slip| (sum + slip, count + 1.0));
-        sum / f64::max(count, 1.0)
-    };
-    let by_slip = |a: &usize, b: &usize| slip(*a).total_cmp(&slip(*b));
+    let by_slip = |a: &usize, b: &usize| measurements.mean_slip(*a).total_cmp(&measurements.mean_slip(*b));
     let ends = [(0..count).min_by(by_slip)?, (0..count).max_by(by_slip)?];
     let at_end = |row: usize| ends.contains(&measurements.rows[row].run);
     Some(EndsApart {

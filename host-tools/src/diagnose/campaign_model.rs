@@ -136,42 +136,65 @@ fn blank_soil() -> Soil<f64> {
     }
 }
 
-/// The model at a place of its parameters, plainly and with derivatives.
+/// A wheel, its soil and its effects in one scalar.
+struct Site<S> {
+    wheel: Wheel<S>,
+    grousers: Grousers<S>,
+    soil: Soil<S>,
+    effects: Effects<S>,
+    gravity_m_s2: S,
+}
+
+impl<S: Scalar> Site<S> {
+    fn on_soil(&self) -> WheelOnSoil<'_, S> {
+        WheelOnSoil {
+            wheel: &self.wheel,
+            grousers: &self.grousers,
+            soil: &self.soil,
+            effects: &self.effects,
+            gravity_m_s2: self.gravity_m_s2,
+            quadrature: Quadrature::FLIGHT,
+        }
+    }
+
+    fn map<T>(&self, convert: impl Fn(S) -> T + Copy) -> Site<T> {
+        Site {
+            wheel: self.wheel.map(convert),
+            grousers: self.grousers.map(convert),
+            soil: self.soil.map(convert),
+            effects: self.effects.map(convert),
+            gravity_m_s2: convert(self.gravity_m_s2),
+        }
+    }
+}
+
+/// The model at a place of its parameters: plainly, with the derivative by the sinkage, and with all derivatives.
 struct Place<const N: usize> {
-    wheel: Wheel<f64>,
-    grousers: Grousers<f64>,
-    gravity_m_s2: f64,
-    soil: Soil<f64>,
-    effects: Effects<f64>,
-    dual_soil: Soil<Dual<N>>,
-    dual_effects: Effects<Dual<N>>,
+    plain: Site<f64>,
+    by_sinkage: Site<Dual<1>>,
+    by_all: Site<Dual<N>>,
     count: usize,
 }
 
 impl<const N: usize> Place<N> {
     fn new(model: &CampaignModel<'_>, parameters: &[f64]) -> Self {
-        let (mut soil, mut effects) = (model.soil, model.effects);
-        let mut dual_soil = soil.map(Dual::constant);
-        let mut dual_effects = effects.map(Dual::constant);
+        let mut plain = Site {
+            wheel: model.wheel,
+            grousers: model.grousers,
+            soil: model.soil(parameters),
+            effects: model.effects,
+            gravity_m_s2: model.gravity_m_s2,
+        };
+        let mut by_all = plain.map(Dual::constant);
         for (slot, (parameter, &value)) in model.soil_free.iter().zip(parameters).enumerate() {
-            *parameter.place(&mut soil) = parameter.value(value);
-            *parameter.place(&mut dual_soil) = parameter.value(Dual::variable(value, slot));
+            *parameter.place(&mut by_all.soil) = parameter.value(Dual::variable(value, slot));
         }
         for (offset, (id, name)) in model.effects_free.iter().enumerate() {
             let slot = model.soil_free.len() + offset;
-            effects.set(id, name, parameters[slot]);
-            dual_effects.set(id, name, Dual::variable(parameters[slot], slot));
+            plain.effects.set(id, name, parameters[slot]);
+            by_all.effects.set(id, name, Dual::variable(parameters[slot], slot));
         }
-        Self {
-            wheel: model.wheel,
-            grousers: model.grousers,
-            gravity_m_s2: model.gravity_m_s2,
-            soil,
-            effects,
-            dual_soil,
-            dual_effects,
-            count: parameters.len(),
-        }
+        Self { by_sinkage: plain.map(Dual::constant), plain, by_all, count: parameters.len() }
     }
 
     const SLIP: usize = N - 3;
@@ -186,9 +209,7 @@ impl<const N: usize> Place<N> {
     ) -> Option<Prediction> {
         let (truth, sinkage_m) = self.truth(conditions, latent)?;
         latent.sinkage_m = sinkage_m;
-        let (wheel, grousers) = (self.wheel.map(Dual::constant), self.grousers.map(Dual::constant));
-        let on_soil = self.on_soil(&wheel, &grousers);
-        let readings = on_soil.readings(&conditions.map(Dual::constant), &truth, memory);
+        let readings = self.by_all.on_soil().readings(&conditions.map(Dual::constant), &truth, memory);
         forget_latents::<N>(memory);
         Some(self.prediction(&readings))
     }
@@ -196,12 +217,11 @@ impl<const N: usize> Place<N> {
     /// The true state at a slip and a load, with its derivatives by parameters, slip and load; and the sinkage.
     fn truth(&self, conditions: &Conditions<f64>, latent: &Latent) -> Option<(WheelTruth<Dual<N>>, f64)> {
         let guess_m = self.sinkage(conditions, latent)?;
-        let (wheel, grousers) = (self.wheel.map(Dual::constant), self.grousers.map(Dual::constant));
-        let on_soil = self.on_soil(&wheel, &grousers);
         let slip = Dual::variable(latent.slip, Self::SLIP);
         let load_n = Dual::variable(latent.load_n, Self::LOAD);
         let sinkage = Dual::variable(guess_m, Self::SINKAGE);
-        let found = on_soil.forces(&conditions.map(Dual::constant), slip, load_n, sinkage).ok()?;
+        let conditions = conditions.map(Dual::constant);
+        let found = self.by_all.on_soil().forces(&conditions, slip, load_n, sinkage).ok()?;
         let by_sinkage = found.load_n.slopes[Self::SINKAGE];
         if by_sinkage.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             return None;
@@ -237,20 +257,11 @@ impl<const N: usize> Place<N> {
     /// The sinkage at which the soil carries the load, nearly: Newton's method on ln W over ln z from the last one, else the
     /// bracketed solve.
     fn sinkage(&self, conditions: &Conditions<f64>, latent: &Latent) -> Option<f64> {
-        let (wheel, grousers) = (self.wheel.map(Dual::constant), self.grousers.map(Dual::constant));
-        let (soil, effects) = (self.soil.map(Dual::<1>::constant), self.effects.map(Dual::<1>::constant));
-        let on_soil = WheelOnSoil {
-            wheel: &wheel,
-            grousers: &grousers,
-            soil: &soil,
-            effects: &effects,
-            gravity_m_s2: Dual::constant(self.gravity_m_s2),
-            quadrature: Quadrature::FLIGHT,
-        };
+        let on_soil = self.by_sinkage.on_soil();
         let conditions_here = conditions.map(Dual::constant);
         let (slip, load_n) = (Dual::constant(latent.slip), Dual::constant(latent.load_n));
-        let bottom_m = BOTTOM * self.wheel.radius_m;
-        let mut sinkage_m = latent.sinkage_m.clamp(1e-4 * self.wheel.radius_m, bottom_m);
+        let bottom_m = BOTTOM * self.plain.wheel.radius_m;
+        let mut sinkage_m = latent.sinkage_m.clamp(1e-4 * self.plain.wheel.radius_m, bottom_m);
         for _ in 0..STEPS {
             let found = on_soil.forces(&conditions_here, slip, load_n, Dual::variable(sinkage_m, 0)).ok()?.load_n;
             let by_ln_sinkage = found.slopes[0] * sinkage_m;
@@ -263,26 +274,8 @@ impl<const N: usize> Place<N> {
             }
             sinkage_m = (sinkage_m * step.clamp(-1.0, 1.0).exp()).min(bottom_m);
         }
-        let plainly = WheelOnSoil {
-            wheel: &self.wheel,
-            grousers: &self.grousers,
-            soil: &self.soil,
-            effects: &self.effects,
-            gravity_m_s2: self.gravity_m_s2,
-            quadrature: Quadrature::FLIGHT,
-        };
+        let plainly = self.plain.on_soil();
         plainly.at_load(conditions, latent.slip, latent.load_n).ok().map(|truth| truth.sinkage_m)
-    }
-
-    fn on_soil<'b>(&'b self, wheel: &'b Wheel<Dual<N>>, grousers: &'b Grousers<Dual<N>>) -> WheelOnSoil<'b, Dual<N>> {
-        WheelOnSoil {
-            wheel,
-            grousers,
-            soil: &self.dual_soil,
-            effects: &self.dual_effects,
-            gravity_m_s2: Dual::constant(self.gravity_m_s2),
-            quadrature: Quadrature::FLIGHT,
-        }
     }
 
     fn prediction(&self, readings: &Readings<Dual<N>>) -> Prediction {

@@ -1,6 +1,6 @@
 //! What a reader of a diagnosis should know about its data.
 
-use crate::data::campaign::{Campaign, Knowledge};
+use crate::data::campaign::Campaign;
 
 use super::fit::Reading;
 use super::forward::Selected;
@@ -57,32 +57,25 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
             dispersion.sqrt()
         ));
     }
-    said.extend(untold(campaign, selected));
+    said.extend(untold(selected));
     said
 }
 
 /// The soil's parameters about which the data say next to nothing.
-fn untold(campaign: &Campaign, selected: &Selected<'_>) -> Option<String> {
+fn untold(selected: &Selected<'_>) -> Option<String> {
     let trial = selected.model();
     let coordinates = super::fit::Model::coordinates(&trial.model);
-    let is_untold = |(place, parameter): &(usize, &SoilParameter)| {
+    let is_untold = |(place, _): &(usize, &SoilParameter)| {
         let coordinate = &coordinates[*place];
         let width = coordinate.prior.map_or((coordinate.high - coordinate.low) / f64::sqrt(12.0), |(_, std)| std);
         let std = trial.fit.covariance[(*place, *place)].max(0.0).sqrt();
-        std > TOLD * width
-            || trial.fit.on_bound.get(*place).copied().unwrap_or(false)
-            || is_exact(campaign, **parameter)
+        std > TOLD * width || trial.fit.on_bound.get(*place).copied().unwrap_or(false)
     };
     let free = trial.model.soil_parameters().iter().enumerate();
     let names: Vec<_> = free.filter(is_untold).map(|(_, parameter)| parameter.key()).collect();
     (!names.is_empty()).then(|| {
         format!("These data say little or nothing of {}: what stands there is the prior or a bound.", names.join(", "))
     })
-}
-
-fn is_exact(campaign: &Campaign, parameter: SoilParameter) -> bool {
-    parameter == SoilParameter::ReboundRatio
-        && matches!(campaign.ground.rebound_ratio, Some(Knowledge::Value { std, .. }) if std == 0.0)
 }
 
 /// The least and the greatest reading.

@@ -23,6 +23,13 @@ pub struct HeldOutErrors {
     pub after: Vec<[Option<f64>; CHANNELS]>,
 }
 
+impl HeldOutErrors {
+    /// Those of rows of which none is predicted yet.
+    pub fn none_yet(rows: usize) -> Self {
+        Self { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] }
+    }
+}
+
 /// Leaves out each group of runs in turn: fits the declared model to the others, chooses as many effects as were found among
 /// those that came near on all runs, and predicts the group.
 pub fn held_out_errors(
@@ -44,8 +51,7 @@ pub fn held_out_errors(
         Some((predicted(&before)?, predicted(&after)?))
     };
     let predictions: Vec<_> = groups.par_iter().filter_map(predict).collect();
-    let rows = bench.measurements.rows.len();
-    let mut errors = HeldOutErrors { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] };
+    let mut errors = HeldOutErrors::none_yet(bench.measurements.rows.len());
     for (before, after) in &predictions {
         note(before, &mut errors.before);
         note(after, &mut errors.after);

@@ -2,7 +2,6 @@
 
 use super::assemble::error_pairs;
 use super::document::LevelsLeftOut;
-use super::fit::{CHANNELS, Reading};
 use super::forward::Selected;
 use super::held_out_errors::{HeldOutErrors, note};
 use super::measurements::Measurements;
@@ -17,8 +16,7 @@ const MOST_LEVELS: usize = 12;
 /// several runs. The effects are those that all runs chose.
 pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> Option<LevelsLeftOut> {
     let levels = levels(measurements)?;
-    let rows = measurements.rows.len();
-    let mut errors = HeldOutErrors { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] };
+    let mut errors = HeldOutErrors::none_yet(measurements.rows.len());
     for (_, runs) in &levels {
         let predict = |trial: &Trial<'_>| trial.fit.leave_out_exact(&trial.model, runs).ok();
         note(&predict(&selected.base)?, &mut errors.before);
@@ -31,11 +29,9 @@ pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> 
 /// Mean slip and runs of each level, where the runs each stay at one.
 fn levels(measurements: &Measurements) -> Option<Vec<(f64, Vec<usize>)>> {
     let mut runs: Vec<(f64, usize)> = Vec::new();
-    for (run, rows) in measurements.rows_of_run.iter().enumerate() {
-        let slips: Vec<f64> =
-            rows.iter().filter_map(|row| measurements.rows[*row].readings[Reading::Slip.index()]).collect();
-        let mean = slips.iter().sum::<f64>() / slips.len() as f64;
-        if slips.iter().any(|slip| (slip - mean).abs() > SAME_LEVEL) {
+    for run in 0..measurements.runs.len() {
+        let mean = measurements.mean_slip(run);
+        if measurements.slips(run).any(|slip| (slip - mean).abs() > SAME_LEVEL) {
             return None;
         }
         runs.push((mean, run));

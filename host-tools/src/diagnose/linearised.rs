@@ -94,10 +94,9 @@ impl<'a> Linearised<'a> {
         fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
     }
 
-    /// Each run predicted without its own help, with added terms.
-    pub fn held_out(&self, added: &AddedTerms, runs: usize) -> Option<Vec<HeldOutRun>> {
+    /// Each run predicted without its own help by a fit with added terms.
+    pub fn held_out(&self, added: &AddedTerms, found: &Fit, runs: usize) -> Option<Vec<HeldOutRun>> {
         let model = self.with(added);
-        let found = self.fit_with(added).ok()?;
         let predict = |run: usize| found.leave_out(&model, &[run]).ok()?.runs.pop();
         (0..runs).map(predict).collect()
     }

@@ -122,6 +122,16 @@ impl Measurements {
         self.rows.iter().any(|row| row.readings[reading.index()].is_some())
     }
 
+    /// The slips of a run.
+    pub fn slips(&self, run: usize) -> impl Iterator<Item = f64> {
+        self.rows_of_run[run].iter().filter_map(|row| self.rows[*row].readings[Reading::Slip.index()])
+    }
+
+    /// Mean slip of a run; every row that is used has one.
+    pub fn mean_slip(&self, run: usize) -> f64 {
+        self.slips(run).sum::<f64>() / self.slips(run).count() as f64
+    }
+
     /// The middle one of a reading's values.
     pub fn median(&self, reading: Reading) -> Option<f64> {
         median(self.rows.iter().filter_map(|row| row.readings[reading.index()]).collect())

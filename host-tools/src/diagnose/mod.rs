@@ -11,6 +11,7 @@ mod assemble;
 pub mod campaign_model;
 mod candidates;
 mod caveats;
+mod chance;
 mod curvature;
 mod declared_file;
 pub mod document;

@@ -88,12 +88,9 @@ pub fn diagnose(
     let by_themselves = force_channels::examine(campaign);
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
     let campaign = apart.as_ref().unwrap_or(campaign);
-    let measurements = Measurements::of(campaign, options.braking)?;
+    let mut measurements = Measurements::of(campaign, options.braking)?;
     progress("declared model");
-    let first = declared_model(&Bench::new(campaign, &measurements))?;
-    let bends = curvature(&first, &measurements);
-    drop(first);
-    let mut measurements = measurements;
+    let bends = curvature(&declared_model(&Bench::new(campaign, &measurements))?, &measurements);
     add_curvature(&mut measurements, &bends);
     let bench = Bench::new(campaign, &measurements);
     let base = declared_model(&bench)?;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
+use super::chance::over_all;
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised};
 use super::regressors::{Regressor, columns, products};
@@ -16,8 +17,8 @@ pub struct Structure {
     pub channel: Reading,
     /// The column, or the product of two.
     pub regressor: String,
-    /// Greatest power of it.
-    degree: usize,
+    /// The terms by which it was fitted.
+    pub added: AddedTerms,
     /// Gain in ln likelihood in units of the dispersion, less the cost of the terms' coefficients.
     pub score: f64,
     /// Share of the channel's residual that follows it.
@@ -48,26 +49,18 @@ const DEGREES: [usize; 2] = [1, 3];
 /// Every channel against every column and every product of two, refitted with the model's parameters; the best first. One
 /// entry a channel and column.
 pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Structure> {
-    let columns = columns(bench.campaign, bench.measurements);
-    let products = products(&columns);
-    let all: Vec<_> = columns.iter().chain(&products).collect();
-    let (screened, tried) = screen(bench, trial, dispersion, &columns, &products).unwrap_or_default();
-    let looked_at = second_look(bench, trial, dispersion, &all, screened, tried);
-    let mut found = looked_at.unwrap_or_default();
+    let (screened, tried) = screen(bench, trial, dispersion).unwrap_or_default();
+    let mut found = second_look(bench, trial, dispersion, screened, tried).unwrap_or_default();
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     found
 }
 
 /// All of them at the model's own scales of noise and offsets, which is quick: the best of each channel, and how many were
 /// tried.
-fn screen(
-    bench: &Bench<'_>,
-    trial: &Trial<'_>,
-    dispersion: f64,
-    columns: &[Regressor],
-    products: &[Regressor],
-) -> Option<(Vec<Structure>, usize)> {
+fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<Structure>, usize)> {
     let measurements = bench.measurements;
+    let columns = columns(bench.campaign, measurements);
+    let products = products(&columns);
     let held = bench.held(&trial.fit);
     let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options)?;
     let nothing = linearised.fit_with(&no_terms()).ok()?;
@@ -84,11 +77,11 @@ fn screen(
         Some(Structure {
             channel,
             regressor: regressor.name.clone(),
-            degree,
             score: gain(trial, &nothing, &fit) / dispersion - PARAMETER_COST * added.terms.len() as f64,
             share_of_variance: share(&nothing, &fit, channel),
             p_value: 1.0,
             gain_per_row: None,
+            added,
         })
     };
     let mut found: Vec<_> = tries.par_iter().filter_map(examine).collect();
@@ -110,7 +103,6 @@ fn second_look(
     bench: &Bench<'_>,
     trial: &Trial<'_>,
     dispersion: f64,
-    regressors: &[&Regressor],
     screened: Vec<Structure>,
     tried: usize,
 ) -> Option<Vec<Structure>> {
@@ -118,14 +110,12 @@ fn second_look(
     let (rows, runs) = (&measurements.rows, measurements.runs.len());
     let linearised = Linearised::about(&trial.model, &trial.fit, rows, &measurements.rows_of_run, &bench.options)?;
     let nothing = linearised.fit_with(&no_terms()).ok()?;
-    let before = linearised.held_out(&no_terms(), runs)?;
+    let before = linearised.held_out(&no_terms(), &nothing, runs)?;
     let look = |structure: Structure| {
-        let regressor = regressors.iter().find(|regressor| regressor.name == structure.regressor)?;
-        let added = AddedTerms { channel: structure.channel, terms: powers(regressor, structure.degree) };
-        let terms = added.terms.len();
-        let fit = linearised.fit_with(&added).ok()?;
+        let terms = structure.added.terms.len();
+        let fit = linearised.fit_with(&structure.added).ok()?;
         let gain = gain(trial, &nothing, &fit) / dispersion;
-        let after = linearised.held_out(&added, runs)?;
+        let after = linearised.held_out(&structure.added, &fit, runs)?;
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
             p_value: chance_of(gain, terms, observations(bench, &nothing, structure.channel), tried),
@@ -164,15 +154,7 @@ fn chance_of(gain: f64, terms: usize, observations: usize, tried: usize) -> f64 
     let left = count - terms - 1.0;
     let ratio = ((2.0 * gain.max(0.0) / count).min(300.0).exp_m1()) * left / terms;
     let chance = FisherSnedecor::new(terms, left).map_or(1.0, |law| law.sf(ratio));
-    -(f64::ln_1p(-chance.clamp(0.0, 1.0 - 1e-12)) * tried as f64).exp_m1()
-}
-
-/// The terms of a dependence that was found.
-pub fn terms_of(bench: &Bench<'_>, structure: &Structure) -> Option<AddedTerms> {
-    let columns = columns(bench.campaign, bench.measurements);
-    let all = products(&columns).into_iter().chain(columns);
-    let regressor = all.into_iter().find(|regressor| regressor.name == structure.regressor)?;
-    Some(AddedTerms { channel: structure.channel, terms: powers(&regressor, structure.degree) })
+    over_all(chance, tried)
 }
 
 /// A constant, what a product is made of, and the powers: a column's effect seldom vanishes at the column's mean.

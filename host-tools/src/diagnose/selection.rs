@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::candidates::candidates;
+use super::chance::over_all;
 use super::fit::HeldOutRun;
 use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
@@ -116,14 +117,13 @@ fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Tr
 pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[EffectForm]) -> Option<Trial<'a>> {
     let new = |form: &&EffectForm| !base.specification.has(form.info.id);
     let trials: Vec<_> = shortlist.iter().filter(new).filter_map(|form| bench.with_effect(base, form)).collect();
-    let key = |trial: &Trial<'a>| trial.log_posterior() - PARAMETER_COST * trial.added_parameters() as f64;
     if is_misfit(trials.iter()) {
         let before = held_out(bench, base);
         let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
         let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
         return judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial);
     }
-    trials.into_iter().max_by(|a, b| key(a).total_cmp(&key(b)))
+    trials.into_iter().max_by(|a, b| worth(a).total_cmp(&worth(b)))
 }
 
 /// Whether more than one effect is missing. The best fit that one of them can have then says little, and what it does on runs
@@ -137,7 +137,7 @@ fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
 fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Trial<'a>> {
     let held = bench.held(&base.fit);
     let glances: Vec<_> = all.par_iter().filter_map(|form| bench.glance(&held, base, form)).collect();
-    let mut best = best_forms(base, glances, 1.0);
+    let mut best = best_forms(glances);
     best.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
     let form = |trial: &Trial<'_>| trial.specification.effects.last().cloned();
     let leaders: Vec<_> = best.iter().take(LEADERS).filter_map(form).collect();
@@ -147,16 +147,18 @@ fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Tr
     chosen.par_iter().filter_map(|form| bench.with_effect(base, form)).collect()
 }
 
-/// Of each effect the form that gains most, less the cost of its parameters.
-fn best_forms<'a>(base: &Trial<'a>, trials: Vec<Trial<'a>>, dispersion: f64) -> Vec<Trial<'a>> {
+/// What candidates on top of the same model are compared by: ln posterior, less the cost of what the last effect frees.
+fn worth(trial: &Trial<'_>) -> f64 {
+    trial.log_posterior() - PARAMETER_COST * trial.added_parameters() as f64
+}
+
+/// Of each effect the form that is worth most.
+fn best_forms(trials: Vec<Trial<'_>>) -> Vec<Trial<'_>> {
     let id = |trial: &Trial<'_>| trial.specification.effects.last().map(|effect| effect.info.id);
-    let score = |trial: &Trial<'_>| {
-        (trial.log_posterior() - base.log_posterior()) / dispersion - PARAMETER_COST * trial.added_parameters() as f64
-    };
-    let mut best: Vec<Trial<'a>> = Vec::new();
+    let mut best: Vec<Trial<'_>> = Vec::new();
     for trial in trials {
         match best.iter_mut().find(|other| id(other) == id(&trial)) {
-            Some(other) if score(other) < score(&trial) => *other = trial,
+            Some(other) if worth(other) < worth(&trial) => *other = trial,
             Some(_) => {}
             None => best.push(trial),
         }
@@ -186,8 +188,7 @@ fn dispersion<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> 
 /// The chance that the best of `tried` candidates that change nothing gains so much in ln likelihood.
 pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
     let chance = ChiSquared::new(parameters.max(1) as f64).map_or(1.0, |law| law.sf(2.0 * gain.max(0.0)));
-    // 1 − (1 − p)^m, without losing a small p.
-    -(f64::ln_1p(-chance.min(1.0 - 1e-12)) * tried as f64).exp_m1()
+    over_all(chance, tried)
 }
 
 /// Each run (or each row, of a campaign of one run) predicted without its own help.

@@ -23,27 +23,21 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
         format!("the declared model ({})", document.declared.join(", "))
     };
     let of = &campaign.name;
+    let left = document.unexplained.first().map(|left| format!("{} against {}", left.channel, left.regressor));
     match document.verdict {
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
         }
-        Verdict::Unexplained => format!(
-            "{of}: {model} leave structure in {} that no known effect explains.",
-            document
-                .unexplained
-                .first()
-                .map_or_else(String::new, |left| format!("{} against {}", left.channel, left.regressor))
-        ),
+        Verdict::Unexplained => {
+            format!("{of}: {model} leave structure in {} that no known effect explains.", left.unwrap_or_default())
+        }
         Verdict::Effect | Verdict::Ambiguous => {
             let found: Vec<_> = document.effects.iter().map(|effect| what(&effect.id)).collect();
             let or = match document.ambiguous_with.as_slice() {
                 [] => String::new(),
                 others => format!(" (these data do not tell it from {})", others.join(" or ")),
             };
-            let left = document.unexplained.first();
-            let left = left.map_or_else(String::new, |left| {
-                format!("; structure is left in {} against {}", left.channel, left.regressor)
-            });
+            let left = left.map_or_else(String::new, |left| format!("; structure is left in {left}"));
             let first = found.first().cloned().unwrap_or_default();
             let then = if found.len() > 1 { format!("; then {}", found[1..].join("; then ")) } else { String::new() };
             format!("{of}: {model} lack {first}{or}{then}{left}.")

@@ -44,12 +44,14 @@ impl Specification {
         let mut found = vec![Self::default()];
         for declared in &campaign.declared.effects {
             let given = |form: &&Form| declared.known.keys().all(|name| is_part(form, name));
-            let any = declared.info.forms.iter().any(|form| measured(form) && given(&form));
-            let forms: Vec<_> = match declared.form {
+            let all = declared.info.forms.iter();
+            let mut forms: Vec<_> = match declared.form {
                 Some(form) => vec![form],
-                None if any => declared.info.forms.iter().filter(|form| measured(form) && given(form)).collect(),
-                None => declared.info.forms.iter().take(1).collect(),
+                None => all.clone().filter(|form| measured(form) && given(form)).collect(),
             };
+            if forms.is_empty() {
+                forms.extend(all.take(1));
+            }
             let known = &declared.known;
             let with = |form| EffectForm { info: declared.info, form, known: known.clone() };
             found = forms.iter().flat_map(|form| found.iter().map(|spec| spec.with(with(form)))).collect();

@@ -80,21 +80,20 @@ impl<'a> Bench<'a> {
 
     /// A model with one more effect, from the fit of that without.
     pub fn with_effect(&self, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
-        let specification = base.specification.with(effect.clone());
-        let model = CampaignModel::new(self.campaign, self.measurements, &specification);
-        let start = base.start_of(&model);
-        let fit = fit_without(&model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
-        Some(Trial { specification, model, fit })
+        self.extended(base, effect, &self.measurements.rows, &self.options)
     }
 
     /// A short look at a model with one more effect: a few steps, with the scales of noise and offsets that the model without
     /// it has.
     pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
+        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
+        self.extended(base, effect, &held.rows, &options)
+    }
+
+    fn extended(&self, base: &Trial<'a>, effect: &EffectForm, rows: &[Row], options: &Options) -> Option<Trial<'a>> {
         let specification = base.specification.with(effect.clone());
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
-        let start = base.start_of(&model);
-        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
-        let fit = fit_without(&model, &held.rows, &self.without, &start, &options).ok()?;
+        let fit = fit_without(&model, rows, &self.without, &base.start_of(&model), options).ok()?;
         Some(Trial { specification, model, fit })
     }
 
@@ -112,17 +111,20 @@ impl<'a> Bench<'a> {
 
     /// A model fitted anew from the place where one with more parameters came to: the better of that and the fit it had.
     pub fn polish(&self, base: &Trial<'a>, further: &Trial<'a>) -> Option<Trial<'a>> {
-        let parameters = further.fit.parameters.get(..base.fit.parameters.len())?.to_vec();
-        let start = Start { parameters, latents: further.fit.latents.clone() };
-        let fit = fit_without(&base.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
-        Some(Trial { fit, ..base.clone() }).filter(|polished| polished.log_posterior() > base.log_posterior())
+        let polished = self.fitted_from(base, &further.fit)?;
+        Some(polished).filter(|polished| polished.log_posterior() > base.log_posterior())
     }
 
     /// A trial fitted anew to this bench's runs.
     pub fn refit(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
-        let start = Start { parameters: trial.fit.parameters.clone(), latents: trial.fit.latents.clone() };
-        let rows = &self.measurements.rows;
-        let fit = fit_without(&trial.model, rows, &self.without, &start, &self.options).ok()?;
+        self.fitted_from(trial, &trial.fit)
+    }
+
+    /// A model fitted from where a fit of it, or of one with more parameters behind its own, came to.
+    fn fitted_from(&self, trial: &Trial<'a>, place: &Fit) -> Option<Trial<'a>> {
+        let parameters = place.parameters.get(..trial.fit.parameters.len())?.to_vec();
+        let start = Start { parameters, latents: place.latents.clone() };
+        let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
         Some(Trial { fit, ..trial.clone() })
     }
 }

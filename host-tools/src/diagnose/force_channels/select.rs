@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use kapvik_firmware::terramechanics::effects::effect_info;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use super::super::chance::over_all;
 use super::super::document::{Estimate, FoundEffect};
 use super::super::selection::{SIGNIFICANT, TELLS_APART};
 use super::ForceChannels;
@@ -94,7 +95,7 @@ fn chance(t: f64, degrees_of_freedom: f64, tried: usize) -> Option<f64> {
         return None;
     }
     let alone = 2.0 * StudentsT::new(0.0, 1.0, degrees_of_freedom).ok()?.sf(t.abs());
-    Some(-(f64::ln_1p(-alone.min(1.0 - 1e-12)) * tried as f64).exp_m1())
+    Some(over_all(alone, tried))
 }
 
 /// Whether a parameter lies where the catalogue says that it makes sense.

@@ -14,6 +14,7 @@ use crate::replay::{REASONS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
+use crate::report::legend::entry;
 use crate::report::page::head;
 use crate::report::parameter::Parameter;
 use crate::trial::errors::Errors;
@@ -137,10 +138,6 @@ fn legend(findings: &TraverseFindings, soil: bool) -> Markup {
             }
         }
     }
-}
-
-fn entry(words: &str, mark: &Markup) -> Markup {
-    html! { li { svg width="40" height="16" viewBox="0 0 40 16" aria-hidden="true" { (mark) } (words) } }
 }
 
 fn error_table(errors: &Errors) -> Markup {
