@@ -3,11 +3,13 @@
 //! `no_std`, no allocator, no panic path. The host tools run this same library, and get the same bits.
 #![cfg_attr(not(test), no_std)]
 
+pub mod dual;
 pub mod estimator;
 pub mod filter;
 pub mod fingerprint;
 pub mod frozen;
 pub mod fusion;
+pub mod identification;
 pub mod link;
 pub mod math;
 pub mod network;

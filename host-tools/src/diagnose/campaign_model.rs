@@ -1,12 +1,12 @@
 //! A campaign's declared model, with more effects where they are tried: what it predicts of each row, and how that changes with
 //! every parameter.
 
+use kapvik_firmware::dual::Dual;
 use kapvik_firmware::scalar::Scalar;
 use kapvik_firmware::terramechanics::effects::{Conditions, Effects, Grousers};
 use kapvik_firmware::terramechanics::{Memory, Quadrature, Readings, Soil, Wheel, WheelOnSoil, WheelTruth};
 
 use crate::data::campaign::Campaign;
-use crate::limit::dual::Dual;
 
 use super::fit::{CHANNELS, Coordinate, Latent, Model, Prediction};
 use super::measurements::{Measurements, grousers};
@@ -171,8 +171,8 @@ impl<S: Scalar> Site<S> {
 /// The model at a place of its parameters: plainly, with the derivative by the sinkage, and with all derivatives.
 struct Place<const N: usize> {
     plain: Site<f64>,
-    by_sinkage: Site<Dual<1>>,
-    by_all: Site<Dual<N>>,
+    by_sinkage: Site<Dual<f64, 1>>,
+    by_all: Site<Dual<f64, N>>,
     count: usize,
 }
 
@@ -205,7 +205,7 @@ impl<const N: usize> Place<N> {
         &self,
         conditions: &Conditions<f64>,
         latent: &mut Latent,
-        memory: &mut Memory<Dual<N>>,
+        memory: &mut Memory<Dual<f64, N>>,
     ) -> Option<Prediction> {
         let (truth, sinkage_m) = self.truth(conditions, latent)?;
         latent.sinkage_m = sinkage_m;
@@ -215,7 +215,7 @@ impl<const N: usize> Place<N> {
     }
 
     /// The true state at a slip and a load, with its derivatives by parameters, slip and load; and the sinkage.
-    fn truth(&self, conditions: &Conditions<f64>, latent: &Latent) -> Option<(WheelTruth<Dual<N>>, f64)> {
+    fn truth(&self, conditions: &Conditions<f64>, latent: &Latent) -> Option<(WheelTruth<Dual<f64, N>>, f64)> {
         let guess_m = self.sinkage(conditions, latent)?;
         let slip = Dual::variable(latent.slip, Self::SLIP);
         let load_n = Dual::variable(latent.load_n, Self::LOAD);
@@ -233,7 +233,7 @@ impl<const N: usize> Place<N> {
         let missing = load_n - carried;
         let by_each: [f64; N] = std::array::from_fn(|slot| missing.slopes[slot] / by_sinkage);
         let step_m = missing.value / by_sinkage;
-        let settle = |channel: Dual<N>| {
+        let settle = |channel: Dual<f64, N>| {
             let by = channel.slopes[Self::SINKAGE];
             let mut settled = channel;
             settled.value += by * step_m;
@@ -278,7 +278,7 @@ impl<const N: usize> Place<N> {
         plainly.at_load(conditions, latent.slip, latent.load_n).ok().map(|truth| truth.sinkage_m)
     }
 
-    fn prediction(&self, readings: &Readings<Dual<N>>) -> Prediction {
+    fn prediction(&self, readings: &Readings<Dual<f64, N>>) -> Prediction {
         let channels = in_order(readings);
         let by = |slot: usize| -> [f64; CHANNELS] { std::array::from_fn(|channel| channels[channel].slopes[slot]) };
         Prediction {
@@ -303,7 +303,7 @@ fn in_order<S: Copy>(readings: &Readings<S>) -> [S; CHANNELS] {
 }
 
 /// Slip and load of a row are not those of the next: what the memory carries on depends on the parameters alone.
-fn forget_latents<const N: usize>(memory: &mut Memory<Dual<N>>) {
+fn forget_latents<const N: usize>(memory: &mut Memory<Dual<f64, N>>) {
     if let Some((sinkage_m, _)) = &mut memory.lagging {
         sinkage_m.slopes[N - 3..].fill(0.0);
     }

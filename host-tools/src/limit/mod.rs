@@ -16,7 +16,6 @@ pub mod case;
 pub mod coordinates;
 pub mod density;
 pub mod diagnostics;
-pub mod dual;
 pub mod mode;
 pub mod posterior;
 pub mod response;

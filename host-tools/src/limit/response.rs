@@ -1,11 +1,11 @@
 //! What a wheel does where its slip and its load are given, and how that changes with them and with the soil.
 
+use kapvik_firmware::dual::Dual;
 use kapvik_firmware::scalar::Scalar;
 use kapvik_firmware::terramechanics::{Soil, Wheel, wheel_forces};
 use nalgebra::{SMatrix, Vector3};
 
 use super::coordinates::{Coordinates, DIMENSION, slopes_at, soil_at};
-use super::dual::Dual;
 
 /// Drawbar pull (N), torque (N·m) and sinkage (m), in this order.
 pub type Channels = Vector3<f64>;
@@ -68,8 +68,8 @@ fn at_load(
     soil: &Soil<f64>,
     slip: f64,
     missing_n: f64,
-    channels: &[Dual<VARIABLES>; 3],
-    load: &Dual<VARIABLES>,
+    channels: &[Dual<f64, VARIABLES>; 3],
+    load: &Dual<f64, VARIABLES>,
 ) -> Response {
     let by = |variable: usize| Channels::from(channels.map(|channel| channel.slopes[variable]));
     let by_load = by(SINKAGE) / load.slopes[SINKAGE];
@@ -99,9 +99,9 @@ fn forces(
     soil: &Soil<f64>,
     slip: f64,
     sinkage_m: f64,
-) -> Option<([Dual<VARIABLES>; 3], Dual<VARIABLES>)> {
-    let constant = Dual::<VARIABLES>::constant;
-    let variable = Dual::<VARIABLES>::variable;
+) -> Option<([Dual<f64, VARIABLES>; 3], Dual<f64, VARIABLES>)> {
+    let constant = Dual::<f64, VARIABLES>::constant;
+    let variable = Dual::<f64, VARIABLES>::variable;
     let wheel = Wheel { radius_m: constant(wheel.radius_m), width_m: constant(wheel.width_m) };
     let soil = Soil {
         cohesion_pa: variable(soil.cohesion_pa, 0),

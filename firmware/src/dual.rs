@@ -1,106 +1,119 @@
 //! Numbers that carry their derivatives, so that the wheel–soil equations give their slopes as they are computed.
 
-use std::cmp::Ordering;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::cmp::Ordering;
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use kapvik_firmware::scalar::Scalar;
+use crate::scalar::{Scalar, Tabulated};
 
 /// A value and its derivatives by N variables. Comparisons look at the value alone.
 #[derive(Debug, Clone, Copy)]
-pub struct Dual<const N: usize> {
+pub struct Dual<S, const N: usize> {
     /// The value.
-    pub value: f64,
+    pub value: S,
     /// The derivatives.
-    pub slopes: [f64; N],
+    pub slopes: [S; N],
 }
 
-impl<const N: usize> Dual<N> {
+impl<S: Scalar, const N: usize> Dual<S, N> {
     /// The variable at the given place.
-    pub fn variable(value: f64, place: usize) -> Self {
-        Self { value, slopes: std::array::from_fn(|k| if k == place { 1.0 } else { 0.0 }) }
+    pub fn variable(value: S, place: usize) -> Self {
+        Self { value, slopes: core::array::from_fn(|k| if k == place { S::one() } else { S::zero() }) }
+    }
+
+    /// A number that depends on no variable.
+    pub fn fixed(value: S) -> Self {
+        Self { value, slopes: [S::zero(); N] }
     }
 
     /// A function of this number alone, by its value and its derivative.
-    fn through(self, value: f64, derivative: f64) -> Self {
+    fn through(self, value: S, derivative: S) -> Self {
         Self { value, slopes: self.slopes.map(|slope| derivative * slope) }
     }
 
     /// A function of two numbers, by its value and its derivatives.
-    fn of_two(self, other: Self, value: f64, by_self: f64, by_other: f64) -> Self {
-        let mut slopes = [0.0; N];
+    fn of_two(self, other: Self, value: S, by_self: S, by_other: S) -> Self {
+        let mut slopes = [S::zero(); N];
         for (slope, (a, b)) in slopes.iter_mut().zip(self.slopes.iter().zip(&other.slopes)) {
-            *slope = by_self * a + by_other * b;
+            *slope = by_self * *a + by_other * *b;
         }
         Self { value, slopes }
     }
 }
 
-impl<const N: usize> PartialEq for Dual<N> {
+impl<S: Scalar, const N: usize> PartialEq for Dual<S, N> {
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value
     }
 }
 
-impl<const N: usize> PartialOrd for Dual<N> {
+impl<S: Scalar, const N: usize> PartialOrd for Dual<S, N> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
     }
 }
 
-impl<const N: usize> Add for Dual<N> {
+impl<S: Scalar, const N: usize> Add for Dual<S, N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        self.of_two(other, self.value + other.value, 1.0, 1.0)
+        self.of_two(other, self.value + other.value, S::one(), S::one())
     }
 }
 
-impl<const N: usize> Sub for Dual<N> {
+impl<S: Scalar, const N: usize> Sub for Dual<S, N> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self.of_two(other, self.value - other.value, 1.0, -1.0)
+        self.of_two(other, self.value - other.value, S::one(), -S::one())
     }
 }
 
-impl<const N: usize> Mul for Dual<N> {
+impl<S: Scalar, const N: usize> Mul for Dual<S, N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         self.of_two(other, self.value * other.value, other.value, self.value)
     }
 }
 
-impl<const N: usize> Div for Dual<N> {
+impl<S: Scalar, const N: usize> Div for Dual<S, N> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        let (value, inverse) = (self.value / other.value, 1.0 / other.value);
+        let (value, inverse) = (self.value / other.value, S::one() / other.value);
         self.of_two(other, value, inverse, -value * inverse)
     }
 }
 
-impl<const N: usize> Neg for Dual<N> {
+impl<S: Scalar, const N: usize> Neg for Dual<S, N> {
     type Output = Self;
     fn neg(self) -> Self {
-        self.through(-self.value, -1.0)
+        self.through(-self.value, -S::one())
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
+impl<S: Scalar, const N: usize> AddAssign for Dual<S, N> {
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const N: usize> SubAssign for Dual<N> {
+impl<S: Scalar, const N: usize> SubAssign for Dual<S, N> {
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl<const N: usize> Scalar for Dual<N> {
+impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
+    const EPSILON: f64 = S::EPSILON;
+
     fn constant(value: f64) -> Self {
-        Self { value, slopes: [0.0; N] }
+        Self::fixed(S::constant(value))
+    }
+    fn tabulated(entry: &Tabulated) -> Self {
+        Self::fixed(S::tabulated(entry))
+    }
+    fn from_f32(reading: f32) -> Self {
+        Self::fixed(S::from_f32(reading))
     }
     fn to_f32(self) -> f32 {
-        self.value as f32
+        self.value.to_f32()
     }
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
@@ -108,20 +121,20 @@ impl<const N: usize> Scalar for Dual<N> {
     }
     /// At ±1, where the derivative is infinite, the slopes are zero: those of a constant.
     fn acos(self) -> Self {
-        let sine = (1.0 - self.value * self.value).sqrt();
-        self.through(self.value.acos(), if sine == 0.0 { 0.0 } else { -1.0 / sine })
+        let sine = (S::one() - self.value * self.value).sqrt();
+        self.through(self.value.acos(), if sine == S::zero() { S::zero() } else { -S::one() / sine })
     }
     fn exp(self) -> Self {
         let value = self.value.exp();
         self.through(value, value)
     }
     fn ln(self) -> Self {
-        self.through(self.value.ln(), 1.0 / self.value)
+        self.through(self.value.ln(), S::one() / self.value)
     }
     /// At a base of zero the slopes are zero: those of an exponent above one.
     fn powf(self, exponent: Self) -> Self {
-        if self.value == 0.0 {
-            return Self::constant(self.value.powf(exponent.value));
+        if self.value == S::zero() {
+            return Self::fixed(self.value.powf(exponent.value));
         }
         let value = self.value.powf(exponent.value);
         self.of_two(exponent, value, value * exponent.value / self.value, value * self.value.ln())
@@ -129,10 +142,10 @@ impl<const N: usize> Scalar for Dual<N> {
     /// At zero, where the derivative is infinite, the slopes are zero: those of a constant.
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.through(root, if root == 0.0 { 0.0 } else { 0.5 / root })
+        self.through(root, if root == S::zero() { S::zero() } else { S::constant(0.5) / root })
     }
     fn abs(self) -> Self {
-        if self.value < 0.0 { -self } else { self }
+        if self.value < S::zero() { -self } else { self }
     }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.slopes.iter().all(|slope| slope.is_finite())

@@ -1,0 +1,59 @@
+//! What a method is given of a wheel.
+
+use crate::scalar::Scalar;
+use crate::terramechanics::Wheel;
+use crate::wheel_state::{WheelNoise, WheelState};
+
+use super::Refusal;
+
+/// The state of a wheel at an instant, or its mean over many, and how noisy that is.
+///
+/// Wheels of one rover at one instant, or one wheel at several: to the methods they are the same, one soil seen at
+/// several slips and loads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation<S> {
+    /// What was seen.
+    pub state: WheelState<S>,
+    /// One standard deviation of each part of it.
+    pub noise: WheelNoise<S>,
+}
+
+/// Checks what every method needs: a wheel with a size, at least `needed` observations, finite numbers, slips of −1 … 1,
+/// loads and standard deviations above zero.
+///
+/// # Errors
+/// The reason to refuse.
+pub(super) fn check<S: Scalar>(
+    wheel: &Wheel<S>,
+    observations: &[Observation<S>],
+    needed: usize,
+) -> Result<(), Refusal> {
+    if observations.len() < needed {
+        return Err(Refusal::TooFew { needed: needed as u8 });
+    }
+    if !observations.iter().all(Observation::is_finite) {
+        return Err(Refusal::NotFinite);
+    }
+    if wheel.is_valid() && observations.iter().all(Observation::is_in_range) {
+        Ok(())
+    } else {
+        Err(Refusal::OutOfRange)
+    }
+}
+
+impl<S: Scalar> Observation<S> {
+    fn is_finite(&self) -> bool {
+        let state = &self.state;
+        [state.drawbar_pull_n, state.load_n, state.torque_nm, state.slip].iter().all(|number| number.is_finite())
+            && state.sinkage_m.is_none_or(Scalar::is_finite)
+    }
+
+    fn is_in_range(&self) -> bool {
+        let noise = &self.noise;
+        let stds = [noise.drawbar_pull_n, noise.load_n, noise.torque_nm, noise.slip];
+        stds.iter().all(|std| *std > S::zero() && std.is_finite())
+            && self.state.sinkage_m.is_none_or(|_| noise.sinkage_m > S::zero() && noise.sinkage_m.is_finite())
+            && self.state.load_n > S::zero()
+            && self.state.slip.abs() <= S::one()
+    }
+}
