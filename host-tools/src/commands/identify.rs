@@ -1,10 +1,10 @@
 //! `kapvik identify`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::data::atomic_write::write_atomically;
+use crate::data::atomic_write::write_json;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
 use crate::identify::{Document, Method, identify, identify_by};
@@ -35,11 +35,4 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         method => identify_by(method, &campaign)?,
     };
     write_json(&arguments.json, &document)
-}
-
-fn write_json(path: &Path, document: &Document) -> Result<(), HostError> {
-    write_atomically(path, |out| {
-        let written = serde_json::to_writer_pretty(&mut *out, document).map_err(std::io::Error::from);
-        written.and_then(|()| out.write_all(b"\n")).map_err(HostError::file(path))
-    })
 }

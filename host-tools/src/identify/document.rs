@@ -146,8 +146,8 @@ impl Document {
     }
 
     /// The runs.
-    pub fn runs(&self) -> &[RunDocument] {
-        &self.runs
+    pub fn into_runs(self) -> Vec<RunDocument> {
+        self.runs
     }
 
     fn new(method: Method, campaign: &Campaign, noise: &SensorNoise, runs: Vec<RunDocument>) -> Self {
