@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::compare::{CONTENDERS, CompareOptions, compare};
+use crate::compare::{CompareOptions, compare};
 use crate::data::atomic_write::{write_json, write_text};
 use crate::error::HostError;
 use crate::report::compare::{page, terminal};
@@ -16,6 +16,9 @@ pub struct Arguments {
     /// Cases of each situation
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     cases: u32,
+    /// Cases of each situation that the exact posterior is sampled for, which takes a second each
+    #[arg(long, default_value_t = 60)]
+    limit_cases: u32,
     /// Seed of soils, loads and noise
     #[arg(long, default_value_t = 2026)]
     seed: u64,
@@ -35,11 +38,15 @@ pub struct Arguments {
 /// # Errors
 /// Where there is no such situation, or a file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let options =
-        CompareOptions { cases: arguments.cases as usize, seed: arguments.seed, only: arguments.only.clone() };
-    let answers = options.situations()?.len() * options.cases * CONTENDERS.len();
+    let options = CompareOptions {
+        cases: arguments.cases as usize,
+        limit_cases: arguments.limit_cases as usize,
+        seed: arguments.seed,
+        only: arguments.only.clone(),
+    };
     let style = ProgressStyle::with_template("answers {wide_bar} {pos}/{len} {eta}");
-    let bar = ProgressBar::new(answers as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar =
+        ProgressBar::new(options.answers()? as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let comparison = compare(&options, &|| bar.inc(1))?;
     bar.finish_and_clear();
     println!("{}", terminal(&comparison));

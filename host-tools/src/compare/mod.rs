@@ -27,6 +27,8 @@ pub struct CompareOptions {
     pub cases: usize,
     /// Of soils, loads and noise.
     pub seed: u64,
+    /// Cases of each situation that the limit is sampled for: seconds each.
+    pub limit_cases: usize,
     /// Situations by name; none means all.
     pub only: Vec<String>,
 }
@@ -55,6 +57,17 @@ pub struct Compared {
     pub model_is_right: bool,
     /// Contender by contender.
     pub scores: Vec<Score>,
+    /// Root mean square errors over those of the limit, on the cases that it was sampled for.
+    pub to_limit: Vec<ToLimit>,
+}
+
+/// How near a contender is to the limit.
+#[derive(Debug, Clone, Serialize)]
+pub struct ToLimit {
+    /// The contender.
+    pub contender: &'static str,
+    /// Of c, φ and K: root mean square error over that of the limit on the same cases.
+    pub ratio: [f64; 3],
 }
 
 /// Sets every contender before every situation. `done` is called after each answer to a case.
@@ -69,6 +82,19 @@ pub fn compare(options: &CompareOptions, done: &(impl Fn() + Sync)) -> Result<Co
 }
 
 impl CompareOptions {
+    /// How many answers there are to wait for.
+    ///
+    /// # Errors
+    /// At a situation that there is not.
+    pub fn answers(&self) -> Result<usize, HostError> {
+        let of = |situation: &&Situation| {
+            let others = CONTENDERS.len() - 1;
+            let limit = if has_limit(situation) { self.limit_cases.min(self.cases) } else { 0 };
+            others * self.cases + limit
+        };
+        Ok(self.situations()?.iter().map(of).sum())
+    }
+
     /// The situations that are asked for.
     ///
     /// # Errors
@@ -87,29 +113,54 @@ impl CompareOptions {
     }
 }
 
+/// The limit's prior is that of the networks, and it knows equations 1–11.
+fn has_limit(situation: &Situation) -> bool {
+    situation.truth == Truth::Drawn && situation.slip_sinkage == SlipSinkage::None
+}
+
 fn compared(situation: &Situation, options: &CompareOptions, done: &(impl Fn() + Sync)) -> Compared {
     let cases: Vec<Case> =
         (0..options.cases).into_par_iter().filter_map(|place| case(situation, options.seed, place)).collect();
     let truths: Vec<Soil<f64>> = cases.iter().map(|case| case.soil).collect();
-    // The limit's prior is that of the networks, and it knows equations 1–11.
-    let has_limit = situation.truth == Truth::Drawn && situation.slip_sinkage == SlipSinkage::None;
-    let scores = CONTENDERS.iter().filter(|contender| has_limit || !contender.is_limit()).map(|contender| {
-        let answers: Vec<Timed> = cases
-            .par_iter()
-            .map(|case| {
-                let started = Instant::now();
-                let found = contender.answer(case);
-                let seconds = started.elapsed().as_secs_f64();
-                done();
-                Timed { found, seconds }
-            })
-            .collect();
-        Score::of(contender.id, &truths, &answers)
-    });
+    let has_limit = has_limit(situation);
+    let limit_cases = options.limit_cases.min(cases.len());
+    let answers: Vec<(&Contender, Vec<Timed>)> = CONTENDERS
+        .iter()
+        .filter(|contender| has_limit || !contender.is_limit())
+        .map(|contender| {
+            let asked = if contender.is_limit() { &cases[..limit_cases] } else { &cases };
+            (contender, asked.par_iter().map(|case| timed(contender, case, done)).collect())
+        })
+        .collect();
+    let score = |(contender, timed): &(&Contender, Vec<Timed>)| Score::of(contender.id, &truths, timed);
     Compared {
         id: situation.id,
         title: situation.title,
         model_is_right: situation.model_is_right(),
-        scores: scores.collect(),
+        to_limit: to_limit(&truths[..limit_cases], &answers),
+        scores: answers.iter().map(score).collect(),
     }
+}
+
+fn timed(contender: &Contender, case: &Case, done: &(impl Fn() + Sync)) -> Timed {
+    let started = Instant::now();
+    let found = contender.answer(case);
+    let seconds = started.elapsed().as_secs_f64();
+    done();
+    Timed { found, seconds }
+}
+
+/// Of every contender that answers all the cases that the limit does.
+fn to_limit(truths: &[Soil<f64>], answers: &[(&Contender, Vec<Timed>)]) -> Vec<ToLimit> {
+    let rmse = |timed: &[Timed]| {
+        let score = Score::of("", truths, &timed[..truths.len()]);
+        (score.refused == 0.0).then(|| Parameter::ALL.map(|parameter| score.parameter(parameter).rmse))
+    };
+    let limit = answers.iter().find(|(contender, _)| contender.is_limit()).and_then(|(_, timed)| rmse(timed));
+    let Some(limit) = limit else { return Vec::new() };
+    let ratio = |(contender, timed): &(&Contender, Vec<Timed>)| {
+        let own = rmse(timed)?;
+        Some(ToLimit { contender: contender.id, ratio: std::array::from_fn(|k| own[k] / limit[k]) })
+    };
+    answers.iter().filter(|(contender, _)| !contender.is_limit()).filter_map(ratio).collect()
 }

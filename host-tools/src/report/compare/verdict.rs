@@ -7,10 +7,11 @@ use super::terminal::label;
 
 /// Methods that are told what nobody knows on a drive: they stand in the table, but they are not in the contest.
 const TOLD_THE_TRUTH: [&str; 3] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n"];
-/// Fewer answered cases than this and a median error is no argument.
-const LEAST_ANSWERED: f64 = 0.5;
+/// Who answers less often, or says more often of its answer that the data do not tell it, has no say: the middle of the prior
+/// is near a truth that lies there, whatever was seen.
+const LEAST_TOLD: f64 = 0.5;
 
-/// Whether a method has the least median error of those that answer, told no more than the others.
+/// Whether a method has the least median error of those that claim to tell the parameter, told no more than the others.
 pub fn is_best(compared: &Compared, score: &Score, parameter: Parameter) -> bool {
     winner(compared, parameter).is_some_and(|best| best.contender == score.contender)
 }
@@ -21,8 +22,7 @@ fn winner(compared: &Compared, parameter: Parameter) -> Option<&Score> {
         score.contender != "limit"
             && !TOLD_THE_TRUTH.contains(&score.contender)
             && !of.assumed
-            && of.median_error.is_finite()
-            && score.refused <= LEAST_ANSWERED
+            && (1.0 - score.refused) * of.identifiable >= LEAST_TOLD
     };
     let error = |score: &Score| score.parameter(parameter).median_error;
     compared.scores.iter().filter(contests).min_by(|a, b| error(a).total_cmp(&error(b)))
@@ -45,12 +45,17 @@ fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
     if right.is_empty() {
         return None;
     }
-    let lost: Vec<String> = right.iter().filter_map(|compared| loss(compared, parameter)).collect();
-    let won = right.len() - lost.len();
+    let told: Vec<&Compared> = right.into_iter().filter(|compared| winner(compared, parameter).is_some()).collect();
+    if told.is_empty() {
+        return Some(format!("{}: no method tells it in any situation", symbol(parameter)));
+    }
+    let lost: Vec<String> = told.iter().filter_map(|compared| loss(compared, parameter)).collect();
+    let won = told.len() - lost.len();
     let mut text = format!(
-        "{}: map has the least median error in {won} of {} situations in which the model is right",
+        "{}: of the methods that claim to tell it, map has the least median error in {won} of {} situations in which the model \
+         is right and some method tells it",
         symbol(parameter),
-        right.len()
+        told.len()
     );
     if !lost.is_empty() {
         text += &format!("; otherwise {}", lost.join("; "));
@@ -70,11 +75,9 @@ fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
 }
 
 fn to_limit(compared: &Compared, parameter: Parameter) -> Option<String> {
-    let of = |id: &str| {
-        compared.scores.iter().find(|score| score.contender == id).map(|score| score.parameter(parameter).rmse)
-    };
-    let limit = of("limit")?;
-    let ratio = |id| Some(number(of(id)? / limit, 2, false));
+    let place = Parameter::ALL.iter().position(|one| *one == parameter)?;
+    let of = |id: &str| compared.to_limit.iter().find(|one| one.contender == id);
+    let ratio = |id| of(id).map(|one| number(one.ratio[place], 2, false));
     Some(format!(
         "{}, {}: root mean square error over that of the limit: map {}, rover network {}",
         symbol(parameter),
