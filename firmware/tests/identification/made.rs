@@ -1,0 +1,104 @@
+//! Observations made by the equations: Kapvik's assumed wheel on the seed's sand.
+
+use kapvik_firmware::identification::Observation;
+use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+
+/// Six slips in equal steps.
+pub const SIX_SLIPS: [f64; 6] = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
+/// The load of each wheel where all carry the same, N.
+pub const EQUAL_LOAD_N: f64 = 65.4;
+/// The noise of one instant.
+pub const NOISE: WheelNoise<f64> =
+    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
+
+/// A wheel of Kapvik's assumed size.
+pub const fn kapvik_wheel() -> Wheel<f64> {
+    Wheel { radius_m: 0.075, width_m: 0.070 }
+}
+
+/// The seed's Table 1.
+pub const fn table_1_sand() -> Soil<f64> {
+    Soil {
+        sinkage_exponent: 1.1,
+        cohesive_modulus: 15_600.0,
+        frictional_modulus: 2_407_400.0,
+        cohesion_pa: 250.0,
+        friction_angle_rad: 31.9_f64.to_radians(),
+        shear_modulus_m: 0.0114,
+        peak_stress_c1: 0.18,
+        peak_stress_c2: 0.32,
+        rebound_ratio: 0.0,
+    }
+}
+
+/// What faultless sensors read of Kapvik's wheel at a slip and a load.
+pub fn seen(soil: &Soil<f64>, slip: f64, load_n: f64) -> Observation<f64> {
+    let sinkage_m = sinkage_for_load(&kapvik_wheel(), soil, slip, load_n).expect("carried");
+    let forces = wheel_forces(&kapvik_wheel(), soil, slip, sinkage_m).expect("inputs in range");
+    let state = WheelState {
+        drawbar_pull_n: forces.drawbar_pull_n,
+        load_n,
+        torque_nm: forces.torque_nm,
+        slip,
+        sinkage_m: Some(sinkage_m),
+    };
+    Observation { state, noise: NOISE }
+}
+
+/// Six wheels under equal loads.
+pub fn six_wheels(soil: &Soil<f64>) -> [Observation<f64>; 6] {
+    SIX_SLIPS.map(|slip| seen(soil, slip, EQUAL_LOAD_N))
+}
+
+/// The same observation in single precision.
+pub fn single(observation: &Observation<f64>) -> Observation<f32> {
+    Observation {
+        state: observation.state.map(|number| number as f32),
+        noise: observation.noise.map(|number| number as f32),
+    }
+}
+
+/// Standard normal numbers, the same for the same seed: Box and Muller's on the generator SplitMix64.
+pub struct Normal {
+    state: u64,
+}
+
+impl Normal {
+    /// Starts a stream.
+    pub fn new(seed: u64) -> Self {
+        Self { state: seed }
+    }
+
+    /// The next number.
+    pub fn next(&mut self) -> f64 {
+        let (radius, angle) = (self.share(), self.share());
+        (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
+    }
+
+    fn share(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.state;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 + f64::EPSILON
+    }
+}
+
+/// The observation with noise drawn.
+pub fn noisy(observation: &Observation<f64>, random: &mut Normal) -> Observation<f64> {
+    let (state, noise) = (&observation.state, &observation.noise);
+    let state = WheelState {
+        drawbar_pull_n: state.drawbar_pull_n + noise.drawbar_pull_n * random.next(),
+        load_n: state.load_n + noise.load_n * random.next(),
+        torque_nm: state.torque_nm + noise.torque_nm * random.next(),
+        slip: state.slip + noise.slip * random.next(),
+        sinkage_m: state.sinkage_m.map(|sinkage_m| sinkage_m + noise.sinkage_m * random.next()),
+    };
+    Observation { state, ..*observation }
+}
+
+/// The same observation as the mean of many instants.
+pub fn averaged(observation: &Observation<f64>, instants: f64) -> Observation<f64> {
+    Observation { noise: observation.noise.map(|std| std / instants.sqrt()), ..*observation }
+}

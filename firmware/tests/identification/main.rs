@@ -1,0 +1,4 @@
+//! Identification by the methods of the literature: known soils found again, known failures seen again.
+
+mod hutangkabodee;
+mod made;
