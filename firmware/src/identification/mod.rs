@@ -8,6 +8,7 @@ mod estimate;
 pub mod hutangkabodee;
 mod observation;
 mod prior;
+pub mod ray;
 
 pub use estimate::{Identified, Origin, Refusal, Told};
 pub use observation::Observation;

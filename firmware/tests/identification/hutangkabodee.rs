@@ -122,10 +122,10 @@ fn standard_deviations_cover_what_they_claim() {
     }
 }
 
-/// The method takes sinkage as exact. Of the noise of all sensors its standard deviations know a part only, and cover the
-/// truth in less than half of the cases instead of 68 %; the mean of many instants still has the right middle.
+/// The method takes slip and sinkage as exact; what their noise does shows in the residuals, and widens the standard
+/// deviations by as much. Of 200 cases, four standard deviations of the share inside are 13 %.
 #[test]
-fn noise_of_the_sinkage_is_not_in_the_standard_deviations() {
+fn noise_of_slip_and_sinkage_shows_in_the_residuals() {
     const TRIALS: usize = 200;
     let mut random = Normal::new(2);
     let truth = table_1_sand().friction_angle_rad;
@@ -138,8 +138,7 @@ fn noise_of_the_sinkage_is_not_in_the_standard_deviations() {
         inside += usize::from((angle.value - truth).abs() < angle.std.expect("a deviation"));
     }
     angles.sort_by(f64::total_cmp);
-    println!("{inside} {:?}", [0.25, 0.5, 0.75].map(|share| angles[(share * TRIALS as f64) as usize].to_degrees()));
-    assert!(inside < TRIALS / 2, "{inside}");
+    assert!(inside as f64 / TRIALS as f64 > 0.68 - 0.13, "{inside}");
     assert!((angles[TRIALS / 2] / truth - 1.0).abs() < 0.02);
 }
 

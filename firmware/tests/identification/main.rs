@@ -2,3 +2,5 @@
 
 mod hutangkabodee;
 mod made;
+mod non_uniqueness;
+mod ray;

@@ -8,8 +8,8 @@
 //! Newton's method becomes Gauss–Newton's.
 //!
 //! Ours beside that: unknowns by their logarithms, within the bounds of [`super::SoilPrior::usual`]; Levenberg's damping,
-//! without which the iteration runs away from a poor start; and the standard deviations, of the drawbar pull's noise alone,
-//! since the method takes slip and sinkage as exact.
+//! without which the iteration runs away from a poor start; and standard deviations. The method takes slip and sinkage as
+//! exact: what their noise does is known to it from the residuals alone, and biases it.
 
 mod drawbar_pull;
 mod equations;
