@@ -7,10 +7,12 @@
 mod closed_form;
 pub mod ding;
 mod estimate;
+pub mod hutangkabodee;
 pub mod iagnemma;
 mod least_squares;
 mod observation;
 mod prior;
+pub mod ray;
 mod strength_told;
 
 pub use closed_form::{StressShape, TriangularStress};

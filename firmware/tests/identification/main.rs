@@ -2,5 +2,8 @@
 
 mod ding;
 mod drawn;
+mod hutangkabodee;
 mod iagnemma;
 mod made;
+mod non_uniqueness;
+mod ray;
