@@ -5,6 +5,7 @@
 //! ends after a bounded number of steps, and refuses for a reason that it names.
 
 mod estimate;
+pub mod map;
 mod observation;
 mod prior;
 
