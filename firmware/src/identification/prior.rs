@@ -93,8 +93,8 @@ impl<S: Scalar> SoilPrior<S> {
             ln_stiffness: Belief::normal(14.3, 0.8, 9.2, 18.4),
             known_depth_m: S::constant(0.015),
             sinkage_exponent: Belief::normal(1.05, 0.25, 0.1, 2.2),
-            peak_stress_c1: Belief::normal(0.32, 0.12, -0.2, 0.9),
-            peak_stress_c2: Belief::normal(0.25, 0.15, -0.6, 1.0),
+            peak_stress_c1: Belief::normal(0.32, 0.12, 0.02, 0.9),
+            peak_stress_c2: Belief::normal(0.25, 0.15, -0.3, 1.0),
             rebound_ratio: Belief::known(S::zero()),
         }
     }

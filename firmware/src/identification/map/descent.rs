@@ -34,7 +34,7 @@ pub(super) fn descend<S: Scalar>(
 ) -> Option<Descent<S>> {
     // Damping beyond which a step is no step.
     let stuck = S::constant(1e3);
-    let (shrink, grow) = (S::constant(0.2), S::constant(4.0));
+    let (shrink, grow) = (S::constant(0.3), S::constant(3.0));
     let mut fit = problem.evaluate(start)?;
     let mut damping = patience.damping;
     let mut steps = 0;

@@ -8,12 +8,13 @@ use crate::scalar::Scalar;
 use crate::terramechanics::effects::Conditions;
 use crate::terramechanics::{Soil, Wheel};
 
+use super::condition::condition_number;
 use super::descent::{Descent, Patience, descend};
 use super::mixture::{Moments, moments};
 use super::prediction::Forward;
-use super::problem::{Held, Problem};
+use super::problem::{Fit, Held, Problem};
 use super::unknowns::{
-    C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, Point, STIFFNESS, UNKNOWNS, Unknowns,
+    C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, UNKNOWNS, Unknowns,
 };
 use super::{CAPACITY, DeclaredEffects};
 
@@ -50,6 +51,8 @@ pub struct MapEstimate<S> {
     pub effects: Vec<Fitted<S>, EFFECT_PARAMETERS>,
     /// The soil with the means; its stiffness is all in k_φ.
     pub soil: Soil<S>,
+    /// The soil at the mode.
+    pub mode: Soil<S>,
     /// Sum of the squared residuals of the observations at the mode, each over its standard deviation.
     pub chi_squared: S,
     /// How many residuals that is.
@@ -98,7 +101,7 @@ pub fn identify_declared<S: Scalar>(
     }
     let unknowns = Unknowns::new(prior, declared)?;
     let forward = Forward { wheel, unknowns: &unknowns, declared };
-    let problem = Problem { forward, observations, conditions };
+    let problem = Problem { forward, observations, conditions, blur: S::one() };
     let mode = best_mode(&problem)?;
     let moments = moments(&problem, &mode.fit);
     Ok(estimate(&problem, &mode, &moments))
@@ -108,8 +111,8 @@ pub fn identify_declared<S: Scalar>(
 /// which a weak soil that holds early and a strong one that holds late explain much the same.
 fn best_mode<S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S>, Refusal> {
     const STARTS: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [0.5, -1.3, -1.0], [-0.5, 1.3, 1.0]];
-    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-9) };
-    let patience = Patience { steps: 40, gain, damping: S::constant(0.03) };
+    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-6) };
+    let patience = Patience { steps: 120, gain, damping: S::constant(0.03) };
     let held: Held = core::array::from_fn(|place| problem.forward.unknowns.is_known(place));
     let mut best: Option<Descent<S>> = None;
     let mut steps = 0;
@@ -121,7 +124,15 @@ fn best_mode<S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S>, Refusal>
             }
         }
         let point = problem.forward.unknowns.inside(&point);
-        let Some(found) = descend(problem, problem.start(&point), &held, &patience) else { continue };
+        let mut state = problem.start(&point);
+        for blur in [16.0, 4.0] {
+            let blurred = Problem { blur: S::constant(blur), ..*problem };
+            let rough = Patience { steps: 10, gain: S::constant(0.1), ..patience };
+            let Some(found) = descend(&blurred, state.clone(), &held, &rough) else { continue };
+            steps += found.steps;
+            state = found.fit.state;
+        }
+        let Some(found) = descend(problem, state, &held, &patience) else { continue };
         steps += found.steps;
         if best.as_ref().is_none_or(|best| found.fit.cost < best.fit.cost) {
             best = Some(found);
@@ -143,7 +154,7 @@ fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Mo
     let flat = (0..UNKNOWNS).filter(|place| !unknowns.is_known(*place) && !unknowns.has_residual(*place)).count();
     let lost = (2 * seen + flat) as u16;
     MapEstimate {
-        identified: identified(problem, &mode.fit.state.point, &fitted),
+        identified: identified(problem, &mode.fit, &fitted),
         ln_cohesion: fitted(COHESION),
         friction_angle_rad: fitted(FRICTION),
         ln_shear_modulus: fitted(MODULUS),
@@ -153,6 +164,7 @@ fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Mo
         peak_stress_c2: fitted(C2),
         effects: (0..problem.forward.declared.free.len()).map(fitted).collect(),
         soil: unknowns.soil_at(&moments.mean),
+        mode: unknowns.soil_at(&mode.fit.state.point),
         chi_squared: mode.fit.chi_squared,
         residuals,
         misfit: mode.fit.cost,
@@ -164,7 +176,7 @@ fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Mo
 
 fn identified<S: Scalar>(
     problem: &Problem<'_, S>,
-    mode: &Point<S>,
+    mode: &Fit<S>,
     fitted: &impl Fn(usize) -> Fitted<S>,
 ) -> Identified<S> {
     let unknowns = problem.forward.unknowns;
@@ -183,13 +195,13 @@ fn identified<S: Scalar>(
         let believed = unknowns.beliefs.get(place).map_or(usual, |belief| belief.spread()).min(usual);
         let mut told = Told::estimated(value, Some(own_std), std / believed);
         let (low, high) = unknowns.bounds(place);
-        told.identifiable &= mode.get(place).is_some_and(|at| *at > low && *at < high);
+        told.identifiable &= mode.state.point.get(place).is_some_and(|at| *at > low && *at < high);
         told
     };
     Identified {
         cohesion_pa: told(COHESION, usual.ln_cohesion.spread(), true),
         friction_angle_rad: told(FRICTION, usual.friction_angle_rad.spread(), false),
         shear_modulus_m: told(MODULUS, usual.ln_shear_modulus.spread(), true),
-        condition_number: S::one(),
+        condition_number: condition_number(problem, mode),
     }
 }

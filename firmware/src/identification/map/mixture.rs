@@ -1,23 +1,23 @@
-//! Mean and spread of the posterior: normal in all directions but that of the cohesion, over which it is summed.
+//! Mean and spread of the posterior: normal in all directions but those of cohesion and shear modulus, over which it is
+//! summed.
 //!
 //! The logarithm of a small cohesion is anything from what the data allow at most downwards, and as the cohesion takes part
-//! of the strength, friction angle and shear modulus go with it: the posterior is a bent ridge with one long end. For a
-//! cohesion that is held, the others are nearly normal. So the cohesion is moved in equal steps from the mode to both sides,
-//! the others are fitted anew at each, and the normal distributions are mixed with the weights of their evidence (Laplace's
-//! approximation at each: L. Tierney, J. B. Kadane, J. Am. Stat. Assoc. 81 (1986) 82–86; summed over the axes that are not
-//! normal: H. Rue, S. Martino, N. Chopin, J. R. Stat. Soc. B 71 (2009) 319–392). Equal weights in equal steps of less than a
-//! standard deviation integrate a smooth bell nearly exactly.
-
-use heapless::Vec;
+//! of the strength, friction angle and shear modulus go with it: the posterior is a bent ridge with one long end. Where the
+//! slips are alike, another ridge runs from soils that are weak and hold early to ones that are strong and hold late. For a
+//! cohesion and a modulus that are held, the others are nearly normal. So these two are moved in equal steps from the mode
+//! to both sides, the others are fitted anew at each, and the normal distributions are mixed with the weights of their
+//! evidence (Laplace's approximation at each: L. Tierney, J. B. Kadane, J. Am. Stat. Assoc. 81 (1986) 82–86; summed over
+//! the axes that are not normal: H. Rue, S. Martino, N. Chopin, J. R. Stat. Soc. B 71 (2009) 319–392). Equal weights in
+//! equal steps of no more than a standard deviation integrate a smooth bell nearly exactly.
 
 use crate::scalar::Scalar;
 
 use super::descent::{Patience, descend};
 use super::problem::{Fit, Held, Problem, State, conditional};
-use super::unknowns::{COHESION, Point, UNKNOWNS};
+use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS};
 
-/// Most steps to either side of the mode.
-const REACH: usize = 8;
+/// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
+const WIDE: f64 = 0.2;
 
 /// Mean and standard deviation of every unknown, as coordinates of a point.
 #[derive(Debug, Clone, Copy)]
@@ -28,109 +28,173 @@ pub(super) struct Moments<S> {
     pub steps: u16,
 }
 
-/// A normal distribution and its share of the posterior.
+/// An axis along which the posterior is summed.
 #[derive(Debug, Clone, Copy)]
-struct Part<S> {
-    ln_weight: S,
-    mean: Point<S>,
-    variance: Point<S>,
+struct Line<S> {
+    place: usize,
+    /// Distance of the steps in standard deviations.
+    spacing: S,
+    /// Most steps to either side.
+    reach: usize,
+    /// The summation ends where the logarithm of the evidence is lower by this.
+    depth: S,
 }
 
 /// The posterior about its mode.
 pub(super) fn moments<S: Scalar>(problem: &Problem<'_, S>, mode: &Fit<S>) -> Moments<S> {
-    let mut held: Held = core::array::from_fn(|place| problem.forward.unknowns.is_known(place));
-    let mut parts = Vec::<Part<S>, { 2 * REACH + 1 }>::new();
+    let unknowns = problem.forward.unknowns;
+    let known: Held = core::array::from_fn(|place| unknowns.is_known(place));
+    let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
+    let modulus = Line { place: MODULUS, spacing: S::one(), reach: 4, depth: S::constant(5.0) };
+    let given_cohesion = holding(&known, COHESION);
+    let spread = unknowns.beliefs.get(MODULUS).map_or(S::zero(), |belief| belief.spread());
+    let two = deviation(problem, mode, &given_cohesion, MODULUS) * spread > S::constant(WIDE);
+    let mut sum = Sum::about(&mode.state.point);
+    let mut inner_steps = 0;
+    let steps = along(problem, mode, &known, &cohesion, |fit, _| {
+        if two {
+            inner_steps += along(problem, fit, &given_cohesion, &modulus, |fit, width| {
+                sum.add(problem, fit, &holding(&given_cohesion, MODULUS), width);
+            });
+        } else {
+            sum.add(problem, fit, &given_cohesion, S::one());
+        }
+    });
+    sum.moments(steps + inner_steps)
+}
+
+/// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the distance
+/// of the steps; `middle` alone where the unknown is held. Returns how many steps the descents took.
+fn along<S: Scalar>(
+    problem: &Problem<'_, S>,
+    middle: &Fit<S>,
+    held: &Held,
+    line: &Line<S>,
+    mut visit: impl FnMut(&Fit<S>, S),
+) -> u16 {
+    if held.get(line.place).copied().unwrap_or(true) {
+        visit(middle, S::one());
+        return 0;
+    }
+    let (triangle, _) = middle.of_everything(problem, S::zero(), true);
+    let covariance = conditional(&triangle, held).covariance();
+    let column = covariance.get(line.place).copied().unwrap_or([S::zero(); UNKNOWNS]);
+    let variance = column.get(line.place).copied().unwrap_or(S::one());
+    let width = line.spacing * variance.sqrt().min(S::one());
+    let towards = column.map(|covariance| covariance * width / variance);
+    let held = holding(held, line.place);
+    let bounds = problem.forward.unknowns.bounds(line.place);
+    let floor = middle.ln_evidence(problem, &held) - line.depth;
+    let patience = Patience { steps: 4, gain: S::constant(1e-2), damping: S::constant(1e-3) };
+    visit(middle, width);
     let mut steps = 0;
-    if problem.forward.unknowns.is_known(COHESION) {
-        let _ = parts.push(part(problem, mode, &held));
-        return mixed(&parts, steps);
-    }
-    let (triangle, _) = mode.of_everything(problem, S::zero(), true);
-    let covariance = conditional(&triangle, &held).covariance();
-    let slopes: Point<S> = covariance.get(COHESION).copied().unwrap_or([S::zero(); UNKNOWNS]);
-    let variance = slopes.get(COHESION).copied().unwrap_or(S::one());
-    let spacing = S::constant(0.8) * variance.sqrt().min(S::one());
-    let towards = slopes.map(|covariance| covariance * spacing / variance);
-    if let Some(slot) = held.get_mut(COHESION) {
-        *slot = true;
-    }
-    let (low, high) = problem.forward.unknowns.bounds(COHESION);
-    let middle = part(problem, mode, &held);
-    let _ = parts.push(middle);
     for sign in [S::one(), -S::one()] {
-        let mut state = mode.state.clone();
+        let mut state = middle.state.clone();
         let mut last = towards.map(|shift| sign * shift);
-        for _ in 0..REACH {
-            let ahead: Point<S> = core::array::from_fn(|place| {
-                state.point.get(place).zip(last.get(place)).map_or(S::zero(), |(from, shift)| *from + *shift)
-            });
-            let cohesion = ahead.get(COHESION).copied().unwrap_or(S::zero());
-            if cohesion < low || cohesion > high {
+        for _ in 0..line.reach {
+            let point = shifted(&state.point, &last);
+            if !point.get(line.place).is_some_and(|at| *at >= bounds.0 && *at <= bounds.1) {
                 break;
             }
-            let point = problem.forward.unknowns.inside(&ahead);
-            let start = State { point, latents: state.latents.clone() };
-            let Some(found) = descend(problem, start, &held, &REFIT.of()) else { break };
+            let start = State { point: problem.forward.unknowns.inside(&point), latents: state.latents.clone() };
+            let Some(found) = descend(problem, start, &held, &patience) else { break };
             steps += found.steps;
-            let here = part(problem, &found.fit, &held);
-            let _ = parts.push(here);
-            if here.ln_weight < middle.ln_weight - S::constant(6.0) {
+            visit(&found.fit, width);
+            if found.fit.ln_evidence(problem, &held) < floor {
                 break;
             }
-            last = core::array::from_fn(|place| {
-                let (to, from) = (found.fit.state.point.get(place), state.point.get(place));
-                to.zip(from).map_or(S::zero(), |(to, from)| *to - *from)
-            });
+            last = shifted(&found.fit.state.point, &state.point.map(|from| -from));
             state = found.fit.state;
         }
     }
-    mixed(&parts, steps)
+    steps
 }
 
-/// Effort of a fit that starts next to its end.
-struct Refit;
-const REFIT: Refit = Refit;
-impl Refit {
-    fn of<S: Scalar>(&self) -> Patience<S> {
-        Patience { steps: 4, gain: S::constant(1e-2), damping: S::constant(1e-3) }
+fn shifted<S: Scalar>(point: &Point<S>, shift: &Point<S>) -> Point<S> {
+    let mut moved = *point;
+    for (slot, shift) in moved.iter_mut().zip(shift) {
+        *slot += *shift;
     }
+    moved
 }
 
-/// The normal distribution about a fit, with what is held at its place.
-fn part<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held) -> Part<S> {
+/// One more unknown held.
+fn holding(held: &Held, place: usize) -> Held {
+    let mut more = *held;
+    if let Some(slot) = more.get_mut(place) {
+        *slot = true;
+    }
+    more
+}
+
+/// Standard deviation of an unknown about a fit; zero where it is held.
+fn deviation<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held, place: usize) -> S {
+    variances(problem, fit, held).get(place).copied().unwrap_or(S::zero()).sqrt()
+}
+
+/// Variances of the normal distribution about a fit; zero where an unknown is held.
+fn variances<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held) -> Point<S> {
     let (triangle, _) = fit.of_everything(problem, S::zero(), true);
     let covariance = conditional(&triangle, held).covariance();
-    let variance = core::array::from_fn(|place| {
+    core::array::from_fn(|place| {
         let is_held = held.get(place).copied().unwrap_or(true);
         let own = covariance.get(place).and_then(|row| row.get(place)).copied();
         if is_held { S::zero() } else { own.unwrap_or(S::zero()) }
-    });
-    Part { ln_weight: fit.ln_evidence(problem, held), mean: fit.state.point, variance }
+    })
 }
 
-/// Moments of the mixture.
-fn mixed<S: Scalar>(parts: &[Part<S>], steps: u16) -> Moments<S> {
-    let mut greatest = parts.first().map_or(S::zero(), |part| part.ln_weight);
-    for part in parts {
-        greatest = greatest.max(part.ln_weight);
+/// The mixture as it grows: weighted sums about a point near its middle, the weights over the greatest so far.
+#[derive(Debug, Clone, Copy)]
+struct Sum<S> {
+    origin: Point<S>,
+    ln_greatest: Option<S>,
+    total: S,
+    first: Point<S>,
+    second: Point<S>,
+}
+
+impl<S: Scalar> Sum<S> {
+    fn about(origin: &Point<S>) -> Self {
+        let zero = [S::zero(); UNKNOWNS];
+        Self { origin: *origin, ln_greatest: None, total: S::zero(), first: zero, second: zero }
     }
-    let mut total = S::zero();
-    let (mut mean, mut square) = ([S::zero(); UNKNOWNS], [S::zero(); UNKNOWNS]);
-    let weight = |part: &Part<S>| (part.ln_weight - greatest).exp();
-    for part in parts {
-        total += weight(part);
-        for (slot, own) in mean.iter_mut().zip(part.mean) {
-            *slot += weight(part) * own;
+
+    /// Adds the normal distribution about a fit that stands for a strip of some width.
+    fn add(&mut self, problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held, width: S) {
+        let ln_weight = fit.ln_evidence(problem, held) + width.ln();
+        if !ln_weight.is_finite() {
+            return;
+        }
+        let greatest = self.ln_greatest.unwrap_or(ln_weight);
+        if ln_weight > greatest {
+            self.scale((greatest - ln_weight).exp());
+        }
+        let greatest = greatest.max(ln_weight);
+        self.ln_greatest = Some(greatest);
+        let weight = (ln_weight - greatest).exp();
+        self.total += weight;
+        let away = shifted(&fit.state.point, &self.origin.map(|at| -at));
+        let variances = variances(problem, fit, held);
+        let sums = self.first.iter_mut().zip(&mut self.second);
+        for ((first, second), (away, variance)) in sums.zip(away.iter().zip(variances)) {
+            *first += weight * *away;
+            *second += weight * (*away * *away + variance);
         }
     }
-    let mean = mean.map(|sum| sum / total);
-    for part in parts {
-        for ((slot, own), (centre, variance)) in
-            square.iter_mut().zip(part.mean).zip(mean.iter().zip(part.variance))
-        {
-            let away = own - *centre;
-            *slot += weight(part) * (away * away + variance);
-        }
+
+    fn scale(&mut self, factor: S) {
+        self.total = self.total * factor;
+        self.first = self.first.map(|sum| sum * factor);
+        self.second = self.second.map(|sum| sum * factor);
     }
-    Moments { mean, std: square.map(|sum| (sum / total).max(S::zero()).sqrt()), steps }
+
+    fn moments(&self, steps: u16) -> Moments<S> {
+        let shift = self.first.map(|sum| sum / self.total);
+        let std = core::array::from_fn(|place| {
+            let (square, mean) = (self.second.get(place), shift.get(place));
+            let pair = square.copied().zip(mean.copied());
+            pair.map_or(S::zero(), |(square, mean)| (square / self.total - mean * mean).max(S::zero()).sqrt())
+        });
+        Moments { mean: shifted(&self.origin, &shift), std, steps }
+    }
 }

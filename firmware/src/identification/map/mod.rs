@@ -9,9 +9,11 @@
 //!
 //! Braking wheels are welcome.
 
+mod condition;
 mod declared;
 mod descent;
 mod estimate;
+mod information;
 mod mixture;
 mod prediction;
 mod problem;
@@ -21,6 +23,7 @@ mod unknowns;
 
 pub use declared::{DeclaredEffects, FreeParameter};
 pub use estimate::{Fitted, MapEstimate, identify, identify_declared};
+pub use information::{Foreseen, information};
 pub use unknowns::EFFECT_PARAMETERS;
 
 /// Most observations.

@@ -18,6 +18,8 @@ use super::unknowns::{Point, UNKNOWNS};
 pub(super) struct Problem<'a, S> {
     pub forward: Forward<'a, S>,
     pub observations: &'a [Observation<S>],
+    /// Factor on the standard deviations of all channels.
+    pub blur: S,
     /// Of each observation; nothing is known beyond the end of the slice.
     pub conditions: &'a [Conditions<S>],
 }
@@ -92,7 +94,7 @@ impl<S: Scalar> Problem<'_, S> {
             let conditions = self.conditions.get(place).unwrap_or(&unknown);
             let load_n = observation.state.load_n;
             let prediction = self.forward.predict(conditions, load_n, &state.point, latents)?;
-            let own = Rows::new(observation, &prediction);
+            let own = Rows::new(observation, &prediction, self.blur);
             chi_squared += own.chi_squared();
             rows.push(own).ok()?;
         }

@@ -24,14 +24,14 @@ pub(super) struct LatentRows<S> {
 
 impl<S: Scalar> Rows<S> {
     /// What was predicted less what was measured. A channel that was not measured has nothing to say.
-    pub fn new(observation: &Observation<S>, prediction: &Prediction<S>) -> Self {
+    pub fn new(observation: &Observation<S>, prediction: &Prediction<S>, blur: S) -> Self {
         let (state, noise) = (&observation.state, &observation.noise);
         let measured =
             [state.drawbar_pull_n, state.load_n, state.torque_nm, state.slip, state.sinkage_m.unwrap_or(S::zero())];
         let stds = [noise.drawbar_pull_n, noise.load_n, noise.torque_nm, noise.slip, noise.sinkage_m];
         let seen = [true, true, true, true, state.sinkage_m.is_some()];
         let weights: [S; CHANNELS] = core::array::from_fn(|channel| match (seen.get(channel), stds.get(channel)) {
-            (Some(true), Some(std)) => S::one() / *std,
+            (Some(true), Some(std)) => S::one() / (*std * blur),
             _ => S::zero(),
         });
         let mut rows = Self {

@@ -1,7 +1,5 @@
 //! The unknowns that all observations share, and what is believed of them.
 
-use heapless::Vec;
-
 use crate::identification::{Belief, Refusal, SoilPrior};
 use crate::scalar::Scalar;
 use crate::terramechanics::Soil;
@@ -127,21 +125,5 @@ impl<S: Scalar> Unknowns<S> {
     /// Whether an unknown is known.
     pub fn is_known(&self, place: usize) -> bool {
         self.beliefs.get(place).is_none_or(Belief::is_known)
-    }
-
-    /// The place of every unknown that is not known.
-    pub fn free(&self) -> Vec<usize, UNKNOWNS> {
-        (0..UNKNOWNS).filter(|place| !self.is_known(*place)).collect()
-    }
-
-    /// Stiffness of the soil at a point with another factor on it: the change of its coordinate.
-    pub fn stiffer(&self, point: &Point<S>, factor: S) -> Point<S> {
-        let mut stiffer = *point;
-        if let (Some(slot), Some(belief), false) =
-            (stiffer.get_mut(STIFFNESS), self.beliefs.get(STIFFNESS), self.is_known(STIFFNESS))
-        {
-            *slot += factor.ln() / belief.spread();
-        }
-        self.inside(&stiffer)
     }
 }
