@@ -10,6 +10,7 @@ mod estimate;
 pub mod hutangkabodee;
 pub mod iagnemma;
 mod least_squares;
+pub mod map;
 mod observation;
 mod prior;
 pub mod ray;
