@@ -9,6 +9,7 @@ pub mod condition;
 mod document;
 mod network;
 mod sensor_noise;
+pub mod soil_bank;
 
 use clap::ValueEnum;
 use kapvik_firmware::soil::QueryAnswer;
