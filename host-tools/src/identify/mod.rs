@@ -12,6 +12,7 @@ pub mod method;
 mod network;
 mod run_states;
 mod sensor_noise;
+pub mod soil_bank;
 
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;

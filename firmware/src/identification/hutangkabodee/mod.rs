@@ -86,10 +86,11 @@ pub fn fit<S: Scalar>(
     let bounds = Bounds::of(&prior);
     let settled = search(&pulls, &bounds, steps).ok_or(Refusal::NotConverged)?;
     let singular_values = settled.equations.singular_values();
-    if !(singular_values.least >= S::one()) {
-        return Err(Refusal::NotIdentifiable);
+    if singular_values.least >= S::one() {
+        Ok(answer(&settled, &bounds, &prior, assumed, pulls.count()).conditioned(singular_values.ratio()))
+    } else {
+        Err(Refusal::NotIdentifiable)
     }
-    Ok(answer(&settled, &bounds, &prior, assumed, pulls.count()).conditioned(singular_values.ratio()))
 }
 
 fn answer<S: Scalar>(
