@@ -58,11 +58,14 @@ pub struct MeanState {
     pub sinkage_rows: usize,
 }
 
-/// At most `most` mean states, by slip. `slip_std` and `load_std_n` are the noise of one row.
+/// At most `most` mean states: the samples as they are and in their order where they are no more than that, else means by
+/// slip. `slip_std` and `load_std_n` are the noise of one row.
 pub fn combine(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) -> Vec<MeanState> {
     let mut states: Vec<MeanState> =
         groups(samples, most, slip_std, load_std_n).iter().filter_map(|group| MeanState::of(group)).collect();
-    states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
+    if samples.len() > most {
+        states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
+    }
     states
 }
 

@@ -89,15 +89,8 @@ impl<S: Scalar> Forward<'_, S> {
             let [by_ln_sinkage, direct, by_exponent, by_stiffness, by_peak, by_modulus, by_friction, by_cohesion] =
                 reading.slopes;
             let mut slopes = [S::zero(); COLUMNS];
-            let of_soil = [
-                by_exponent,
-                by_stiffness,
-                by_peak,
-                by_peak * latents.slip,
-                by_modulus,
-                by_friction,
-                by_cohesion,
-            ];
+            let of_soil =
+                [by_exponent, by_stiffness, by_peak, by_peak * latents.slip, by_modulus, by_friction, by_cohesion];
             for (slot, slope) in slopes.iter_mut().zip([by_ln_sinkage, direct + by_peak * by_slip]) {
                 *slot = slope;
             }

@@ -55,11 +55,7 @@ impl<S: Scalar> Unknowns<S> {
         for (slot, belief) in beliefs.iter_mut().zip(all) {
             *slot = belief;
         }
-        let unknowns = Self {
-            beliefs,
-            known_depth_m: prior.known_depth_m,
-            rebound_ratio: prior.rebound_ratio.mean,
-        };
+        let unknowns = Self { beliefs, known_depth_m: prior.known_depth_m, rebound_ratio: prior.rebound_ratio.mean };
         let valid = beliefs.iter().all(Belief::is_valid) && prior.known_depth_m > S::zero();
         if valid { Ok(unknowns) } else { Err(Refusal::OutOfRange) }
     }

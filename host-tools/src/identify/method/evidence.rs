@@ -1,6 +1,6 @@
 //! What a method is asked about.
 
-use kapvik_firmware::identification::{Belief, Observation, SoilPrior};
+use kapvik_firmware::identification::{Observation, SoilPrior};
 use kapvik_firmware::terramechanics::effects::Grousers;
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 
@@ -77,11 +77,10 @@ impl Assumed {
             peak_stress_c2: prior.peak_stress_c2.mean,
             rebound_ratio: prior.rebound_ratio.mean,
         };
-        let spread = |belief: &Belief<f64>| belief.std.unwrap_or((belief.high - belief.low) / 12_f64.sqrt());
         Self {
             soil,
-            cohesion_std_pa: cohesion_pa * spread(&prior.ln_cohesion),
-            shear_modulus_std_m: shear_modulus_m * spread(&prior.ln_shear_modulus),
+            cohesion_std_pa: cohesion_pa * prior.ln_cohesion.spread(),
+            shear_modulus_std_m: shear_modulus_m * prior.ln_shear_modulus.spread(),
         }
     }
 }

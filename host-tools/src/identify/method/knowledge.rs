@@ -14,6 +14,8 @@ pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
         friction_angle_rad: number(ground.friction_angle_rad, usual.friction_angle_rad),
         ln_shear_modulus: logarithm(ground.shear_modulus_m, usual.ln_shear_modulus),
         ln_stiffness: logarithm(ground.stiffness(&campaign.wheel), usual.ln_stiffness),
+        // Who states a stiffness states it beside the exponent, not at a depth.
+        known_depth_m: if ground.stiffness(&campaign.wheel).is_some() { 1.0 } else { usual.known_depth_m },
         sinkage_exponent: number(ground.sinkage_exponent, usual.sinkage_exponent),
         peak_stress_c1: number(ground.peak_stress_c1, usual.peak_stress_c1),
         peak_stress_c2: number(ground.peak_stress_c2, usual.peak_stress_c2),
@@ -25,13 +27,14 @@ pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
 pub fn training_prior() -> SoilPrior<f64> {
     let flat = |range: Range| {
         let ends = [range.low, range.high].map(|end| if range.logarithmic { end.ln() } else { end });
-        between(ends[0], ends[1])
+        Belief::flat(ends[0], ends[1])
     };
     SoilPrior {
         ln_cohesion: flat(prior::COHESION_PA),
         friction_angle_rad: flat(prior::FRICTION_ANGLE_RAD),
         ln_shear_modulus: flat(prior::SHEAR_MODULUS_M),
         ln_stiffness: flat(prior::STIFFNESS),
+        known_depth_m: 1.0,
         sinkage_exponent: flat(prior::SINKAGE_EXPONENT),
         peak_stress_c1: flat(prior::PEAK_STRESS_C1),
         peak_stress_c2: flat(prior::PEAK_STRESS_C2),
@@ -46,7 +49,7 @@ fn number(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
         Some(Knowledge::Value { value, std }) => {
             Belief { mean: value, std: Some(std), low: usual.low.min(value), high: usual.high.max(value) }
         }
-        Some(Knowledge::Between { min, max }) => between(min, max),
+        Some(Knowledge::Between { min, max }) => Belief::flat(min, max),
     }
 }
 
@@ -58,11 +61,7 @@ fn logarithm(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
         Some(Knowledge::Value { value, std }) => {
             number(Some(Knowledge::Value { value: ln(value), std: std / value.max(usual.low.exp()) }), usual)
         }
-        Some(Knowledge::Between { min, max }) => between(ln(min), ln(max).max(ln(min) + 1e-9)),
+        Some(Knowledge::Between { min, max }) => Belief::flat(ln(min), ln(max).max(ln(min) + 1e-9)),
         None => usual,
     }
-}
-
-fn between(low: f64, high: f64) -> Belief<f64> {
-    Belief { mean: 0.5 * (low + high), std: None, low, high }
 }

@@ -5,6 +5,8 @@ mod bootstrap;
 mod evidence;
 mod knowledge;
 mod limit;
+mod literature;
+mod map;
 pub mod networks;
 mod words;
 
@@ -85,6 +87,7 @@ impl Method {
     pub const fn most_states(self) -> usize {
         match self {
             Self::Network | Self::Limit => WHEELS,
+            Self::IagnemmaRecursive => usize::MAX,
             _ => MOST_STATES,
         }
     }
@@ -116,7 +119,13 @@ pub fn answer(method: Method, evidence: &Evidence) -> Result<Finding, String> {
 fn by_itself(method: Method, evidence: &Evidence) -> Result<Finding, String> {
     match method {
         Method::Network => networks::rover(evidence),
+        Method::Ding => literature::ding(evidence),
+        Method::Iagnemma => literature::iagnemma(evidence),
+        Method::IagnemmaRecursive => literature::iagnemma_recursive(evidence),
+        Method::Hutangkabodee => literature::hutangkabodee(evidence),
+        Method::Ray => literature::ray(evidence),
+        Method::Cross => Err("not there yet".to_owned()),
+        Method::Map => map::map(evidence),
         Method::Limit => limit::posterior_mean(evidence),
-        _ => Err("not there yet".to_owned()),
     }
 }
