@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
-use crate::identify::method::{Assumed, Evidence, training_prior};
+use crate::identify::method::{Assumed, Evidence, literature_bank, training_prior};
 use crate::train::dataset::stream;
 use crate::train::prior;
 
@@ -84,6 +84,7 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
         observations,
         assumed: Assumed::middle_of(&prior),
         prior,
+        bank: literature_bank(),
         declared,
     };
     Some(Case { evidence, soil })

@@ -36,6 +36,8 @@ enum Told {
     ShearModulus,
     /// All that it does not estimate: the truth.
     AllElse,
+    /// The true soil, among those of the bank.
+    OneOfTheBank,
 }
 
 const fn contender(id: &'static str, label: &'static str, way: Way, told: Told) -> Contender {
@@ -43,7 +45,7 @@ const fn contender(id: &'static str, label: &'static str, way: Way, told: Told) 
 }
 
 /// All of them, in the order of the table.
-pub const CONTENDERS: [Contender; 12] = [
+pub const CONTENDERS: [Contender; 13] = [
     contender("limit", "limit (posterior mean)", Way::By(Method::Limit), Told::Middle),
     contender("map", "map", Way::By(Method::Map), Told::Middle),
     contender("network", "network, rover", Way::By(Method::Network), Told::Middle),
@@ -61,6 +63,7 @@ pub const CONTENDERS: [Contender; 12] = [
     contender("hutangkabodee", "hutangkabodee", Way::By(Method::Hutangkabodee), Told::Middle),
     contender("hutangkabodee-n", "hutangkabodee; n, c, c₁, c₂ known", Way::By(Method::Hutangkabodee), Told::AllElse),
     contender("ray", "ray", Way::By(Method::Ray), Told::Middle),
+    contender("ray-bank", "ray, soil in the bank", Way::By(Method::Ray), Told::OneOfTheBank),
 ];
 
 impl Contender {
@@ -83,6 +86,8 @@ impl Contender {
 
     fn evidence(&self, case: &Case) -> Evidence {
         let mut evidence = case.evidence.clone();
+        // Table 1 is a soil of the literature, and of some situations.
+        evidence.bank.retain(|soil| !is_near(soil, &case.soil));
         let assumed = &mut evidence.assumed.soil;
         match self.told {
             Told::Middle => {}
@@ -95,7 +100,15 @@ impl Contender {
                     ..case.soil
                 };
             }
+            Told::OneOfTheBank => evidence.bank.push(case.soil),
         }
         evidence
     }
+}
+
+/// Whether two soils are one by their strength.
+fn is_near(one: &Soil<f64>, other: &Soil<f64>) -> bool {
+    (one.friction_angle_rad - other.friction_angle_rad).abs() < 1e-3
+        && (one.cohesion_pa - other.cohesion_pa).abs() < 1.0
+        && (one.shear_modulus_m - other.shear_modulus_m).abs() < 1e-4
 }

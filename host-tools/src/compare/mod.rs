@@ -1,5 +1,6 @@
 //! Every method on the same data: error, interval, bias, refusals and cost.
 
+mod bound;
 mod case;
 mod contender;
 mod measured;
@@ -55,6 +56,8 @@ pub struct Compared {
     pub title: &'static str,
     /// Whether the methods' equations made the data.
     pub model_is_right: bool,
+    /// What no unbiased estimator can beat, where nothing is believed of c (Pa), φ (°) and K (mm): root mean square.
+    pub cramer_rao: Option<[f64; 3]>,
     /// Contender by contender.
     pub scores: Vec<Score>,
     /// Root mean square errors over those of the limit, on the cases that it was sampled for.
@@ -137,6 +140,7 @@ fn compared(situation: &Situation, options: &CompareOptions, done: &(impl Fn() +
         id: situation.id,
         title: situation.title,
         model_is_right: situation.model_is_right(),
+        cramer_rao: bound::cramer_rao(&cases),
         to_limit: to_limit(&truths[..limit_cases], &answers),
         scores: answers.iter().map(score).collect(),
     }

@@ -1,5 +1,7 @@
 //! What a method is asked about.
 
+use std::sync::LazyLock;
+
 use kapvik_firmware::identification::{Observation, SoilPrior};
 use kapvik_firmware::terramechanics::effects::Grousers;
 use kapvik_firmware::terramechanics::{Soil, Wheel};
@@ -7,6 +9,7 @@ use kapvik_firmware::terramechanics::{Soil, Wheel};
 use crate::data::campaign::{Campaign, DeclaredEffect};
 use crate::identify::SensorNoise;
 use crate::identify::combine::MeanState;
+use crate::identify::soil_bank::soil_bank;
 
 use super::knowledge::soil_prior;
 
@@ -29,6 +32,8 @@ pub struct Evidence {
     pub prior: SoilPrior<f64>,
     /// What is taken as given by the methods that need it.
     pub assumed: Assumed,
+    /// The soils that the method of multiple models chooses from.
+    pub bank: Vec<Soil<f64>>,
     /// The effects that the model is told of.
     pub declared: Vec<DeclaredEffect>,
 }
@@ -57,9 +62,17 @@ impl Evidence {
             observations: states.iter().map(observation).collect(),
             assumed: Assumed::middle_of(&prior),
             prior,
+            bank: literature_bank(),
             declared: campaign.declared.effects.clone(),
         }
     }
+}
+
+/// The soils of the literature.
+pub fn literature_bank() -> Vec<Soil<f64>> {
+    static BANK: LazyLock<Vec<Soil<f64>>> =
+        LazyLock::new(|| soil_bank().unwrap_or_default().into_iter().map(|one| one.soil).collect());
+    BANK.clone()
 }
 
 impl Assumed {

@@ -1,15 +1,10 @@
 //! The methods of the literature, as the library has them.
 
-use std::sync::LazyLock;
-
 use kapvik_firmware::identification::ding::{DingBounds, ding as ding_fit};
 use kapvik_firmware::identification::hutangkabodee::hutangkabodee as newton;
 use kapvik_firmware::identification::iagnemma::{IagnemmaAssumptions, Recursive, iagnemma as line};
 use kapvik_firmware::identification::ray::ray as multiple_model;
 use kapvik_firmware::identification::{Assumed, Identified, Refusal};
-use kapvik_firmware::terramechanics::Soil;
-
-use crate::identify::soil_bank::soil_bank;
 
 use super::{Evidence, Finding, method_refusal};
 
@@ -48,9 +43,7 @@ pub fn hutangkabodee(evidence: &Evidence) -> Result<Finding, String> {
 
 /// Multiple models, one for each soil of the catalogue.
 pub fn ray(evidence: &Evidence) -> Result<Finding, String> {
-    static BANK: LazyLock<Vec<Soil<f64>>> =
-        LazyLock::new(|| soil_bank().unwrap_or_default().into_iter().map(|one| one.soil).collect());
-    worded(multiple_model(&evidence.wheel, &evidence.observations, &BANK))
+    worded(multiple_model(&evidence.wheel, &evidence.observations, &evidence.bank))
 }
 
 fn assumptions(evidence: &Evidence) -> IagnemmaAssumptions<f64> {

@@ -16,7 +16,7 @@ use kapvik_firmware::wheel_state::WHEELS;
 use crate::data::campaign::Channel;
 
 pub use answer::{Finding, Fit, Statement};
-pub use evidence::{Assumed, Evidence, MOST_STATES};
+pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
 pub use knowledge::{soil_prior, training_prior};
 pub use words::{method_refusal, network_refusal};
 

@@ -7,7 +7,7 @@ use crate::report::draw::number;
 use crate::report::page::head;
 
 use super::quartiles::{chart, percent};
-use super::terminal::{duration, label, measured_rows};
+use super::terminal::{cramer_rao, duration, label, measured_rows};
 use super::verdict::{symbol, verdicts};
 use super::{COMPARE_CSS, overview};
 
@@ -65,6 +65,7 @@ fn situation(compared: &Compared) -> Markup {
     html! {
         section {
             h2 { (compared.title) }
+            @if let Some(bound) = compared.cramer_rao { p class="note" { (cramer_rao(bound)) "." } }
             div class="three" { @for parameter in Parameter::ALL { (chart(compared, parameter)) } }
             div class="scroll" { table class="numbers" {
                 caption { "Medians [quartiles] of the estimates; share of the 68 % and 95 % intervals that hold the truth, in %." }

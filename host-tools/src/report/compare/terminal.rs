@@ -18,6 +18,9 @@ pub fn terminal(comparison: &Comparison) -> String {
     let mut text = format!("{} cases of each situation, seed {}\n{LEGEND}\n", comparison.cases, comparison.seed);
     for compared in &comparison.situations {
         text += &format!("\n{} — {}\n{}\n", compared.id, compared.title, table(compared));
+        if let Some(bound) = compared.cramer_rao {
+            text += &format!("  {}\n", cramer_rao(bound));
+        }
     }
     if !comparison.measured.is_empty() {
         text += &format!(
@@ -48,6 +51,17 @@ fn table(compared: &Compared) -> Table {
     }
     align_right(&mut table);
     table
+}
+
+/// The bound in words.
+pub fn cramer_rao([cohesion, friction, modulus]: [f64; 3]) -> String {
+    let figure = |value: f64, digits| number(value, digits, false);
+    format!(
+        "Cramér–Rao bound without any belief in c, φ and K, one standard deviation: c {} Pa, φ {}°, K {} mm",
+        figure(cohesion, 0),
+        figure(friction, 1),
+        figure(modulus, 1)
+    )
 }
 
 fn cells(compared: &Compared, score: &Score, parameter: Parameter) -> [String; 3] {
