@@ -15,6 +15,7 @@ mod observation;
 mod prior;
 pub mod ray;
 mod strength_told;
+pub mod trial;
 
 pub use closed_form::{StressShape, TriangularStress};
 pub use estimate::{Assumed, Identified, Origin, Refusal, Told};
