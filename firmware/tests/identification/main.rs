@@ -1,6 +1,12 @@
 //! Identification by the methods of the literature: known soils found again, known failures seen again.
 
+mod closed_form;
 mod ding;
+mod ding_published;
 mod drawn;
 mod iagnemma;
+mod iagnemma_published;
+mod independent;
 mod made;
+mod properties;
+mod recursive;

@@ -9,11 +9,7 @@ use super::strength::Strength;
 
 /// First order, through step 1 (whose parameters at a bound stay there) and step 3 (whose c and tan φ are taken as if they
 /// had none). None where the equations of a step are singular.
-pub(super) fn of<S: Scalar>(
-    rows: &Sensitive<'_, S>,
-    strength: &Strength<S>,
-    bounds: &DingBounds<S>,
-) -> Option<[S; 3]> {
+pub(super) fn of<S: Scalar>(rows: &Sensitive<'_, S>, strength: &Strength<S>, bounds: &DingBounds<S>) -> Option<[S; 3]> {
     let free = Free::new(rows, bounds);
     let (mut first, mut third) = (free.held(), Triangle::<S, 3>::new());
     for row in rows.iter() {
