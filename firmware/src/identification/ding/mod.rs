@@ -115,7 +115,7 @@ pub fn ding<S: Scalar>(
 /// bound is not identifiable. They know nothing of the error of taking stresses for triangles, which makes K 15 … 20 %
 /// too great on the seed's sand. Where K ends at a bound there are none.
 ///
-/// Cost: some 75 sweeps over the observations, and at most 60 with three derivatives, usually some ten.
+/// Cost: some 75 sweeps over the observations, and at most 60 with three derivatives, some 20 usually.
 ///
 /// # Errors
 /// [`Refusal::TooFew`] below three driven observations, [`Refusal::NoSinkage`] where one of them has none,

@@ -11,7 +11,8 @@ use super::rows::Rows;
 const START: [f64; 3] = [0.3, 0.2, -0.05];
 
 /// Least squares of DP over c₁, c₂ and c₃ within their bounds, by Levenberg's and Marquardt's steps. A parameter at a
-/// bound stays there while the residuals fall outward. None where a number overflows.
+/// bound stays there while the residuals fall outward. Along a flat valley the steps may end before they have settled: the
+/// place is then the best so far, within rounding. None where a number overflows.
 pub(super) fn fit<S: Scalar>(rows: &Rows<'_, S>, bounds: &DingBounds<S>) -> Option<StressShape<S>> {
     const STEPS: usize = 60;
     let bounds = [bounds.c1, bounds.c2, bounds.c3];
@@ -26,9 +27,9 @@ pub(super) fn fit<S: Scalar>(rows: &Rows<'_, S>, bounds: &DingBounds<S>) -> Opti
         // single precision while the step still knows the way.
         if next.cost <= best.cost + rounding * best.cost.sqrt() {
             best = next;
-            damping = (S::constant(0.1) * damping).max(S::constant(1e-9));
+            damping = (S::constant(0.3) * damping).max(S::constant(1e-9));
         } else {
-            damping = S::constant(10.0) * damping;
+            damping = S::constant(3.0) * damping;
         }
         if settled {
             break;
@@ -63,7 +64,7 @@ impl<S: Scalar> Place<S> {
 
     /// Whether it is nearly another place.
     fn is_near(&self, other: &[S; 3]) -> bool {
-        let nearest = S::constant(64.0 * S::EPSILON);
+        let nearest = S::constant(64.0 * S::EPSILON).max(S::constant(1e-8));
         self.at.iter().zip(other).all(|(here, there)| (*here - *there).abs() <= nearest)
     }
 
