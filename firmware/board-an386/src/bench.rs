@@ -23,6 +23,10 @@ const INPUTS: u16 = 64;
 const ROUNDS: u16 = 16;
 /// A call of this many ticks is large against a tick by itself: once is enough.
 const LONG_CALL_TICKS: u32 = 1000;
+/// A call of this many ticks is tried with fewer inputs.
+const VERY_LONG_CALL_TICKS: u32 = 25_000;
+/// So many.
+const FEW_INPUTS: u16 = 8;
 
 /// Counts instructions, and knows what its own loop costs.
 pub struct Bench {
@@ -69,18 +73,25 @@ fn stack_bytes<R>(low: f32, high: f32, mut function: impl FnMut(f32) -> R) -> u3
 /// Instructions of a call and the loop around it.
 #[inline(never)]
 fn instructions<R>(low: f32, high: f32, mut function: impl FnMut(f32) -> R) -> u64 {
-    let step = (high - low) / f32::from(INPUTS - 1);
-    let mut turn = |rounds: u16| {
+    let mut turn = |inputs: u16, rounds: u16| {
+        let step = (high - low) / f32::from(inputs - 1);
         let start = ticks::now();
         for _ in 0..rounds {
-            for index in 0..INPUTS {
+            for index in 0..inputs {
                 black_box(function(black_box(low + step * f32::from(index))));
             }
         }
         ticks::now().wrapping_sub(start)
     };
-    let once = turn(1);
+    let per_call = |ticks: u32, inputs: u16, rounds: u16| {
+        u64::from(ticks) * INSTRUCTIONS_PER_TICK / (u64::from(inputs) * u64::from(rounds))
+    };
+    let few = turn(FEW_INPUTS, 1);
+    if few / u32::from(FEW_INPUTS) >= VERY_LONG_CALL_TICKS {
+        return per_call(few, FEW_INPUTS, 1);
+    }
+    let once = turn(INPUTS, 1);
     let long = once / u32::from(INPUTS) >= LONG_CALL_TICKS;
-    let (ticks, rounds) = if long { (once, 1) } else { (turn(ROUNDS), ROUNDS) };
-    u64::from(ticks) * INSTRUCTIONS_PER_TICK / (u64::from(INPUTS) * u64::from(rounds))
+    let (ticks, rounds) = if long { (once, 1) } else { (turn(INPUTS, ROUNDS), ROUNDS) };
+    per_call(ticks, INPUTS, rounds)
 }

@@ -7,11 +7,15 @@
 mod closed_form;
 pub mod ding;
 mod estimate;
+pub mod hutangkabodee;
 pub mod iagnemma;
 mod least_squares;
+pub mod map;
 mod observation;
 mod prior;
+pub mod ray;
 mod strength_told;
+pub mod trial;
 
 pub use closed_form::{StressShape, TriangularStress};
 pub use estimate::{Assumed, Identified, Origin, Refusal, Told};

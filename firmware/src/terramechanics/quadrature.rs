@@ -2,7 +2,8 @@
 
 use crate::scalar::{Scalar, Tabulated};
 
-/// A way to integrate over the contact: a Gauss–Legendre rule in a graded coordinate t on each panel.
+/// A way to integrate over the contact: a rule in a graded coordinate t on each panel, Gauss–Legendre's but for
+/// [`Quadrature::SIMPSON`].
 ///
 /// On each side of the peak stress the angle from the far end of the contact is in proportion to t² or t³. The normal
 /// stress goes to zero there as a power that is not whole, which a polynomial rule alone resolves badly; the grading
@@ -14,7 +15,7 @@ pub struct Quadrature {
     layer: Tabulated,
 }
 
-/// A node of a Gauss–Legendre rule on 0 … 1.
+/// A node of a rule on 0 … 1.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     abscissa: Tabulated,
@@ -24,6 +25,7 @@ struct Node {
 /// How angle follows from the graded coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Grading {
+    None,
     Square,
     Cube,
 }
@@ -43,6 +45,11 @@ impl Quadrature {
     /// For double precision: 16 nodes a panel, truncation error below 1e-7 of the load (4e-8 in 40 000 cases tried).
     pub const REFERENCE: Self = Self { nodes: &GAUSS_16, grading: Grading::Cube, layer: Tabulated::new(15.0) };
 
+    /// Composite Simpson's rule with 20 intervals in the angle on each side of the peak stress, for the method of
+    /// [`crate::identification::hutangkabodee`]: no more panels while driving, truncation error of the order of 2e-4 of
+    /// the load.
+    pub const SIMPSON: Self = Self { nodes: &SIMPSON_20, grading: Grading::None, layer: Tabulated::new(1e6) };
+
     /// The rule whose error is of the order that the scalar's rounding makes worth while.
     pub fn for_scalar<S: Scalar>() -> Self {
         if S::EPSILON > 1e-10 { Self::FLIGHT } else { Self::REFERENCE }
@@ -56,6 +63,7 @@ impl Quadrature {
     /// The graded coordinate of a share of the angle (0 … 1).
     pub(super) fn coordinate<S: Scalar>(&self, share: S) -> S {
         match self.grading {
+            Grading::None => share,
             Grading::Square => share.sqrt(),
             Grading::Cube => share.powf(S::constant(1.0 / 3.0)),
         }
@@ -68,6 +76,7 @@ impl Quadrature {
             let t = start + length * S::tabulated(&node.abscissa);
             let weight = length * S::tabulated(&node.weight);
             match grading {
+                Grading::None => PlacedNode { share: t, weight },
                 Grading::Square => PlacedNode { share: t * t, weight: S::constant(2.0) * t * weight },
                 Grading::Cube => PlacedNode { share: t * t * t, weight: S::constant(3.0) * t * t * weight },
             }
@@ -77,6 +86,27 @@ impl Quadrature {
 
 const fn node(abscissa: f64, weight: f64) -> Node {
     Node { abscissa: Tabulated::new(abscissa), weight: Tabulated::new(weight) }
+}
+
+/// Composite Simpson's rule with 20 intervals: 1, 4, 2, 4, … 2, 4, 1 sixtieths.
+static SIMPSON_20: [Node; 21] = simpson();
+
+const fn simpson<const NODES: usize>() -> [Node; NODES] {
+    let intervals = (NODES - 1) as f64;
+    let mut nodes = [node(0.0, 1.0 / (3.0 * intervals)); NODES];
+    let mut place = 1;
+    while place < NODES {
+        let share = if place == NODES - 1 {
+            1.0
+        } else if place % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        };
+        nodes[place] = node(place as f64 / intervals, share / (3.0 * intervals));
+        place += 1;
+    }
+    nodes
 }
 
 /// Zeros of the Legendre polynomial of degree 8, moved to 0 … 1, with their weights.

@@ -61,7 +61,9 @@ impl TargetBench {
     /// Where it does not build, does not end well, or prints what is not understood.
     pub fn run(toolchain: &Toolchain, patience: Duration) -> Result<Self, HostError> {
         let mut bench = Self::of(toolchain, Binary::Bench, patience)?;
-        bench.kernels.extend(Self::of(toolchain, Binary::Tick, patience)?.kernels);
+        for binary in [Binary::Tick, Binary::Identify, Binary::Map] {
+            bench.kernels.extend(Self::of(toolchain, binary, patience)?.kernels);
+        }
         Ok(bench)
     }
 

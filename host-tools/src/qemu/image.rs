@@ -15,6 +15,10 @@ pub enum Binary {
     Bench,
     /// Counts the instructions of a whole tick.
     Tick,
+    /// Counts the instructions of the methods of the literature.
+    Identify,
+    /// Counts the instructions of the maximum a posteriori.
+    Map,
     /// The filter alone.
     Filter,
     /// The filter beside those of others: a package of its own, which only the comparison builds.
@@ -29,6 +33,8 @@ impl Binary {
             Self::Flight => "kapvik_an386",
             Self::Bench => "bench_an386",
             Self::Tick => "tick_an386",
+            Self::Identify => "identify_an386",
+            Self::Map => "map_an386",
             Self::Filter => "filter_an386",
             Self::Contenders => "contenders_an386",
             Self::Fault => "fault_an386",

@@ -16,16 +16,52 @@ const PARTS: usize = 8;
 /// Damping is given up at this value: no step that lowers the loss was found.
 const GREATEST_DAMPING: f64 = 1e6;
 
-/// State of the method: the damping μ, lowered tenfold on success and raised tenfold on failure.
+/// The damping μ, lowered tenfold on success and raised tenfold on failure.
+pub(super) struct Damping(f64);
+
+impl Default for Damping {
+    fn default() -> Self {
+        Self(1e-2)
+    }
+}
+
+impl Damping {
+    /// Where (`matrix` + μ) δ = `slope` leads from `weights`, with the least μ tried that gets `loss` below `before`; none
+    /// where none does.
+    pub fn descend(
+        &mut self,
+        weights: &DVector<f64>,
+        matrix: &DMatrix<f64>,
+        slope: &DVector<f64>,
+        before: f64,
+        mut loss: impl FnMut(&DVector<f64>) -> f64,
+    ) -> Option<DVector<f64>> {
+        while self.0 <= GREATEST_DAMPING {
+            let mut damped = matrix.clone();
+            (0..weights.len()).for_each(|k| damped[(k, k)] += self.0);
+            if let Some(factor) = damped.cholesky() {
+                let candidate = weights - factor.solve(slope);
+                if loss(&candidate) < before {
+                    self.0 = (self.0 * 0.1).max(1e-9);
+                    return Some(candidate);
+                }
+            }
+            self.0 *= 10.0;
+        }
+        None
+    }
+}
+
+/// State of the method.
 pub struct LevenbergMarquardt {
-    damping: f64,
+    damping: Damping,
     /// Weight decay per example, in units of the mean loss.
     decay: f64,
 }
 
 impl Default for LevenbergMarquardt {
     fn default() -> Self {
-        Self { damping: 1e-2, decay: 1e-6 }
+        Self { damping: Damping::default(), decay: 1e-6 }
     }
 }
 
@@ -35,24 +71,18 @@ impl LevenbergMarquardt {
         let weights = DVector::from_iterator(parameter_count(network), flatten(network).into_iter().map(f64::from));
         let penalty = |w: &DVector<f64>| 0.5 * self.decay * w.norm_squared();
         let before = mean_loss(network, set) + penalty(&weights);
-        let (matrix, mut slope) = normal_equations(network, set);
+        let (mut matrix, mut slope) = normal_equations(network, set);
         slope += self.decay * &weights;
-        while self.damping <= GREATEST_DAMPING {
-            let mut damped = matrix.clone();
-            (0..weights.len()).for_each(|k| damped[(k, k)] += self.decay + self.damping);
-            if let Some(factor) = damped.cholesky() {
-                let candidate = &weights - factor.solve(&slope);
-                let mut trial = network.clone();
-                change_each(&mut trial, &candidate, |weight, &new| *weight = new as f32);
-                if mean_loss(&trial, set) + penalty(&candidate) < before {
-                    *network = trial;
-                    self.damping = (self.damping * 0.1).max(1e-9);
-                    return true;
-                }
-            }
-            self.damping *= 10.0;
+        (0..weights.len()).for_each(|k| matrix[(k, k)] += self.decay);
+        let mut trial = network.clone();
+        let found = self.damping.descend(&weights, &matrix, &slope, before, |candidate| {
+            change_each(&mut trial, candidate, |weight, &new| *weight = new as f32);
+            mean_loss(&trial, set) + penalty(candidate)
+        });
+        if found.is_some() {
+            *network = trial;
         }
-        false
+        found.is_some()
     }
 }
 

@@ -1,0 +1,116 @@
+//! Drawn soils and what theory says of a wheel on them.
+
+use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
+use kapvik_firmware::wheel_state::WheelState;
+use rand::RngExt;
+use rayon::prelude::*;
+
+use super::super::dataset::stream;
+use super::super::example::soil_targets;
+use super::super::prior::{DEEPEST, Range};
+use super::{INPUTS, Scope, TARGETS};
+
+// Wide enough for most soils of the literature; recommended by our review of it, not the paper's.
+const COHESION_PA: Range = Range { low: 50.0, high: 5000.0, logarithmic: true };
+const FRICTION_ANGLE_RAD: Range =
+    Range { low: 0.349_065_850_398_865_9, high: 0.785_398_163_397_448_3, logarithmic: false };
+const SHEAR_MODULUS_M: Range = Range { low: 0.004, high: 0.040, logarithmic: true };
+const SINKAGE_EXPONENT: Range = Range { low: 0.6, high: 1.5, logarithmic: false };
+const STIFFNESS: Range = Range { low: 2e5, high: 6e6, logarithmic: true };
+const PEAK_STRESS_C1: Range = Range { low: 0.15, high: 0.5, logarithmic: false };
+const PEAK_STRESS_C2: Range = Range { low: 0.0, high: 0.35, logarithmic: false };
+const SLIP: Range = Range { low: 0.02, high: 0.7, logarithmic: false };
+
+/// A wheel's state and the soil under it, in the units of inputs and targets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Example {
+    pub input: [f64; INPUTS],
+    pub target: [f64; TARGETS],
+}
+
+/// Brings numbers to −1 … 1 and back.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Scale<const N: usize> {
+    low: [f64; N],
+    high: [f64; N],
+}
+
+/// `count` examples, the same for the same seed. Draws in which the wheel is stuck are left out and replaced.
+pub(super) fn draw(scope: &Scope, count: usize, seed: u64) -> Vec<Example> {
+    // Where next to no soil carries the wheel there are fewer.
+    const MOST_ROUNDS: usize = 20;
+    let mut examples = Vec::with_capacity(count);
+    for round in 0..MOST_ROUNDS {
+        let indices = (round * count..(round + 1) * count).into_par_iter();
+        examples.par_extend(indices.filter_map(|index| draw_one(scope, seed, index)));
+        if examples.len() >= count {
+            break;
+        }
+    }
+    examples.truncate(count);
+    examples
+}
+
+fn draw_one(scope: &Scope, seed: u64, index: usize) -> Option<Example> {
+    let mut random = stream(seed, index);
+    let mut at = |range: Range| range.at(random.random());
+    let soil = Soil {
+        cohesion_pa: at(COHESION_PA),
+        friction_angle_rad: at(FRICTION_ANGLE_RAD),
+        shear_modulus_m: at(SHEAR_MODULUS_M),
+        sinkage_exponent: at(SINKAGE_EXPONENT),
+        frictional_modulus: at(STIFFNESS),
+        cohesive_modulus: 0.0,
+        peak_stress_c1: at(PEAK_STRESS_C1),
+        peak_stress_c2: at(PEAK_STRESS_C2),
+        rebound_ratio: 0.0,
+    };
+    let (slip, load_n) = (at(SLIP), at(scope.load_n));
+    let sinkage_m = sinkage_for_load(&scope.wheel, &soil, slip, load_n).ok()?;
+    let forces = wheel_forces(&scope.wheel, &soil, slip, sinkage_m).ok()?;
+    let state = WheelState {
+        drawbar_pull_n: forces.drawbar_pull_n,
+        load_n,
+        torque_nm: forces.torque_nm,
+        slip,
+        sinkage_m: Some(sinkage_m),
+    };
+    let carried = sinkage_m <= DEEPEST * scope.wheel.radius_m;
+    carried.then_some(Example { input: input(&state)?, target: soil_targets(&soil) })
+}
+
+/// What the network is told of a wheel; none without sinkage.
+pub(super) fn input(state: &WheelState<f64>) -> Option<[f64; INPUTS]> {
+    Some([state.drawbar_pull_n, state.torque_nm, state.slip, state.sinkage_m?, state.load_n])
+}
+
+/// The scale of the targets: their ranges.
+pub(super) fn target_scale() -> Scale<TARGETS> {
+    let ends = |end: fn(&Range) -> f64| [end(&COHESION_PA).ln(), end(&FRICTION_ANGLE_RAD), end(&SHEAR_MODULUS_M).ln()];
+    Scale { low: ends(|range| range.low), high: ends(|range| range.high) }
+}
+
+impl<const N: usize> Scale<N> {
+    /// The least and the greatest of each number.
+    pub fn of(all: impl Iterator<Item = [f64; N]>) -> Self {
+        all.fold(Self { low: [f64::INFINITY; N], high: [f64::NEG_INFINITY; N] }, |ends, numbers| Self {
+            low: std::array::from_fn(|k| ends.low[k].min(numbers[k])),
+            high: std::array::from_fn(|k| ends.high[k].max(numbers[k])),
+        })
+    }
+
+    /// To −1 … 1.
+    pub fn apply(&self, numbers: &[f64; N]) -> [f64; N] {
+        std::array::from_fn(|k| 2.0 * (numbers[k] - self.low[k]) / (self.high[k] - self.low[k]) - 1.0)
+    }
+
+    /// From −1 … 1.
+    pub fn undo(&self, numbers: &[f64; N]) -> [f64; N] {
+        std::array::from_fn(|k| self.low[k] + 0.5 * (numbers[k] + 1.0) * (self.high[k] - self.low[k]))
+    }
+
+    /// What one of the scaled unit is in each number's own.
+    pub fn units(&self) -> [f64; N] {
+        std::array::from_fn(|k| 0.5 * (self.high[k] - self.low[k]))
+    }
+}

@@ -1,0 +1,66 @@
+//! The bank of soils for Ray's method.
+
+use kapvik_firmware::identification::Observation;
+use kapvik_firmware::identification::ray::{BANK, MultipleModel, ray};
+use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+use kapvik_host::identify::soil_bank::soil_bank;
+
+const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
+
+/// Six wheels under 65.4 N at slips of 0.05 … 0.60, as the mean of 100 instants has them; none where the soil does not
+/// carry them.
+fn six_wheels(soil: &Soil<f64>) -> Option<Vec<Observation<f64>>> {
+    let noise = WheelNoise { drawbar_pull_n: 0.05, load_n: 0.1, torque_nm: 0.005, slip: 0.001, sinkage_m: 0.0002 };
+    let slips = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
+    let observe = |slip: f64| {
+        let sinkage_m = sinkage_for_load(&WHEEL, soil, slip, 65.4).ok()?;
+        let forces = wheel_forces(&WHEEL, soil, slip, sinkage_m).ok()?;
+        let (drawbar_pull_n, torque_nm) = (forces.drawbar_pull_n, forces.torque_nm);
+        let state = WheelState { drawbar_pull_n, load_n: 65.4, torque_nm, slip, sinkage_m: None };
+        Some(Observation { state, noise })
+    };
+    slips.into_iter().map(observe).collect()
+}
+
+#[test]
+fn the_bank_is_the_catalogue_s_whole_soils() {
+    let bank = soil_bank().expect("the data file that is built in reads");
+    assert_eq!(bank.len(), 39);
+    assert!(bank.len() <= BANK);
+    let sand = bank.iter().find(|soil| soil.id == "seed-table-1").expect("in the bank");
+    assert!(sand.complete);
+    assert_eq!(sand.soil.cohesion_pa, 250.0);
+}
+
+/// Every soil of the bank that carries the rover is told from all the others, and by its own name.
+#[test]
+fn each_soil_is_found_in_the_bank() {
+    let bank = soil_bank().expect("the data file that is built in reads");
+    let soils: Vec<_> = bank.iter().map(|soil| soil.soil).collect();
+    let mut carrying = 0;
+    for truth in &bank {
+        let Some(observed) = six_wheels(&truth.soil) else { continue };
+        carrying += 1;
+        let mut model = MultipleModel::<_, BANK>::new(&soils).expect("room");
+        let found = model.update(&WHEEL, &observed).expect("an answer");
+        let own: f64 = bank
+            .iter()
+            .zip(model.probabilities())
+            .filter(|(soil, _)| soil.soil == truth.soil)
+            .map(|(_, probability)| probability)
+            .sum();
+        assert!(own > 0.9, "{}: {own}, {found:?}", truth.id);
+    }
+    assert!(carrying >= 20, "{carrying}");
+}
+
+/// Without the seed's sand the bank has no soil that explains it, and the method says so.
+#[test]
+fn the_seed_s_sand_is_missed_where_it_is_not_in_the_bank() {
+    let bank = soil_bank().expect("the data file that is built in reads");
+    let (with, without): (Vec<_>, Vec<_>) = bank.iter().partition(|soil| soil.id == "seed-table-1");
+    let others: Vec<_> = without.iter().map(|soil| soil.soil).collect();
+    let found = ray(&WHEEL, &six_wheels(&with[0].soil).expect("carried"), &others).expect("an answer");
+    assert!(!found.friction_angle_rad.identifiable && !found.shear_modulus_m.identifiable);
+}
