@@ -3,7 +3,19 @@
 use crate::scalar::Scalar;
 use crate::terramechanics::angle_of_tangent;
 
-use super::{SoilPrior, Told};
+use super::{Identified, Refusal, SoilPrior, Told};
+
+impl<S: Scalar> Identified<S> {
+    /// The answer where all of it is numbers.
+    ///
+    /// # Errors
+    /// [`Refusal::OutOfRange`] where one has overflowed.
+    pub(super) fn in_numbers(self) -> Result<Self, Refusal> {
+        let told = [self.cohesion_pa, self.friction_angle_rad, self.shear_modulus_m];
+        let finite = told.iter().all(|told| told.value.is_finite()) && self.condition_number >= S::one();
+        if finite { Ok(self) } else { Err(Refusal::OutOfRange) }
+    }
+}
 
 impl<S: Scalar> Told<S> {
     /// c (Pa) of the given standard deviation. One that is not above zero is none that a soil can have: not identifiable.
@@ -31,8 +43,10 @@ impl<S: Scalar> Told<S> {
         Self { identifiable: self.identifiable && condition, ..self }
     }
 
-    /// A value whose standard deviation is set against what is believed beforehand; not identifiable without one.
+    /// A value whose standard deviation is set against what is believed beforehand; one that overflows is none, and
+    /// without one it is not identifiable.
     fn against(value: S, std: Option<S>, believed: Option<S>) -> Self {
+        let std = std.filter(|std| std.is_finite());
         let ratio = std.zip(believed).map_or(S::constant(f64::INFINITY), |(std, believed)| std / believed);
         Self::estimated(value, std, ratio)
     }

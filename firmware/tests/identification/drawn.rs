@@ -1,6 +1,7 @@
 //! Six wheels whose loads differ, and what a method says of many draws of their noise.
 
 use kapvik_firmware::identification::{Identified, Observation, Refusal};
+use rayon::prelude::*;
 
 use super::made::{EQUAL_LOAD_N, Normal, SIX_SLIPS, averaged, noisy, seen, table_1_sand};
 
@@ -35,8 +36,6 @@ pub struct Quartiles {
     pub median: f64,
     /// Three quarters lie below.
     pub third: f64,
-    /// One standard deviation of the median, as if it were of that many normal numbers.
-    pub median_std: f64,
 }
 
 impl Quartiles {
@@ -49,9 +48,7 @@ impl Quartiles {
             below + place.fract() * (numbers[place.ceil() as usize] - below)
         };
         let [first, median, third] = [0.25, 0.5, 0.75].map(at);
-        // Of normal numbers: 1.2533 σ/√N, σ being the interquartile range over 1.349.
-        let median_std = 0.929 * (third - first) / (numbers.len() as f64).sqrt();
-        Self { first, median, third, median_std }
+        Self { first, median, third }
     }
 }
 
@@ -61,12 +58,30 @@ impl std::fmt::Display for Quartiles {
     }
 }
 
+/// A method, for these observations.
+pub trait Method: Fn(&[Observation<f64>]) -> Result<Identified<f64>, Refusal> + Sync {}
+impl<F: Fn(&[Observation<f64>]) -> Result<Identified<f64>, Refusal> + Sync> Method for F {}
+
 /// c (Pa), φ (degrees) and K (mm) over the draws that were answered, and the share of those refused.
 pub struct Outcome {
     pub cohesion_pa: Quartiles,
     pub friction_deg: Quartiles,
     pub modulus_mm: Quartiles,
     pub refused: f64,
+}
+
+impl Outcome {
+    fn of(answers: Vec<Result<Identified<f64>, Refusal>>) -> Self {
+        let draws = answers.len() as f64;
+        let answered: Vec<_> = answers.into_iter().filter_map(Result::ok).collect();
+        let quartiles = |number: fn(&Identified<f64>) -> f64| Quartiles::of(answered.iter().map(number).collect());
+        Self {
+            cohesion_pa: quartiles(|soil| soil.cohesion_pa.value),
+            friction_deg: quartiles(|soil| soil.friction_angle_rad.value.to_degrees()),
+            modulus_mm: quartiles(|soil| 1e3 * soil.shear_modulus_m.value),
+            refused: 1.0 - answered.len() as f64 / draws,
+        }
+    }
 }
 
 impl std::fmt::Display for Outcome {
@@ -76,26 +91,52 @@ impl std::fmt::Display for Outcome {
     }
 }
 
-/// What a method says of 400 draws.
-pub fn outcome(
-    spread: f64,
-    pattern: Option<&Pattern>,
-    instants: f64,
-    method: impl Fn(&[Observation<f64>]) -> Result<Identified<f64>, Refusal>,
-) -> Outcome {
+/// What a method says of 400 draws, each of loads of its own.
+pub fn outcome(spread: f64, instants: f64, method: &impl Method) -> Outcome {
     const DRAWS: u64 = 400;
-    let known = pattern.map(|pattern| loaded(spread, pattern));
-    let answers = (0..DRAWS).map(|seed| {
+    let one = |seed| {
         let mut random = Normal::new(seed);
-        let wheels = known.unwrap_or_else(|| loaded(spread, &any_pattern(&mut random)));
+        let wheels = loaded(spread, &any_pattern(&mut random));
         method(&draw(&wheels, instants, &mut random))
+    };
+    Outcome::of((0..DRAWS).map(one).collect())
+}
+
+/// The outcomes of 100 draws for each of 24 patterns of loads: how far a figure moves with a pattern that is not stated.
+pub fn by_pattern(spread: f64, instants: f64, method: &impl Method) -> Vec<Outcome> {
+    const PATTERNS: usize = 24;
+    const DRAWS: u64 = 100;
+    let one = |seed: usize| {
+        let mut random = Normal::new(1_000 + seed as u64);
+        let pattern = ALTERNATING.get(seed).copied().unwrap_or_else(|| any_pattern(&mut random));
+        let wheels = loaded(spread, &pattern);
+        Outcome::of((0..DRAWS).map(|_| method(&draw(&wheels, instants, &mut random))).collect())
+    };
+    (0..PATTERNS).into_par_iter().map(one).collect()
+}
+
+/// First quartile, median and third quartile as published, as far as they are.
+pub type Published = [Option<f64>; 3];
+
+/// Which of the published figures could be those of one more pattern: not below the least nor above the greatest of the
+/// patterns'. Of figures that come of the same method 2 in 25 are outside. One that is not published is none.
+pub fn could_be_one_more(
+    cell: &str,
+    outcomes: &[Outcome],
+    number: fn(&Outcome) -> Quartiles,
+    published: Published,
+) -> [bool; 3] {
+    let parts: [fn(&Quartiles) -> f64; 3] = [|q| q.first, |q| q.median, |q| q.third];
+    print!("{cell}:");
+    let could = std::array::from_fn(|part| {
+        let figures: Vec<_> = outcomes.iter().map(|outcome| parts[part](&number(outcome))).collect();
+        let low = figures.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = figures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let name = ["first quartile", "median", "third quartile"][part];
+        let published_or_none = published[part].map_or("–".into(), |figure| figure.to_string());
+        print!("  {name} {published_or_none}, here {:.1} ({low:.1} … {high:.1})", Quartiles::of(figures).median);
+        published[part].is_none_or(|figure| (low..=high).contains(&figure))
     });
-    let answered: Vec<_> = answers.filter_map(Result::ok).collect();
-    let quartiles = |number: fn(&Identified<f64>) -> f64| Quartiles::of(answered.iter().map(number).collect());
-    Outcome {
-        cohesion_pa: quartiles(|soil| soil.cohesion_pa.value),
-        friction_deg: quartiles(|soil| soil.friction_angle_rad.value.to_degrees()),
-        modulus_mm: quartiles(|soil| 1e3 * soil.shear_modulus_m.value),
-        refused: 1.0 - answered.len() as f64 / DRAWS as f64,
-    }
+    println!();
+    could
 }

@@ -1,9 +1,15 @@
 //! Identification by the methods of the literature: known soils found again, known failures seen again.
 
+mod closed_form;
 mod ding;
+mod ding_published;
 mod drawn;
 mod hutangkabodee;
 mod iagnemma;
+mod iagnemma_published;
+mod independent;
 mod made;
 mod non_uniqueness;
+mod properties;
 mod ray;
+mod recursive;

@@ -27,6 +27,12 @@ impl<'a, S: Scalar> Rows<'a, S> {
         self.driven().count()
     }
 
+    /// The load that they carry together, root of the sum of squares, N.
+    pub fn load_n(&self) -> S {
+        let squares = self.driven().map(|Observation { state, .. }| state.load_n * state.load_n);
+        squares.fold(S::zero(), |sum, square| sum + square).sqrt()
+    }
+
     /// The wheel's radius, m.
     pub fn radius_m(&self) -> S {
         self.wheel.radius_m

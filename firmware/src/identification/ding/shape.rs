@@ -11,26 +11,28 @@ use super::rows::Rows;
 const START: [f64; 3] = [0.3, 0.2, -0.05];
 
 /// Least squares of DP over c₁, c₂ and c₃ within their bounds, by Levenberg's and Marquardt's steps. A parameter at a
-/// bound stays there while the residuals fall outward. None where a number overflows.
+/// bound stays there while the residuals fall outward. Along a flat valley the steps may end before they have settled: the
+/// place is then the best so far, within rounding. None where a number overflows.
 pub(super) fn fit<S: Scalar>(rows: &Rows<'_, S>, bounds: &DingBounds<S>) -> Option<StressShape<S>> {
     const STEPS: usize = 60;
     let bounds = [bounds.c1, bounds.c2, bounds.c3];
     let mut best = Place::new(rows, held(START.map(S::constant), &bounds));
     let mut damping = S::constant(1e-3);
+    // Of the drawbar pulls: they are differences of forces of the size of the load.
+    let rounding = S::constant(8.0 * S::EPSILON) * rows.load_n();
     for _ in 0..STEPS {
         let next = Place::new(rows, best.step(damping, &bounds)?);
-        if next.at == best.at {
-            break;
-        }
-        if next.cost < best.cost {
-            let settled = best.cost - next.cost <= S::constant(16.0 * S::EPSILON) * best.cost;
+        let settled = next.is_near(&best.at);
+        // What rounding adds does not count: along the valley of c₁ and c₃ the sum of squares is flat to the last digits of
+        // single precision while the step still knows the way.
+        if next.cost <= best.cost + rounding * best.cost.sqrt() {
             best = next;
-            damping = (S::constant(0.1) * damping).max(S::constant(1e-6));
-            if settled {
-                break;
-            }
+            damping = (S::constant(0.3) * damping).max(S::constant(1e-9));
         } else {
-            damping = S::constant(10.0) * damping;
+            damping = S::constant(3.0) * damping;
+        }
+        if settled {
+            break;
         }
     }
     let [c1, c2, c3] = best.at;
@@ -58,6 +60,12 @@ impl<S: Scalar> Place<S> {
             cost += left.value * left.value;
         }
         Self { at, step, cost }
+    }
+
+    /// Whether it is nearly another place.
+    fn is_near(&self, other: &[S; 3]) -> bool {
+        let nearest = S::constant(64.0 * S::EPSILON).max(S::constant(1e-8));
+        self.at.iter().zip(other).all(|(here, there)| (*here - *there).abs() <= nearest)
     }
 
     /// Where the damped step leads.

@@ -18,13 +18,6 @@ pub(super) struct Strength<S> {
     pub shear_modulus_m: S,
 }
 
-impl<S: Scalar> Strength<S> {
-    /// Whether all are numbers.
-    pub fn is_finite(&self) -> bool {
-        [self.cohesion_pa, self.tan_friction, self.shear_modulus_m].iter().all(|number| number.is_finite())
-    }
-}
-
 /// The equations τm = c e + tan φ (e σm) at a K, e = 1 − e^(−j/K).
 pub(super) fn line<S: Scalar>(rows: &Rows<'_, S>, shape: &StressShape<S>, shear_modulus_m: S) -> Triangle<S, 2> {
     let mut line = Triangle::new();

@@ -41,7 +41,7 @@ impl<S: Scalar> IagnemmaAssumptions<S> {
 ///
 /// # Errors
 /// [`Refusal::TooFew`] below two driven observations (one where c is assumed), [`Refusal::NoSinkage`] where one of them
-/// has none, [`Refusal::OutOfRange`] where one is outside 0 … r or the assumed K is not above zero,
+/// has none, [`Refusal::OutOfRange`] where one is outside 0 … r, the assumed K is not above zero or a number overflows,
 /// [`Refusal::NegativeStress`] where a normal stress comes out at zero or below, [`Refusal::NotIdentifiable`] where all
 /// normal stresses are equal to the last digits.
 pub fn iagnemma<S: Scalar>(

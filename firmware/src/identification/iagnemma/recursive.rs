@@ -2,7 +2,7 @@
 
 use crate::identification::least_squares::{Bounds, Triangle};
 use crate::identification::observation::check;
-use crate::identification::{Identified, Observation, Refusal, StressShape, Told, TriangularStress};
+use crate::identification::{Assumed, Identified, Observation, Refusal, StressShape, Told, TriangularStress};
 use crate::scalar::Scalar;
 use crate::terramechanics::Wheel;
 
@@ -60,37 +60,55 @@ impl<S: Scalar> Recursive<S> {
     /// What the observations so far say. The standard deviations are somewhat too great where there is forgetting.
     ///
     /// # Errors
-    /// [`Refusal::TooFew`] and [`Refusal::NotIdentifiable`], as [`super::iagnemma()`].
+    /// [`Refusal::TooFew`], [`Refusal::NotIdentifiable`] and [`Refusal::OutOfRange`], as [`super::iagnemma()`].
     pub fn identified(&self) -> Result<Identified<S>, Refusal> {
         let needed = self.assumed.needed();
-        let unknowns = S::constant(f64::from(needed));
         if self.count < needed {
             return Err(Refusal::TooFew { needed });
         }
-        let modulus_m = &self.assumed.shear_modulus_m;
-        let shear_modulus_m = Told::assumed(modulus_m.value, modulus_m.std);
-        let spare = self.weight - unknowns;
-        let std = |cost: S, share: S| (spare > S::zero()).then(|| (cost / spare * share).sqrt());
+        let told = match &self.assumed.cohesion_pa {
+            Some(cohesion_pa) => self.with_cohesion(cohesion_pa),
+            None => self.of_both()?,
+        };
+        told.in_numbers()
+    }
 
-        if let Some(cohesion_pa) = &self.assumed.cohesion_pa {
-            let held = Bounds { low: cohesion_pa.value, high: cohesion_pa.value };
-            let best @ [_, tan] = self.line.solution_within([held, Bounds::none()]);
-            let length = self.line.length(1);
-            return Ok(Identified {
-                cohesion_pa: Told::assumed(cohesion_pa.value, cohesion_pa.std),
-                friction_angle_rad: Told::friction(tan, std(self.line.cost(best), S::one() / (length * length))),
-                shear_modulus_m,
-                condition_number: S::one(),
-            });
-        }
+    /// c and φ.
+    fn of_both(&self) -> Result<Identified<S>, Refusal> {
         let [cohesion_pa, tan] = self.line.solution().ok_or(Refusal::NotIdentifiable)?;
         let [of_cohesion, of_tan] = self.line.variances().ok_or(Refusal::NotIdentifiable)?;
+        let variance = self.variance(self.line.rest);
+        let std = |share: S| variance.map(|variance| (variance * share).sqrt());
         Ok(Identified {
-            cohesion_pa: Told::cohesion(cohesion_pa, std(self.line.rest, of_cohesion)),
-            friction_angle_rad: Told::friction(tan, std(self.line.rest, of_tan)),
-            shear_modulus_m,
+            cohesion_pa: Told::cohesion(cohesion_pa, std(of_cohesion)),
+            friction_angle_rad: Told::friction(tan, std(of_tan)),
+            shear_modulus_m: self.shear_modulus(),
             condition_number: self.line.condition_number(),
         })
+    }
+
+    /// φ alone.
+    fn with_cohesion(&self, cohesion_pa: &Assumed<S>) -> Identified<S> {
+        let held = Bounds { low: cohesion_pa.value, high: cohesion_pa.value };
+        let best @ [_, tan] = self.line.solution_within([held, Bounds::none()]);
+        let std = self.variance(self.line.cost(best)).map(|variance| variance.sqrt() / self.line.length(1));
+        Identified {
+            cohesion_pa: Told::assumed(cohesion_pa.value, cohesion_pa.std),
+            friction_angle_rad: Told::friction(tan, std),
+            shear_modulus_m: self.shear_modulus(),
+            condition_number: S::one(),
+        }
+    }
+
+    fn shear_modulus(&self) -> Told<S> {
+        let assumed = &self.assumed.shear_modulus_m;
+        Told::assumed(assumed.value, assumed.std)
+    }
+
+    /// The variance of a κ₂, from the sum of squared residuals; none without more equations than unknowns.
+    fn variance(&self, squares: S) -> Option<S> {
+        let spare = self.weight - S::constant(f64::from(self.assumed.needed()));
+        (spare > S::zero()).then(|| squares / spare)
     }
 }
 
@@ -108,9 +126,9 @@ impl<S: Scalar> Point<S> {
         let stress = TriangularStress::new(wheel, &observation.state, sinkage_m, &StressShape::symmetric());
         let strength_pa = stress.shear_pa / stress.mobilised(shear_modulus_m);
         let point = Self { normal_pa: stress.normal_pa, strength_pa };
-        if !(point.normal_pa > S::zero()) {
-            return Err(Refusal::NegativeStress);
+        if !(point.normal_pa.is_finite() && point.strength_pa.is_finite()) {
+            return Err(Refusal::OutOfRange);
         }
-        if point.normal_pa.is_finite() && point.strength_pa.is_finite() { Ok(point) } else { Err(Refusal::OutOfRange) }
+        if point.normal_pa > S::zero() { Ok(point) } else { Err(Refusal::NegativeStress) }
     }
 }
