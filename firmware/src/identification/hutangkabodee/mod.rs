@@ -64,7 +64,8 @@ pub fn hutangkabodee<S: Scalar>(
 /// ln k. The standard deviations are s²(JᵀJ)⁻¹ with that matrix J; s² is the residuals' variance over the noise's, and at
 /// least 1. What ends at a bound is not identifiable.
 ///
-/// Cost: each step integrates 40 intervals an observation, with three derivatives; at most 60 steps, some six usually.
+/// Cost: each step integrates 40 intervals an observation, with three derivatives; at most 60 steps, seven to ten
+/// usually.
 ///
 /// # Errors
 /// [`Refusal::TooFew`] below three driven observations, [`Refusal::NoSinkage`] where one of them has none,
