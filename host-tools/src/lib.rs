@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod close_loop;
 pub mod commands;
+pub mod compare;
 pub mod data;
 pub mod diagnose;
 pub mod error;

@@ -1,9 +1,9 @@
 //! The sampler on densities whose moments are known, and the diagnostics on chains whose correlation is known.
 
+use kapvik_firmware::dual::Dual;
 use kapvik_firmware::scalar::Scalar;
 use kapvik_host::limit::density::LogDensity;
 use kapvik_host::limit::diagnostics::Diagnosis;
-use kapvik_host::limit::dual::Dual;
 use kapvik_host::limit::sampler::{Draws, Effort, sample};
 use kapvik_host::limit::student::Student;
 use kapvik_host::train::dataset::stream;
@@ -151,7 +151,7 @@ fn woven<S: Scalar>(x: S, y: S) -> S {
 #[test]
 fn dual_numbers_carry_the_slopes() {
     let (x, y): (f64, f64) = (0.7, 1.3);
-    let found = woven(Dual::<2>::variable(x, 0), Dual::variable(y, 1));
+    let found = woven(Dual::<f64, 2>::variable(x, 0), Dual::variable(y, 1));
     let step = 1e-5;
     let by_x = (woven(x + step, y) - woven(x - step, y)) / (2.0 * step);
     let by_y = (woven(x, y + step) - woven(x, y - step)) / (2.0 * step);

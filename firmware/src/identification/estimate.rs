@@ -25,6 +25,15 @@ pub struct Told<S> {
     pub origin: Origin,
 }
 
+/// A value that a method takes as given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Assumed<S> {
+    /// The value.
+    pub value: S,
+    /// How well it is believed to be known: one standard deviation. The method does not look at it.
+    pub std: S,
+}
+
 /// What a method says of the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Identified<S> {

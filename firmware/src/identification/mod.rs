@@ -4,12 +4,20 @@
 //! A method is a function of the wheel, of what was observed of it, and of what the method assumes. It needs no allocator,
 //! ends after a bounded number of steps, and refuses for a reason that it names.
 
+mod closed_form;
+pub mod ding;
 mod estimate;
 pub mod hutangkabodee;
+pub mod iagnemma;
+mod least_squares;
+pub mod map;
 mod observation;
 mod prior;
 pub mod ray;
+mod strength_told;
 
-pub use estimate::{Identified, Origin, Refusal, Told};
+pub use closed_form::{StressShape, TriangularStress};
+pub use estimate::{Assumed, Identified, Origin, Refusal, Told};
+pub use least_squares::Bounds;
 pub use observation::Observation;
 pub use prior::{Belief, SoilPrior};

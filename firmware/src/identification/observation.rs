@@ -42,6 +42,12 @@ pub(super) fn check<S: Scalar>(
 }
 
 impl<S: Scalar> Observation<S> {
+    /// The sinkage, m, where it is above zero and at most the wheel's radius.
+    pub(super) fn sinkage_on(&self, wheel: &Wheel<S>) -> Result<S, Refusal> {
+        let sinkage_m = self.state.sinkage_m.ok_or(Refusal::NoSinkage)?;
+        if sinkage_m > S::zero() && sinkage_m <= wheel.radius_m { Ok(sinkage_m) } else { Err(Refusal::OutOfRange) }
+    }
+
     fn is_finite(&self) -> bool {
         let state = &self.state;
         [state.drawbar_pull_n, state.load_n, state.torque_nm, state.slip].iter().all(|number| number.is_finite())

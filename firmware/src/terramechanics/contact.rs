@@ -65,7 +65,7 @@ impl<S: Scalar> Contact<S> {
 ///
 /// 1 − depth drops the last digits of a small depth. The sine does not (it is a bound from below as well), and a Newton
 /// step on depth = 2 sin²(θ/2) brings them back.
-fn rim_angle<S: Scalar>(depth: S) -> S {
+pub(crate) fn rim_angle<S: Scalar>(depth: S) -> S {
     let sine = (depth * (S::constant(2.0) - depth)).sqrt();
     let angle = (S::one() - depth).acos().max(sine);
     let half_sine = (S::constant(0.5) * angle).sin();

@@ -23,3 +23,8 @@ pub use sinkage::{GreatestLoad, SinkageError, deepest_sinkage, greatest_load, si
 pub use soil::Soil;
 pub use wheel::Wheel;
 pub use wheel_on_soil::{Memory, Readings, WheelOnSoil, WheelTruth};
+
+pub(crate) use contact::rim_angle;
+pub(crate) use rim::Rim;
+pub(crate) use shear_displacement::ShearDisplacement;
+pub(crate) use soil::angle_of_tangent;

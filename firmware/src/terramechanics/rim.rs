@@ -4,14 +4,14 @@ use crate::scalar::Scalar;
 
 /// Sine and cosine of the entry angle θ₁: all that a point on the rim is measured from.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rim<S> {
+pub(crate) struct Rim<S> {
     sin_entry: S,
     cos_entry: S,
 }
 
 /// A point on the rim at the angle θ.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct RimPoint<S> {
+pub(crate) struct RimPoint<S> {
     /// θ₁ − θ, rad.
     pub from_entry_rad: S,
     /// sin θ.

@@ -11,7 +11,7 @@ use super::rim::{Rim, RimPoint};
 /// are multiplied by a = 1 (driving) or a = 1 + i (braking) to stay finite there: q = a j / r is
 /// i (θ₁ − θ) + b [(θ₁ − θ) − (sin θ₁ − sin θ)], b = aV, in which nothing cancels at small slip.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ShearDisplacement<S> {
+pub(crate) struct ShearDisplacement<S> {
     slip: S,
     /// a: 1 driving, 1 + i braking.
     pub rim_share: S,

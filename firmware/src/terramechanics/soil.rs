@@ -58,9 +58,7 @@ impl<S: Scalar> Soil<S> {
     pub fn scale_strength(&mut self, factor: S) {
         let (sin, cos) = self.friction_angle_rad.sin_cos();
         let tan = factor * sin / cos;
-        // Arc cosine of the cosine, with the sign of the angle: the scalar has no arc tangent.
-        let angle = (S::one() / (S::one() + tan * tan).sqrt()).acos();
-        self.friction_angle_rad = if tan < S::zero() { -angle } else { angle };
+        self.friction_angle_rad = angle_of_tangent(tan);
         self.cohesion_pa = self.cohesion_pa * factor;
     }
 
@@ -83,4 +81,10 @@ impl<S: Scalar> Soil<S> {
             && self.rebound_ratio >= S::zero()
             && self.rebound_ratio <= S::one()
     }
+}
+
+/// The angle (rad) of a tangent, of its sign: the arc cosine of the cosine, as the scalar has no arc tangent.
+pub(crate) fn angle_of_tangent<S: Scalar>(tangent: S) -> S {
+    let angle = (S::one() / (S::one() + tangent * tangent).sqrt()).acos();
+    if tangent < S::zero() { -angle } else { angle }
 }

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::data::atomic_write::{write_atomically, write_text};
+use crate::data::atomic_write::{write_json, write_text};
 use crate::data::campaign::{Campaign, Carried};
-use crate::diagnose::document::Diagnosis;
 use crate::diagnose::{DiagnoseOptions, Outcome, declared_file, diagnose};
 use crate::error::HostError;
 use crate::report::diagnosis::{DiagnosisFindings, page, terminal};
@@ -81,11 +80,4 @@ pub fn with_progress(campaign: &Campaign, braking: bool) -> Result<Outcome, Host
 fn findings(campaign: &Campaign, outcome: &Outcome) -> DiagnosisFindings {
     let traces = outcome.traces(campaign.rows().len());
     DiagnosisFindings::new(campaign, outcome.document.clone(), traces, outcome.guilty.clone())
-}
-
-fn write_json(path: &Path, document: &Diagnosis) -> Result<(), HostError> {
-    write_atomically(path, |out| {
-        let written = serde_json::to_writer_pretty(&mut *out, document).map_err(std::io::Error::from);
-        written.and_then(|()| out.write_all(b"\n")).map_err(HostError::file(path))
-    })
 }

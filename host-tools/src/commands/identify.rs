@@ -1,19 +1,20 @@
 //! `kapvik identify`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::data::atomic_write::write_atomically;
-use crate::data::campaign::Campaign;
+use crate::data::atomic_write::write_json;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
-use crate::identify::{Document, Method, identify};
+use crate::identify::{Document, Method, identify, identify_by};
+
+use super::diagnose::campaign;
 
 /// Options of `kapvik identify`.
 #[derive(Args)]
 pub struct Arguments {
-    /// The campaign NAME.csv, with NAME.toml beside it
+    /// The campaign NAME.csv, with NAME.toml beside it; or the name of one that the project carries (ding2011-smooth)
     campaign: PathBuf,
     /// How the soil is identified
     #[arg(long, value_enum)]
@@ -25,16 +26,13 @@ pub struct Arguments {
 
 /// Identifies the soil of each run.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let campaign = Campaign::read(&arguments.campaign)?;
-    let Method::Network = arguments.method;
-    let mut computer = FlightComputer::in_process()?;
-    let identification = identify(&campaign, &mut |query| computer.query(query))?;
-    write_json(&arguments.json, &Document::of(&campaign, &identification))
-}
-
-fn write_json(path: &Path, document: &Document) -> Result<(), HostError> {
-    write_atomically(path, |out| {
-        let written = serde_json::to_writer_pretty(&mut *out, document).map_err(std::io::Error::from);
-        written.and_then(|()| out.write_all(b"\n")).map_err(HostError::file(path))
-    })
+    let campaign = campaign(&arguments.campaign)?;
+    let document = match arguments.method {
+        Method::Network => {
+            let mut computer = FlightComputer::in_process()?;
+            Document::of(&campaign, &identify(&campaign, &mut |query| computer.query(query))?)
+        }
+        method => identify_by(method, &campaign)?,
+    };
+    write_json(&arguments.json, &document)
 }

@@ -2,6 +2,7 @@
 
 mod bench;
 mod close_loop;
+mod compare;
 mod diagnose;
 mod forward;
 mod identify;
@@ -42,9 +43,14 @@ pub enum Command {
     ///
     /// Rows with the same `run` and `t_s` are the wheels of one instant, and each run is one soil. Up to six rows of a run
     /// are taken as six wheels; more, of one instant or of many, are averaged in at most six groups of like slip and
-    /// load, and the networks are told of the smaller noise. The noise is that of `[noise]`; without it that of repeats;
+    /// load (24 for methods other than the networks), and the method is told of the smaller noise. The noise is that of `[noise]`; without it that of repeats;
     /// without these that of the flight sensors. OUT.json says which.
     Identify(identify::Arguments),
+    /// Every method of the literature on the same wheel states: error, interval, bias, refusals and time
+    ///
+    /// Six wheels at slips 0.05–0.60, with equal and spread loads, one instant and the mean of a hundred, on soils near and far
+    /// from what the methods expect, with an effect that equations 1–11 lack; and measured figures whose soil is known.
+    Compare(compare::Arguments),
     /// What the model lacks that wheel data show: the residual, the effect it is traced to, the error before and after
     ///
     /// Every effect of the list is fitted on top of the declared model, and has to predict runs that it has not seen better
@@ -83,6 +89,7 @@ impl Command {
             Self::Run(arguments) => run::execute(&arguments),
             Self::Replay(arguments) => replay::execute(&arguments),
             Self::Identify(arguments) => identify::execute(&arguments),
+            Self::Compare(arguments) => compare::execute(&arguments),
             Self::CloseLoop(arguments) => close_loop::execute(&arguments),
             Self::Bench(subject) => subject.execute(),
             Self::Diagnose(arguments) => diagnose::execute(&arguments),

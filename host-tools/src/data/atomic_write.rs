@@ -51,6 +51,17 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), HostError> {
     write_atomically(path, |out| out.write_all(text.as_bytes()).map_err(HostError::file(path)))
 }
 
+/// Writes JSON for people and programs the same way.
+///
+/// # Errors
+/// Where the file system refuses.
+pub fn write_json(path: &Path, document: &impl serde::Serialize) -> Result<(), HostError> {
+    write_atomically(path, |out| {
+        let written = serde_json::to_writer_pretty(&mut *out, document).map_err(std::io::Error::from);
+        written.and_then(|()| out.write_all(b"\n")).map_err(HostError::file(path))
+    })
+}
+
 /// What any program gives a new file; the system takes away what the user's mask says.
 #[cfg(unix)]
 fn of_a_new_file() -> Option<Permissions> {

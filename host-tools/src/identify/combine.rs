@@ -1,15 +1,15 @@
-//! Many instants of a run to the states of at most six wheels.
+//! Many instants of a run to few states: for the networks to those of at most six wheels.
 //!
-//! The rule. Up to six rows are taken as they are, each a wheel. More are cut into groups of like slip and load, and each
-//! group's mean is one wheel, its noise the smaller by the root of the number of rows. So six wheels in steady driving
-//! become six means over all instants, and one wheel whose slip changes becomes up to six means along its way.
+//! The rule. As many rows as there may be states are taken as they are, each a wheel. More are cut into groups of like slip
+//! and load, and each group's mean is one wheel, its noise the smaller by the root of the number of rows. So six wheels in
+//! steady driving become six means over all instants, and one wheel whose slip changes becomes means along its way.
 //!
 //! The cut. Beginning with one group of all rows, the cut that most reduces the scatter within groups is made, until
-//! there are six or nothing is left to cut. Scatter is measured in the units of [`ALIKE_SLIP`] and [`ALIKE_LOAD`]: as
+//! there are as many as there may be, or nothing is left to cut. Scatter is measured in the units of [`ALIKE_SLIP`] and [`ALIKE_LOAD`]: as
 //! far apart as two states can be before the curve between them bends noticeably. A group is left whole in a quantity
 //! in which it scatters no more than its noise explains: cutting there would sort the rows by their errors.
 
-use kapvik_firmware::wheel_state::WHEELS;
+use kapvik_firmware::wheel_state::WheelState;
 
 /// Slips that differ by this belong together as much as loads that differ by [`ALIKE_LOAD`].
 pub const ALIKE_SLIP: f64 = 0.1;
@@ -34,6 +34,19 @@ pub struct Sample {
     pub sinkage_m: Option<f64>,
 }
 
+impl Sample {
+    /// As the wheel state that a method sees.
+    pub fn wheel_state(&self) -> WheelState<f64> {
+        WheelState {
+            drawbar_pull_n: self.drawbar_pull_n,
+            load_n: self.load_n,
+            torque_nm: self.torque_nm,
+            slip: self.slip,
+            sinkage_m: self.sinkage_m,
+        }
+    }
+}
+
 /// The mean of a group of samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanState {
@@ -45,17 +58,20 @@ pub struct MeanState {
     pub sinkage_rows: usize,
 }
 
-/// At most six mean states, by slip. `slip_std` and `load_std_n` are the noise of one row.
-pub fn combine(samples: &[Sample], slip_std: f64, load_std_n: f64) -> Vec<MeanState> {
+/// At most `most` mean states: the samples as they are and in their order where they are no more than that, else means by
+/// slip. `slip_std` and `load_std_n` are the noise of one row.
+pub fn combine(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) -> Vec<MeanState> {
     let mut states: Vec<MeanState> =
-        groups(samples, slip_std, load_std_n).iter().filter_map(|group| MeanState::of(group)).collect();
-    states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
+        groups(samples, most, slip_std, load_std_n).iter().filter_map(|group| MeanState::of(group)).collect();
+    if samples.len() > most {
+        states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
+    }
     states
 }
 
 /// The groups whose means are the states.
-pub fn groups(samples: &[Sample], slip_std: f64, load_std_n: f64) -> Vec<Vec<Sample>> {
-    if samples.len() <= WHEELS {
+pub fn groups(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) -> Vec<Vec<Sample>> {
+    if samples.len() <= most {
         return samples.iter().map(|sample| vec![*sample]).collect();
     }
     let mean_load = mean(samples.iter().map(|sample| sample.load_n));
@@ -64,7 +80,7 @@ pub fn groups(samples: &[Sample], slip_std: f64, load_std_n: f64) -> Vec<Vec<Sam
         Axis { of: |sample| sample.load_n, unit: ALIKE_LOAD * mean_load, noise: load_std_n },
     ];
     let mut groups = vec![Group::new(samples.to_vec(), &axes)];
-    while groups.len() < WHEELS {
+    while groups.len() < most {
         let best = groups.iter_mut().filter(|group| group.cut.is_some()).max_by(|a, b| a.gain().total_cmp(&b.gain()));
         let Some((group, cut)) = best.and_then(|group| group.cut.take().map(|cut| (group, cut))) else { break };
         let mut low = std::mem::take(&mut group.samples);
@@ -177,7 +193,7 @@ mod tests {
     #[test]
     fn six_rows_stay_as_they_are() {
         let samples: Vec<Sample> = (0..6).map(|_| sample(0.2, 65.0, 3.0)).collect();
-        let states = combine(&samples, 0.01, 1.0);
+        let states = combine(&samples, 6, 0.01, 1.0);
         assert_eq!(states.len(), 6);
         assert!(states.iter().all(|state| state.rows == 1));
     }
@@ -190,7 +206,7 @@ mod tests {
                 sample(0.05 + 0.1 * f64::from(wheel) + 0.01 * scatter(instant), 65.0, f64::from(wheel))
             })
             .collect();
-        let states = combine(&samples, 0.01, 1.0);
+        let states = combine(&samples, 6, 0.01, 1.0);
         assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [60; 6]);
         for (wheel, state) in states.iter().enumerate() {
             assert!((state.mean.slip - 0.05 - 0.1 * wheel as f64).abs() < 1e-12, "{state:?}");
@@ -201,7 +217,7 @@ mod tests {
     #[test]
     fn a_slip_that_sweeps_becomes_six_states_along_its_way() {
         let samples: Vec<Sample> = (0..600).map(|row| sample(f64::from(row) / 1000.0, 65.0, 0.0)).collect();
-        let states = combine(&samples, 0.01, 1.0);
+        let states = combine(&samples, 6, 0.01, 1.0);
         assert_eq!(states.len(), 6);
         assert_eq!(states.iter().map(|state| state.rows).sum::<usize>(), 600);
         assert!(states.iter().all(|state| (75..=150).contains(&state.rows)), "{states:?}");
@@ -211,7 +227,7 @@ mod tests {
     fn scatter_that_is_noise_is_not_cut() {
         let samples: Vec<Sample> =
             (0..120).map(|row| sample(0.3 + 0.01 * scatter(row), 65.0 + scatter(row / 6), 2.0)).collect();
-        let states = combine(&samples, 0.01, 1.0);
+        let states = combine(&samples, 6, 0.01, 1.0);
         assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [120]);
     }
 
@@ -219,7 +235,7 @@ mod tests {
     fn wheels_that_differ_in_load_alone_are_told_apart() {
         let samples: Vec<Sample> =
             (0..100).map(|row| sample(0.3, if row % 2 == 0 { 40.0 } else { 90.0 }, 2.0)).collect();
-        let states = combine(&samples, 0.01, 1.0);
+        let states = combine(&samples, 6, 0.01, 1.0);
         assert_eq!(states.iter().map(|state| state.mean.load_n).collect::<Vec<_>>(), [40.0, 90.0]);
     }
 }

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use kapvik_firmware::soil::{ParameterEstimate, QueryAnswer, SoilEstimate};
+use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::train::prior::{self, Range};
 
-use super::network::{Identification, IdentifiedRun, Question, at_edge, refusal_in_words};
+use super::method::{Finding, Fit, Method, Statement, network_refusal};
+use super::network::{Identification, IdentifiedRun, Question, at_edge};
+use super::run_states::RunStates;
 use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
 
 /// A campaign, identified.
@@ -18,7 +20,7 @@ pub struct Document {
     campaign: String,
     kind: Provenance,
     source: String,
-    /// Effects that the campaign declares. The networks know none.
+    /// Effects that the campaign declares.
     declared: Vec<String>,
     warnings: Vec<String>,
     /// Of one row, by channel.
@@ -36,16 +38,29 @@ pub struct NoiseDocument {
 /// A run, identified.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunDocument {
-    run: String,
-    refused: Option<String>,
+    /// Its name.
+    pub run: String,
+    /// Why there is no estimate.
+    pub refused: Option<String>,
     condition_number: Option<f64>,
+    /// The estimate.
     #[serde(flatten)]
-    soil: SoilDocument,
-    /// Whether the estimate used the sinkage.
-    sinkage_used: bool,
+    pub soil: SoilDocument,
     instants: usize,
     rows_used: usize,
     rows_left_out: Vec<LeftOutDocument>,
+    /// How well the method's model explains the run, where the method says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fit: Option<FitDocument>,
+    #[serde(flatten)]
+    networks: Option<NetworksDocument>,
+}
+
+/// What the networks say beside the estimate.
+#[derive(Debug, Clone, Serialize)]
+struct NetworksDocument {
+    /// Whether the estimate used the sinkage.
+    sinkage_used: bool,
     /// The same without sinkage; null where there was none to leave out.
     without_sinkage: Option<SoilDocument>,
     wheels: Vec<WheelDocument>,
@@ -58,25 +73,43 @@ pub struct LeftOutDocument {
     reason: String,
 }
 
+/// How well a model explains a run.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct FitDocument {
+    chi_square: f64,
+    degrees_of_freedom: f64,
+    p_value: f64,
+}
+
 /// A soil; null in everything where there is no estimate.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct SoilDocument {
-    cohesion_pa: Option<ParameterDocument>,
-    friction_angle_rad: Option<ParameterDocument>,
-    shear_modulus_m: Option<ParameterDocument>,
+    /// c, Pa.
+    pub cohesion_pa: Option<ParameterDocument>,
+    /// φ, rad.
+    pub friction_angle_rad: Option<ParameterDocument>,
+    /// K, m.
+    pub shear_modulus_m: Option<ParameterDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     outside_training_range: Option<bool>,
 }
 
 /// One parameter.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct ParameterDocument {
-    value: f32,
-    std: f32,
-    identifiable: bool,
+    /// The value.
+    pub value: f64,
+    /// One standard deviation; null where neither the method nor the bootstrap gives one.
+    pub std: Option<f64>,
+    /// Whether the data tell it.
+    pub identifiable: bool,
+    /// Whether the method takes it as given.
+    pub assumed: bool,
     /// At the end of what the networks were trained for, beyond which they cannot go: to be doubted, however narrow.
-    at_edge_of_training: bool,
-    interval_68: [f32; 2],
-    interval_95: [f32; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_edge_of_training: Option<bool>,
+    interval_68: [f64; 2],
+    interval_95: [f64; 2],
 }
 
 /// One wheel, identified by itself.
@@ -97,26 +130,47 @@ pub struct WheelDocument {
 impl Document {
     /// What is printed of an identification by the networks.
     pub fn of(campaign: &Campaign, identification: &Identification) -> Self {
+        let runs = identification.runs.iter().map(RunDocument::of).collect();
+        Self::new(Method::Network, campaign, &identification.noise, runs)
+    }
+
+    /// What is printed of an identification by another method: what it says of each run.
+    pub fn by(
+        method: Method,
+        campaign: &Campaign,
+        noise: &SensorNoise,
+        runs: &[(RunStates, Result<Finding, String>)],
+    ) -> Self {
+        let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();
+        Self::new(method, campaign, noise, runs)
+    }
+
+    /// The runs.
+    pub fn into_runs(self) -> Vec<RunDocument> {
+        self.runs
+    }
+
+    fn new(method: Method, campaign: &Campaign, noise: &SensorNoise, runs: Vec<RunDocument>) -> Self {
         let declared = campaign.declared.ids();
         let mut warnings = Vec::new();
-        if !declared.is_empty() {
+        if !declared.is_empty() && !method.knows_effects() {
             let effects = declared.join(", ");
-            warnings.push(format!("declared effects that the networks were not trained with: {effects}"));
+            warnings.push(format!("declared effects that the method {} does not know: {effects}", method.name()));
         }
         Self {
-            method: "network",
+            method: method.name(),
             campaign: campaign.name.clone(),
             kind: campaign.provenance,
             source: campaign.source.clone(),
             declared,
             warnings,
-            noise: noise(&identification.noise),
-            runs: identification.runs.iter().map(RunDocument::of).collect(),
+            noise: noise_document(noise),
+            runs,
         }
     }
 }
 
-fn noise(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> {
+fn noise_document(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> {
     let entry = |channel: Channel, std: ChannelStd| (channel.name(), NoiseDocument { std: std.std, from: std.source });
     BTreeMap::from([
         entry(Channel::DrawbarPull, noise.drawbar_pull),
@@ -130,29 +184,56 @@ fn noise(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> {
 impl RunDocument {
     fn of(run: &IdentifiedRun) -> Self {
         let question = run.question.as_ref();
-        let estimate = |answer: &QueryAnswer| answer.rover.as_ref().map(SoilDocument::of).unwrap_or_default();
+        let estimate = |answer: &QueryAnswer| answer.rover.as_ref().map(SoilDocument::of_network).unwrap_or_default();
         Self {
-            run: run.run.clone(),
             refused: run.refused(),
             condition_number: question.and_then(|question| question.condition_number),
             soil: question.map(|question| estimate(&question.answer)).unwrap_or_default(),
-            sinkage_used: question.is_some_and(Question::sinkage_used),
-            instants: run.instants,
-            rows_used: run.rows_used,
-            rows_left_out: run
-                .rows_left_out
-                .iter()
-                .map(|(line, reason)| LeftOutDocument { line: *line, reason: reason.clone() })
-                .collect(),
-            without_sinkage: question.and_then(|question| question.answer_without_sinkage.as_ref()).map(estimate),
-            wheels: question.map(WheelDocument::all).unwrap_or_default(),
+            networks: Some(NetworksDocument {
+                sinkage_used: question.is_some_and(Question::sinkage_used),
+                without_sinkage: question.and_then(|question| question.answer_without_sinkage.as_ref()).map(estimate),
+                wheels: question.map(|question| WheelDocument::all(&run.states, question)).unwrap_or_default(),
+            }),
+            ..Self::empty(&run.states)
+        }
+    }
+
+    fn of_finding(states: &RunStates, found: &Result<Finding, String>) -> Self {
+        let found = found.as_ref();
+        Self {
+            refused: found.err().cloned(),
+            condition_number: found.ok().and_then(|found| found.condition_number),
+            soil: found.map(SoilDocument::of_method).unwrap_or_default(),
+            fit: found.ok().and_then(|found| found.fit).map(FitDocument::of),
+            ..Self::empty(states)
+        }
+    }
+
+    fn empty(states: &RunStates) -> Self {
+        let left_out = |(line, reason): &(u64, String)| LeftOutDocument { line: *line, reason: reason.clone() };
+        Self {
+            run: states.run.clone(),
+            refused: None,
+            condition_number: None,
+            soil: SoilDocument::default(),
+            instants: states.instants,
+            rows_used: states.rows_used,
+            rows_left_out: states.rows_left_out.iter().map(left_out).collect(),
+            fit: None,
+            networks: None,
         }
     }
 }
 
+impl FitDocument {
+    fn of(fit: Fit) -> Self {
+        Self { chi_square: fit.chi_square, degrees_of_freedom: fit.degrees_of_freedom, p_value: fit.p_value }
+    }
+}
+
 impl WheelDocument {
-    fn all(question: &Question) -> Vec<Self> {
-        let wheels = question.states.iter().zip(&question.answer.wheels);
+    fn all(states: &RunStates, question: &Question) -> Vec<Self> {
+        let wheels = states.states.iter().zip(&question.answer.wheels);
         wheels
             .map(|(state, answer)| Self {
                 slip: state.mean.slip,
@@ -161,33 +242,48 @@ impl WheelDocument {
                 torque_nm: state.mean.torque_nm,
                 sinkage_m: state.mean.sinkage_m,
                 rows: state.rows,
-                refused: answer.as_ref().err().map(|refusal| refusal_in_words(*refusal)),
-                soil: answer.as_ref().map(SoilDocument::of).unwrap_or_default(),
+                refused: answer.as_ref().err().map(|refusal| network_refusal(*refusal)),
+                soil: answer.as_ref().map(SoilDocument::of_network).unwrap_or_default(),
             })
             .collect()
     }
 }
 
 impl SoilDocument {
-    fn of(estimate: &SoilEstimate) -> Self {
+    fn of_method(found: &Finding) -> Self {
+        let [cohesion, friction, shear] = found.statements().map(|statement| Some(ParameterDocument::of(statement)));
         Self {
-            cohesion_pa: Some(ParameterDocument::of(&estimate.cohesion_pa, prior::COHESION_PA)),
-            friction_angle_rad: Some(ParameterDocument::of(&estimate.friction_angle_rad, prior::FRICTION_ANGLE_RAD)),
-            shear_modulus_m: Some(ParameterDocument::of(&estimate.shear_modulus_m, prior::SHEAR_MODULUS_M)),
-            outside_training_range: Some(estimate.outside_training_range),
+            cohesion_pa: cohesion,
+            friction_angle_rad: friction,
+            shear_modulus_m: shear,
+            outside_training_range: None,
         }
+    }
+
+    fn of_network(estimate: &SoilEstimate) -> Self {
+        let mut soil = Self::of_method(&Finding::from(estimate));
+        let at_edge_of = |parameter: &mut Option<ParameterDocument>, trained: Range| {
+            if let Some(parameter) = parameter {
+                parameter.at_edge_of_training = Some(at_edge(trained, parameter.value));
+            }
+        };
+        at_edge_of(&mut soil.cohesion_pa, prior::COHESION_PA);
+        at_edge_of(&mut soil.friction_angle_rad, prior::FRICTION_ANGLE_RAD);
+        at_edge_of(&mut soil.shear_modulus_m, prior::SHEAR_MODULUS_M);
+        Self { outside_training_range: Some(estimate.outside_training_range), ..soil }
     }
 }
 
 impl ParameterDocument {
-    fn of(estimate: &ParameterEstimate, trained: Range) -> Self {
+    fn of(statement: &Statement) -> Self {
         Self {
-            value: estimate.value,
-            std: estimate.std,
-            identifiable: estimate.identifiable,
-            at_edge_of_training: at_edge(trained, estimate.value.into()),
-            interval_68: estimate.interval_68,
-            interval_95: estimate.interval_95,
+            value: statement.value,
+            std: Some(statement.std).filter(|std| std.is_finite()),
+            identifiable: statement.identifiable,
+            assumed: statement.assumed,
+            at_edge_of_training: None,
+            interval_68: statement.interval_68,
+            interval_95: statement.interval_95,
         }
     }
 }

@@ -7,26 +7,24 @@
 pub mod combine;
 pub mod condition;
 mod document;
+mod each_run;
+pub mod method;
 mod network;
+mod run_states;
 mod sensor_noise;
 pub mod soil_bank;
 
-use clap::ValueEnum;
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
 
 pub use document::{Document, NoiseDocument, ParameterDocument, RunDocument, SoilDocument, WheelDocument};
-pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify, refusal_in_words};
+pub use each_run::identify_by;
+pub use method::{Method, network_refusal};
+pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify};
+pub use run_states::RunStates;
 pub use sensor_noise::{NoiseSource, SensorNoise};
-
-/// A method of the literature, or ours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Method {
-    /// The frozen networks that fly
-    Network,
-}
 
 /// What answers a query: the flight library in this process, or the flight computer over its link.
 pub type Answer<'a> = dyn FnMut(&SoilQuery) -> Result<QueryAnswer, HostError> + 'a;

@@ -74,26 +74,36 @@ impl SensorNoise {
         }
     }
 
-    /// The noise of mean states, which the networks are told: one number for all wheels, the root mean square over them.
-    ///
-    /// No channel is held to be better than the mean of 400 instants of the flight sensors: the networks have seen little
-    /// that is.
-    pub fn of_means(&self, states: &[MeanState], radius_m: f64) -> WheelNoise {
-        let count = states.len() as f64;
-        let share = |rows: fn(&MeanState) -> usize| {
-            (states.iter().map(|state| 1.0 / rows(state).max(1) as f64).sum::<f64>() / count).sqrt()
-        };
-        let (all, sinkage) = (share(|state| state.rows), share(|state| state.sinkage_rows));
-        let load_n = states.iter().map(|state| state.mean.load_n).sum::<f64>() / count;
-        let least = Scale::new(load_n, radius_m);
-        let told = |std: f64, least: f64| std.max(AVERAGING.low * least) as f32;
+    /// The noise of a mean state.
+    pub fn of_mean(&self, state: &MeanState) -> WheelNoise<f64> {
+        let share = |rows: usize| 1.0 / (rows.max(1) as f64).sqrt();
+        let (all, sinkage) = (share(state.rows), share(state.sinkage_rows));
         WheelNoise {
-            drawbar_pull_n: told(self.drawbar_pull.std * all, least.drawbar_pull_n),
-            load_n: told(self.load.std * all, least.load_n),
-            torque_nm: told(self.torque.std * all, least.torque_nm),
-            slip: told(self.slip.std * all, least.slip),
-            sinkage_m: told(self.sinkage.std * sinkage, least.sinkage_m),
+            drawbar_pull_n: self.drawbar_pull.std * all,
+            load_n: self.load.std * all,
+            torque_nm: self.torque.std * all,
+            slip: self.slip.std * all,
+            sinkage_m: self.sinkage.std * sinkage,
         }
+    }
+}
+
+/// The noise that the networks are told of several wheels: one number for all of them, the root mean square.
+///
+/// No channel is held to be better than the mean of 400 instants of the flight sensors: the networks have seen little
+/// that is.
+pub fn noise_for_networks(noises: &[WheelNoise<f64>], mean_load_n: f64, radius_m: f64) -> WheelNoise {
+    let root_mean_square = |of: fn(&WheelNoise<f64>) -> f64| {
+        (noises.iter().map(|noise| of(noise).powi(2)).sum::<f64>() / noises.len() as f64).sqrt()
+    };
+    let least = Scale::new(mean_load_n, radius_m);
+    let told = |of, least: f64| root_mean_square(of).max(AVERAGING.low * least) as f32;
+    WheelNoise {
+        drawbar_pull_n: told(|noise| noise.drawbar_pull_n, least.drawbar_pull_n),
+        load_n: told(|noise| noise.load_n, least.load_n),
+        torque_nm: told(|noise| noise.torque_nm, least.torque_nm),
+        slip: told(|noise| noise.slip, least.slip),
+        sinkage_m: told(|noise| noise.sinkage_m, least.sinkage_m),
     }
 }
 

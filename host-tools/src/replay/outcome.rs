@@ -4,7 +4,7 @@ use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::soil::ParameterEstimate;
 
 use super::{Outcome, REASONS, troubles};
-use crate::identify::refusal_in_words;
+use crate::identify::network_refusal;
 
 /// The outcome, line by line.
 pub fn lines(outcome: &Outcome) -> Vec<String> {
@@ -18,7 +18,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
     )];
     lines.push(match &outcome.soil {
         Ok(soil) => soil_line(soil),
-        Err(reason) => format!("soil at the end: no estimate: {}", refusal_in_words(*reason)),
+        Err(reason) => format!("soil at the end: no estimate: {}", network_refusal(*reason)),
     });
     lines.extend(change_line(outcome));
     lines.extend(filter_lines(outcome));

@@ -13,7 +13,7 @@ pub fn chain(findings: &Findings) -> Markup {
         Computer::Qemu => ("Flight image", "on a Cortex-M4F in QEMU"),
         Computer::Host => ("Flight library", "in this process"),
     };
-    let used: usize = findings.identification.runs.iter().map(|run| run.rows_used).sum();
+    let used: usize = findings.identification.runs.iter().map(|run| run.states.rows_used).sum();
     html! {
         ol class="chain" {
             (link("Wheel states", &format!("{used} rows, {}", findings.campaign.provenance), "DP, W, T, slip, sinkage"))

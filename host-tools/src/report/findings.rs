@@ -3,7 +3,7 @@
 use kapvik_firmware::soil::{QueryAnswer, Refusal, SoilEstimate};
 
 use crate::data::campaign::Campaign;
-use crate::identify::{Identification, IdentifiedRun, Question, refusal_in_words};
+use crate::identify::{Identification, IdentifiedRun, Question, network_refusal};
 
 use super::draw::number;
 use super::facts::FlightFacts;
@@ -48,8 +48,8 @@ impl Findings {
     /// Every estimate of a run: wheel by wheel, then all wheels together.
     pub fn rows(run: &IdentifiedRun) -> Vec<EstimateRow> {
         let Some(question) = &run.question else { return Vec::new() };
-        let wheels = question.states.iter().zip(&question.answer.wheels).map(|(state, answer)| EstimateRow {
-            label: format!("slip {}", number(state.mean.slip, 2, false)),
+        let wheels = question.query.wheels.iter().zip(&question.answer.wheels).map(|(state, answer)| EstimateRow {
+            label: format!("slip {}", number(state.slip.into(), 2, false)),
             kind: RowKind::Wheel,
             estimate: worded(answer),
         });
@@ -63,7 +63,7 @@ impl Findings {
 }
 
 fn rover_rows(question: &Question) -> Vec<EstimateRow> {
-    let wheels = question.states.len();
+    let wheels = question.query.wheels.len();
     let together = if wheels == 1 { "the one".to_owned() } else { format!("all {wheels}") };
     let row = |label: String, kind, answer: &QueryAnswer| EstimateRow { label, kind, estimate: worded(&answer.rover) };
     match &question.answer_without_sinkage {
@@ -76,7 +76,7 @@ fn rover_rows(question: &Question) -> Vec<EstimateRow> {
 }
 
 fn worded(answer: &Result<SoilEstimate, Refusal>) -> Result<SoilEstimate, &'static str> {
-    answer.map_err(refusal_in_words)
+    answer.map_err(network_refusal)
 }
 
 /// A checksum over the bits of all answers, eight hexadecimal digits: two computers that print the same gave the same.

@@ -2,6 +2,7 @@
 
 mod caveats;
 mod chain;
+pub mod compare;
 pub mod diagnosis;
 mod draw;
 mod estimates;

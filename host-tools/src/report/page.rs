@@ -84,15 +84,15 @@ fn run_section(findings: &Findings, run: &IdentifiedRun, named: bool) -> Markup 
     let rows = Findings::rows(run);
     html! {
         section {
-            @if named { h2 { "Run " (run.run) } }
+            @if named { h2 { "Run " (run.states.run) } }
             @match run.refused() {
                 Some(reason) => p { "No estimate: " (reason) "." },
                 None => {
                     (answers(&findings.campaign, &rows))
                     (panels(&findings.campaign, &rows))
                     (legend::estimates(&rows))
-                    @if !run.rows_left_out.is_empty() {
-                        p class="note" { "Rows left out: " (run.reasons_in_words()) "." }
+                    @if !run.states.rows_left_out.is_empty() {
+                        p class="note" { "Rows left out: " (run.states.reasons_in_words()) "." }
                     }
                 }
             }

@@ -17,14 +17,14 @@ pub fn terminal(findings: &Findings) -> String {
     let mut text = format!("{} · {}\n", campaign.name, campaign.provenance);
     for run in &findings.identification.runs {
         if findings.identification.runs.len() > 1 {
-            text += &format!("\nrun {}\n", run.run);
+            text += &format!("\nrun {}\n", run.states.run);
         }
         match run.refused() {
             Some(reason) => text += &format!("\n  no estimate: {reason}\n"),
             None => text += &format!("\n{}\n", estimates(findings, &Findings::rows(run))),
         }
-        if !run.rows_left_out.is_empty() && run.question.is_some() {
-            text += &format!("  left out: {}\n", run.reasons_in_words());
+        if !run.states.rows_left_out.is_empty() && run.question.is_some() {
+            text += &format!("  left out: {}\n", run.states.reasons_in_words());
         }
     }
     text += "  value (68 % interval); ? = cannot be told from these data; ! = narrow, but to be doubted\n";

@@ -9,7 +9,7 @@ use super::findings::{Origin, TraverseFindings};
 use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
 use super::wheel_chart::QUANTITIES;
-use crate::identify::refusal_in_words;
+use crate::identify::network_refusal;
 use crate::replay::{REASONS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
@@ -87,7 +87,7 @@ fn soil(findings: &TraverseFindings) -> Markup {
 fn answers(findings: &TraverseFindings) -> Markup {
     let soil = match &findings.outcome.soil {
         Ok(soil) => &soil.estimate,
-        Err(reason) => return html! { p { "No estimate at the end: " (refusal_in_words(*reason)) "." } },
+        Err(reason) => return html! { p { "No estimate at the end: " (network_refusal(*reason)) "." } },
     };
     let last = findings.samples.kept().last();
     html! {

@@ -1,0 +1,207 @@
+//! The method from its inputs to its answer.
+
+use heapless::Vec;
+
+use crate::identification::observation::check;
+use crate::identification::{Identified, Observation, Refusal, SoilPrior, Told};
+use crate::scalar::Scalar;
+use crate::terramechanics::effects::Conditions;
+use crate::terramechanics::{Soil, Wheel};
+
+use super::condition::condition_number;
+use super::descent::{Descent, Patience, descend};
+use super::mixture::{Moments, moments};
+use super::prediction::Forward;
+use super::problem::{Fit, Held, Problem};
+use super::unknowns::{
+    C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, UNKNOWNS, Unknowns,
+};
+use super::{CAPACITY, DeclaredEffects};
+
+/// Posterior mean and standard deviation of a number, in the unit of its belief.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fitted<S> {
+    /// Mean.
+    pub mean: S,
+    /// One standard deviation; zero of a number that is held to be known.
+    pub std: S,
+}
+
+/// What the method says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapEstimate<S> {
+    /// Cohesion, friction angle and shear modulus. The cohesion and the modulus are e to the posterior mean of the
+    /// logarithm, and their standard deviations those of a log-normal distribution, as the networks have them.
+    pub identified: Identified<S>,
+    /// ln c, c in Pa.
+    pub ln_cohesion: Fitted<S>,
+    /// φ, rad.
+    pub friction_angle_rad: Fitted<S>,
+    /// ln K, K in m.
+    pub ln_shear_modulus: Fitted<S>,
+    /// n.
+    pub sinkage_exponent: Fitted<S>,
+    /// The logarithm of the stiffness as [`SoilPrior::ln_stiffness`] has it: at the prior's mean exponent.
+    pub ln_stiffness: Fitted<S>,
+    /// c₁.
+    pub peak_stress_c1: Fitted<S>,
+    /// c₂.
+    pub peak_stress_c2: Fitted<S>,
+    /// The parameters of effects, in the order in which they were declared.
+    pub effects: Vec<Fitted<S>, EFFECT_PARAMETERS>,
+    /// The soil with the means; its stiffness is all in k_φ.
+    pub soil: Soil<S>,
+    /// The soil at the mode.
+    pub mode: Soil<S>,
+    /// Sum of the squared residuals of the observations at the mode, each over its standard deviation.
+    pub chi_squared: S,
+    /// How many residuals that is.
+    pub residuals: u16,
+    /// The same sum with the residuals of the beliefs: where model, noise and beliefs hold, it is distributed as χ² with
+    /// [`MapEstimate::degrees_of_freedom`]. Far more says that the model does not explain the observations.
+    pub misfit: S,
+    /// Residuals less unknowns.
+    pub degrees_of_freedom: u16,
+    /// Steps of all descents; each evaluates every wheel once.
+    pub iterations: u16,
+    /// Whether the descent to the mode settled.
+    pub settled: bool,
+}
+
+/// The soil under wheels that the seed's equations 1–11 describe.
+///
+/// # Errors
+/// Where there is no observation, or more than [`CAPACITY`], where a number is out of its range, or where nowhere in the
+/// prior the equations hold.
+pub fn identify<S: Scalar>(
+    wheel: &Wheel<S>,
+    observations: &[Observation<S>],
+    prior: &SoilPrior<S>,
+) -> Result<MapEstimate<S>, Refusal> {
+    identify_declared(wheel, observations, &[], prior, &DeclaredEffects::none())
+}
+
+/// The same with effects that the model is told of. `conditions` go with the observations; beyond its end nothing is known.
+///
+/// # Errors
+/// As [`identify`], and where an effect lacks a parameter that is to be fitted.
+pub fn identify_declared<S: Scalar>(
+    wheel: &Wheel<S>,
+    observations: &[Observation<S>],
+    conditions: &[Conditions<S>],
+    prior: &SoilPrior<S>,
+    declared: &DeclaredEffects<S>,
+) -> Result<MapEstimate<S>, Refusal> {
+    check(wheel, observations, 1)?;
+    if observations.len() > CAPACITY {
+        return Err(Refusal::TooMany { room: CAPACITY as u8 });
+    }
+    if !declared.is_valid() {
+        return Err(Refusal::OutOfRange);
+    }
+    let unknowns = Unknowns::new(prior, declared)?;
+    let forward = Forward { wheel, unknowns: &unknowns, declared };
+    let problem = Problem { forward, observations, conditions, blur: S::one() };
+    let mode = best_mode(&problem)?;
+    let moments = moments(&problem, &mode.fit);
+    Ok(estimate(&problem, &mode, &moments))
+}
+
+/// The least of the minima that are found from several places of the prior: in its middle, and at both ends of the ridge on
+/// which a weak soil that holds early and a strong one that holds late explain much the same.
+fn best_mode<S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S>, Refusal> {
+    const STARTS: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [0.5, -1.3, -1.0], [-0.5, 1.3, 1.0]];
+    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-6) };
+    let patience = Patience { steps: 120, gain, damping: S::constant(0.03) };
+    let held: Held = core::array::from_fn(|place| problem.forward.unknowns.is_known(place));
+    let mut best: Option<Descent<S>> = None;
+    let mut steps = 0;
+    for [cohesion, friction, modulus] in STARTS {
+        let mut point = [S::zero(); UNKNOWNS];
+        for (place, shift) in [(COHESION, cohesion), (FRICTION, friction), (MODULUS, modulus)] {
+            if let Some(slot) = point.get_mut(place) {
+                *slot = S::constant(shift);
+            }
+        }
+        let point = problem.forward.unknowns.inside(&point);
+        let mut state = problem.start(&point);
+        for blur in [16.0, 4.0] {
+            let blurred = Problem { blur: S::constant(blur), ..*problem };
+            let rough = Patience { steps: 10, gain: S::constant(0.1), ..patience };
+            let Some(found) = descend(&blurred, state.clone(), &held, &rough) else { continue };
+            steps += found.steps;
+            state = found.fit.state;
+        }
+        let Some(found) = descend(problem, state, &held, &patience) else { continue };
+        steps += found.steps;
+        if best.as_ref().is_none_or(|best| found.fit.cost < best.fit.cost) {
+            best = Some(found);
+        }
+    }
+    best.map(|best| Descent { steps, ..best }).ok_or(Refusal::NoSoilFits)
+}
+
+fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Moments<S>) -> MapEstimate<S> {
+    let unknowns = problem.forward.unknowns;
+    let fitted = |place: usize| {
+        let std = moments.std.get(place).copied().unwrap_or(S::zero());
+        let spread = unknowns.beliefs.get(place).map_or(S::zero(), |belief| belief.spread());
+        Fitted { mean: unknowns.value(place, &moments.mean), std: std * spread }
+    };
+    let measured = problem.observations.iter().filter(|observation| observation.state.sinkage_m.is_some()).count();
+    let seen = problem.observations.len();
+    let residuals = (4 * seen + measured) as u16;
+    let flat = (0..UNKNOWNS).filter(|place| !unknowns.is_known(*place) && !unknowns.has_residual(*place)).count();
+    let lost = (2 * seen + flat) as u16;
+    MapEstimate {
+        identified: identified(problem, &mode.fit, &fitted),
+        ln_cohesion: fitted(COHESION),
+        friction_angle_rad: fitted(FRICTION),
+        ln_shear_modulus: fitted(MODULUS),
+        sinkage_exponent: fitted(EXPONENT),
+        ln_stiffness: fitted(STIFFNESS),
+        peak_stress_c1: fitted(C1),
+        peak_stress_c2: fitted(C2),
+        effects: (0..problem.forward.declared.free.len()).map(fitted).collect(),
+        soil: unknowns.soil_at(&moments.mean),
+        mode: unknowns.soil_at(&mode.fit.state.point),
+        chi_squared: mode.fit.chi_squared,
+        residuals,
+        misfit: mode.fit.cost,
+        degrees_of_freedom: residuals.saturating_sub(lost),
+        iterations: mode.steps + moments.steps,
+        settled: mode.settled,
+    }
+}
+
+fn identified<S: Scalar>(
+    problem: &Problem<'_, S>,
+    mode: &Fit<S>,
+    fitted: &impl Fn(usize) -> Fitted<S>,
+) -> Identified<S> {
+    let unknowns = problem.forward.unknowns;
+    let usual = SoilPrior::<S>::usual();
+    let told = |place: usize, usual: S, is_logarithm: bool| {
+        let Fitted { mean, std } = fitted(place);
+        let (value, own_std) = if is_logarithm {
+            let growth = (std * std).exp();
+            (mean.exp(), mean.exp() * (growth * (growth - S::one())).sqrt())
+        } else {
+            (mean, std)
+        };
+        if unknowns.is_known(place) {
+            return Told::assumed(value, S::zero());
+        }
+        let believed = unknowns.beliefs.get(place).map_or(usual, |belief| belief.spread()).min(usual);
+        let mut told = Told::estimated(value, Some(own_std), std / believed);
+        let (low, high) = unknowns.bounds(place);
+        told.identifiable &= mode.state.point.get(place).is_some_and(|at| *at > low && *at < high);
+        told
+    };
+    Identified {
+        cohesion_pa: told(COHESION, usual.ln_cohesion.spread(), true),
+        friction_angle_rad: told(FRICTION, usual.friction_angle_rad.spread(), false),
+        shear_modulus_m: told(MODULUS, usual.ln_shear_modulus.spread(), true),
+        condition_number: condition_number(problem, mode),
+    }
+}

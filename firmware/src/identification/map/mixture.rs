@@ -1,0 +1,200 @@
+//! Mean and spread of the posterior: normal in all directions but those of cohesion and shear modulus, over which it is
+//! summed.
+//!
+//! The logarithm of a small cohesion is anything from what the data allow at most downwards, and as the cohesion takes part
+//! of the strength, friction angle and shear modulus go with it: the posterior is a bent ridge with one long end. Where the
+//! slips are alike, another ridge runs from soils that are weak and hold early to ones that are strong and hold late. For a
+//! cohesion and a modulus that are held, the others are nearly normal. So these two are moved in equal steps from the mode
+//! to both sides, the others are fitted anew at each, and the normal distributions are mixed with the weights of their
+//! evidence (Laplace's approximation at each: L. Tierney, J. B. Kadane, J. Am. Stat. Assoc. 81 (1986) 82–86; summed over
+//! the axes that are not normal: H. Rue, S. Martino, N. Chopin, J. R. Stat. Soc. B 71 (2009) 319–392). Equal weights in
+//! equal steps of no more than a standard deviation integrate a smooth bell nearly exactly.
+
+use crate::scalar::Scalar;
+
+use super::descent::{Patience, descend};
+use super::problem::{Fit, Held, Problem, State, conditional};
+use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS};
+
+/// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
+const WIDE: f64 = 0.2;
+
+/// Mean and standard deviation of every unknown, as coordinates of a point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moments<S> {
+    pub mean: Point<S>,
+    pub std: Point<S>,
+    /// Descents' steps.
+    pub steps: u16,
+}
+
+/// An axis along which the posterior is summed.
+#[derive(Debug, Clone, Copy)]
+struct Line<S> {
+    place: usize,
+    /// Distance of the steps in standard deviations.
+    spacing: S,
+    /// Most steps to either side.
+    reach: usize,
+    /// The summation ends where the logarithm of the evidence is lower by this.
+    depth: S,
+}
+
+/// The posterior about its mode.
+pub(super) fn moments<S: Scalar>(problem: &Problem<'_, S>, mode: &Fit<S>) -> Moments<S> {
+    let unknowns = problem.forward.unknowns;
+    let known: Held = core::array::from_fn(|place| unknowns.is_known(place));
+    let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
+    let modulus = Line { place: MODULUS, spacing: S::one(), reach: 4, depth: S::constant(5.0) };
+    let given_cohesion = holding(&known, COHESION);
+    let spread = unknowns.beliefs.get(MODULUS).map_or(S::zero(), |belief| belief.spread());
+    let two = deviation(problem, mode, &given_cohesion, MODULUS) * spread > S::constant(WIDE);
+    let mut sum = Sum::about(&mode.state.point);
+    let mut inner_steps = 0;
+    let steps = along(problem, mode, &known, &cohesion, |fit, _| {
+        if two {
+            inner_steps += along(problem, fit, &given_cohesion, &modulus, |fit, width| {
+                sum.add(problem, fit, &holding(&given_cohesion, MODULUS), width);
+            });
+        } else {
+            sum.add(problem, fit, &given_cohesion, S::one());
+        }
+    });
+    sum.moments(steps + inner_steps)
+}
+
+/// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the distance
+/// of the steps; `middle` alone where the unknown is held. Returns how many steps the descents took.
+fn along<S: Scalar>(
+    problem: &Problem<'_, S>,
+    middle: &Fit<S>,
+    held: &Held,
+    line: &Line<S>,
+    mut visit: impl FnMut(&Fit<S>, S),
+) -> u16 {
+    if held.get(line.place).copied().unwrap_or(true) {
+        visit(middle, S::one());
+        return 0;
+    }
+    let (triangle, _) = middle.of_everything(problem, S::zero(), true);
+    let covariance = conditional(&triangle, held).covariance();
+    let column = covariance.get(line.place).copied().unwrap_or([S::zero(); UNKNOWNS]);
+    let variance = column.get(line.place).copied().unwrap_or(S::one());
+    let width = line.spacing * variance.sqrt().min(S::one());
+    let towards = column.map(|covariance| covariance * width / variance);
+    let held = holding(held, line.place);
+    let bounds = problem.forward.unknowns.bounds(line.place);
+    let floor = middle.ln_evidence(problem, &held) - line.depth;
+    let patience = Patience { steps: 4, gain: S::constant(1e-2), damping: S::constant(1e-3) };
+    visit(middle, width);
+    let mut steps = 0;
+    for sign in [S::one(), -S::one()] {
+        let mut state = middle.state.clone();
+        let mut last = towards.map(|shift| sign * shift);
+        for _ in 0..line.reach {
+            let point = shifted(&state.point, &last);
+            if !point.get(line.place).is_some_and(|at| *at >= bounds.0 && *at <= bounds.1) {
+                break;
+            }
+            let start = State { point: problem.forward.unknowns.inside(&point), latents: state.latents.clone() };
+            let Some(found) = descend(problem, start, &held, &patience) else { break };
+            steps += found.steps;
+            visit(&found.fit, width);
+            if found.fit.ln_evidence(problem, &held) < floor {
+                break;
+            }
+            last = shifted(&found.fit.state.point, &state.point.map(|from| -from));
+            state = found.fit.state;
+        }
+    }
+    steps
+}
+
+fn shifted<S: Scalar>(point: &Point<S>, shift: &Point<S>) -> Point<S> {
+    let mut moved = *point;
+    for (slot, shift) in moved.iter_mut().zip(shift) {
+        *slot += *shift;
+    }
+    moved
+}
+
+/// One more unknown held.
+fn holding(held: &Held, place: usize) -> Held {
+    let mut more = *held;
+    if let Some(slot) = more.get_mut(place) {
+        *slot = true;
+    }
+    more
+}
+
+/// Standard deviation of an unknown about a fit; zero where it is held.
+fn deviation<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held, place: usize) -> S {
+    variances(problem, fit, held).get(place).copied().unwrap_or(S::zero()).sqrt()
+}
+
+/// Variances of the normal distribution about a fit; zero where an unknown is held.
+fn variances<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held) -> Point<S> {
+    let (triangle, _) = fit.of_everything(problem, S::zero(), true);
+    let covariance = conditional(&triangle, held).covariance();
+    core::array::from_fn(|place| {
+        let is_held = held.get(place).copied().unwrap_or(true);
+        let own = covariance.get(place).and_then(|row| row.get(place)).copied();
+        if is_held { S::zero() } else { own.unwrap_or(S::zero()) }
+    })
+}
+
+/// The mixture as it grows: weighted sums about a point near its middle, the weights over the greatest so far.
+#[derive(Debug, Clone, Copy)]
+struct Sum<S> {
+    origin: Point<S>,
+    ln_greatest: Option<S>,
+    total: S,
+    first: Point<S>,
+    second: Point<S>,
+}
+
+impl<S: Scalar> Sum<S> {
+    fn about(origin: &Point<S>) -> Self {
+        let zero = [S::zero(); UNKNOWNS];
+        Self { origin: *origin, ln_greatest: None, total: S::zero(), first: zero, second: zero }
+    }
+
+    /// Adds the normal distribution about a fit that stands for a strip of some width.
+    fn add(&mut self, problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held, width: S) {
+        let ln_weight = fit.ln_evidence(problem, held) + width.ln();
+        if !ln_weight.is_finite() {
+            return;
+        }
+        let greatest = self.ln_greatest.unwrap_or(ln_weight);
+        if ln_weight > greatest {
+            self.scale((greatest - ln_weight).exp());
+        }
+        let greatest = greatest.max(ln_weight);
+        self.ln_greatest = Some(greatest);
+        let weight = (ln_weight - greatest).exp();
+        self.total += weight;
+        let away = shifted(&fit.state.point, &self.origin.map(|at| -at));
+        let variances = variances(problem, fit, held);
+        let sums = self.first.iter_mut().zip(&mut self.second);
+        for ((first, second), (away, variance)) in sums.zip(away.iter().zip(variances)) {
+            *first += weight * *away;
+            *second += weight * (*away * *away + variance);
+        }
+    }
+
+    fn scale(&mut self, factor: S) {
+        self.total = self.total * factor;
+        self.first = self.first.map(|sum| sum * factor);
+        self.second = self.second.map(|sum| sum * factor);
+    }
+
+    fn moments(&self, steps: u16) -> Moments<S> {
+        let shift = self.first.map(|sum| sum / self.total);
+        let std = core::array::from_fn(|place| {
+            let (square, mean) = (self.second.get(place), shift.get(place));
+            let pair = square.copied().zip(mean.copied());
+            pair.map_or(S::zero(), |(square, mean)| (square / self.total - mean * mean).max(S::zero()).sqrt())
+        });
+        Moments { mean: shifted(&self.origin, &shift), std, steps }
+    }
+}

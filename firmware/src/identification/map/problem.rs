@@ -1,0 +1,233 @@
+//! The sum of squares that is made least: observations and beliefs.
+
+use heapless::Vec;
+
+use crate::identification::Observation;
+use crate::scalar::Scalar;
+use crate::terramechanics::effects::Conditions;
+use crate::terramechanics::{deepest_sinkage, sinkage_for_load};
+
+use super::CAPACITY;
+use super::prediction::{Forward, LATENTS, Latents};
+use super::rows::{LatentRows, Rows};
+use super::triangle::Triangle;
+use super::unknowns::{Point, UNKNOWNS};
+
+/// What is to be explained, and by what.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Problem<'a, S> {
+    pub forward: Forward<'a, S>,
+    pub observations: &'a [Observation<S>],
+    /// Factor on the standard deviations of all channels.
+    pub blur: S,
+    /// Of each observation; nothing is known beyond the end of the slice.
+    pub conditions: &'a [Conditions<S>],
+}
+
+/// Values of all unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct State<S> {
+    pub point: Point<S>,
+    pub latents: Vec<Latents<S>, CAPACITY>,
+}
+
+/// A state and how well it explains what was seen.
+#[derive(Debug, Clone)]
+pub(super) struct Fit<S> {
+    pub state: State<S>,
+    rows: Vec<Rows<S>, CAPACITY>,
+    /// Sum of the squared residuals of the observations.
+    pub chi_squared: S,
+    /// The same with those of the beliefs.
+    pub cost: S,
+}
+
+/// A step of all unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct Step<S> {
+    shared: Point<S>,
+    latents: Vec<[S; LATENTS], CAPACITY>,
+    /// By how much it should lower the cost.
+    pub gain: S,
+}
+
+/// Which unknowns a descent may not move.
+pub(super) type Held = [bool; UNKNOWNS];
+
+impl<S: Scalar> Problem<'_, S> {
+    /// Where the latents are looked for first: as measured; a sinkage that was not measured is the one at which the soil
+    /// of the point carries the load.
+    pub fn start(&self, point: &Point<S>) -> State<S> {
+        let soil = self.forward.unknowns.soil_at(point);
+        let wheel = self.forward.wheel;
+        let mut latents = Vec::new();
+        for observation in self.observations.iter().take(CAPACITY) {
+            let state = &observation.state;
+            let slip = state.slip;
+            let measured = state.sinkage_m.filter(|sinkage_m| *sinkage_m > S::constant(0.02) * wheel.radius_m);
+            let sinkage_m = measured
+                .or_else(|| sinkage_for_load(wheel, &soil, slip, state.load_n).ok())
+                .unwrap_or(S::constant(0.2) * wheel.radius_m);
+            let start = self.inside(Latents { ln_sinkage: sinkage_m.ln(), slip });
+            // The slice is no longer than the capacity.
+            let _ = latents.push(start);
+        }
+        State { point: *point, latents }
+    }
+
+    /// Latents for which the equations hold: sinkage of 1e-4 … 0.9 r, slip just inside −1 … 1.
+    fn inside(&self, latents: Latents<S>) -> Latents<S> {
+        let deepest = deepest_sinkage(self.forward.wheel);
+        let shallowest = S::constant(1e-4) * self.forward.wheel.radius_m;
+        Latents {
+            ln_sinkage: latents.ln_sinkage.max(shallowest.ln()).min(deepest.ln()),
+            slip: latents.slip.max(S::constant(-0.99)).min(S::constant(0.999)),
+        }
+    }
+
+    /// How well a state explains what was seen; none where the equations do not hold.
+    pub fn evaluate(&self, state: State<S>) -> Option<Fit<S>> {
+        let mut rows = Vec::new();
+        let mut chi_squared = S::zero();
+        let unknown = Conditions::<()>::default().map(|()| S::zero());
+        for (place, (observation, latents)) in self.observations.iter().zip(&state.latents).enumerate() {
+            let conditions = self.conditions.get(place).unwrap_or(&unknown);
+            let load_n = observation.state.load_n;
+            let prediction = self.forward.predict(conditions, load_n, &state.point, latents)?;
+            let own = Rows::new(observation, &prediction, self.blur);
+            chi_squared += own.chi_squared();
+            rows.push(own).ok()?;
+        }
+        let mut cost = chi_squared;
+        for (place, scaled) in state.point.iter().enumerate() {
+            if self.forward.unknowns.has_residual(place) {
+                cost += *scaled * *scaled;
+            }
+        }
+        cost.is_finite().then_some(Fit { state, rows, chi_squared, cost })
+    }
+
+    /// A state moved by a share of a step, and into the bounds.
+    pub fn moved(&self, state: &State<S>, step: &Step<S>) -> State<S> {
+        let mut point = state.point;
+        for (slot, shift) in point.iter_mut().zip(&step.shared) {
+            *slot += *shift;
+        }
+        let mut latents = Vec::new();
+        for (own, [by_ln_sinkage, by_slip]) in state.latents.iter().zip(&step.latents) {
+            let most = S::constant(0.7);
+            let ln_sinkage = own.ln_sinkage + by_ln_sinkage.max(-most).min(most);
+            let _ = latents.push(self.inside(Latents { ln_sinkage, slip: own.slip + *by_slip }));
+        }
+        State { point: self.forward.unknowns.inside(&point), latents }
+    }
+}
+
+impl<S: Scalar> Fit<S> {
+    /// The shared unknowns' triangle, the latents taken out, without beliefs; and the latents' rows.
+    pub fn of_observations(&self, damping: S) -> (Triangle<S, UNKNOWNS>, Vec<LatentRows<S>, CAPACITY>) {
+        let mut triangle = Triangle::empty();
+        let mut latents = Vec::new();
+        for rows in &self.rows {
+            let _ = latents.push(rows.eliminate(damping, &mut triangle));
+        }
+        (triangle, latents)
+    }
+
+    /// The same with the beliefs. A flat belief has no residual; `flat_too` gives it the information of its variance.
+    pub fn of_everything(
+        &self,
+        problem: &Problem<'_, S>,
+        damping: S,
+        flat_too: bool,
+    ) -> (Triangle<S, UNKNOWNS>, Vec<LatentRows<S>, CAPACITY>) {
+        let (mut triangle, latents) = self.of_observations(damping);
+        for (place, scaled) in self.state.point.iter().enumerate() {
+            let normal = problem.forward.unknowns.has_residual(place);
+            if normal || flat_too {
+                triangle.insert(&unit(place, S::one()), if normal { *scaled } else { S::zero() });
+            }
+        }
+        (triangle, latents)
+    }
+
+    /// The damped step of least cost. Unknowns that are held, or whose descent leads out of their bounds, stay.
+    pub fn step(&self, problem: &Problem<'_, S>, held: &Held, damping: S) -> Step<S> {
+        let (triangle, latents) = self.of_everything(problem, damping, false);
+        let gradient = triangle.gradient();
+        let stays: Held = core::array::from_fn(|place| {
+            let (low, high) = problem.forward.unknowns.bounds(place);
+            let at = self.state.point.get(place).copied().unwrap_or(S::zero());
+            let downhill = gradient.get(place).map_or(S::zero(), |slope| -*slope);
+            let blocked = (at <= low && downhill <= S::zero()) || (at >= high && downhill >= S::zero());
+            blocked || held.get(place).copied().unwrap_or(true)
+        });
+        let mut damped = Triangle::<S, UNKNOWNS>::empty();
+        for (place, stays) in stays.iter().enumerate() {
+            let length = column_length(&triangle, place).max(S::one());
+            damped.insert(&unit(place, if *stays { S::one() } else { damping * length }), S::zero());
+        }
+        for (row, right) in triangle.rows.iter().zip(triangle.right) {
+            let mut row = *row;
+            for (entry, stays) in row.iter_mut().zip(&stays) {
+                if *stays {
+                    *entry = S::zero();
+                }
+            }
+            damped.insert(&row, right);
+        }
+        let shared = damped.solve();
+        let mut gain = S::zero();
+        for (slope, step) in gradient.iter().zip(&shared) {
+            gain -= *slope * *step;
+        }
+        for own in &latents {
+            gain += own.square();
+        }
+        Step { shared, latents: latents.iter().map(|own| own.step(&shared)).collect(), gain }
+    }
+
+    /// Logarithm of what is left of the posterior density when the latents and all shared unknowns but one that is
+    /// held are integrated out, to second order about the fit.
+    pub fn ln_evidence(&self, problem: &Problem<'_, S>, held: &Held) -> S {
+        let (triangle, latents) = self.of_everything(problem, S::zero(), true);
+        let mut sum = S::constant(-0.5) * self.cost;
+        for (rows, latent) in self.rows.iter().zip(&latents) {
+            sum += rows.ln_load_slope() - latent.ln_determinant();
+        }
+        sum - conditional(&triangle, held).ln_determinant()
+    }
+}
+
+/// A triangle without the columns of unknowns that are held.
+pub(super) fn conditional<S: Scalar>(triangle: &Triangle<S, UNKNOWNS>, held: &Held) -> Triangle<S, UNKNOWNS> {
+    let mut kept = Triangle::empty();
+    for (place, held) in held.iter().enumerate() {
+        if *held {
+            kept.insert(&unit(place, S::one()), S::zero());
+        }
+    }
+    for (row, right) in triangle.rows.iter().zip(triangle.right) {
+        let mut row = *row;
+        for (entry, held) in row.iter_mut().zip(held) {
+            if *held {
+                *entry = S::zero();
+            }
+        }
+        kept.insert(&row, right);
+    }
+    kept
+}
+
+/// A row that knows of one unknown alone.
+pub(super) fn unit<S: Scalar>(place: usize, entry: S) -> [S; UNKNOWNS] {
+    core::array::from_fn(|column| if column == place { entry } else { S::zero() })
+}
+
+fn column_length<S: Scalar>(triangle: &Triangle<S, UNKNOWNS>, place: usize) -> S {
+    let mut square = S::zero();
+    for entry in triangle.rows.iter().filter_map(|row| row.get(place)) {
+        square += *entry * *entry;
+    }
+    square.sqrt()
+}

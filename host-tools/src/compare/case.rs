@@ -1,0 +1,135 @@
+//! Cases of a situation: noisy wheel states, and the soil that is under them.
+
+use kapvik_firmware::identification::{Observation, SoilPrior};
+use kapvik_firmware::terramechanics::effects::{Conditions, Effects, SlipSinkage as SlipSinkageEffect};
+use kapvik_firmware::terramechanics::{Quadrature, Soil, WheelOnSoil};
+use kapvik_firmware::wheel_state::{WHEELS, WheelNoise, WheelState};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::data::campaign::{DeclaredEffect, Knowledge};
+use crate::identify::method::{Assumed, Evidence, training_prior};
+use crate::train::dataset::stream;
+use crate::train::prior;
+
+use super::situation::{GREATEST_SLIP_SINKAGE, SLIPS, Situation, SlipSinkage, Truth};
+
+/// What a method is asked, and what is true.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// What is seen, and what is known beforehand.
+    pub evidence: Evidence,
+    /// The soil.
+    pub soil: Soil<f64>,
+}
+
+/// Draws of one case before its soil is given up: drawn soils that do not carry the wheels are left out.
+const DRAWS: usize = 1000;
+
+/// The case of that place. The same seed gives the same cases, and situations that differ in nothing but the number of
+/// instants or in what is declared share soils and loads.
+pub fn case(situation: &Situation, seed: u64, place: usize) -> Option<Case> {
+    let mut random = stream(seed, place);
+    (0..DRAWS).find_map(|_| draw(situation, &mut random))
+}
+
+fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
+    let soil = match situation.truth {
+        Truth::Drawn => draw_soil(random),
+        Truth::Fixed(soil) => soil,
+    };
+    let n1 = GREATEST_SLIP_SINKAGE * random.random::<f64>();
+    let loads: [f64; WHEELS] = std::array::from_fn(|_| {
+        prior::KAPVIK_LOAD_N * (1.0 + situation.load_spread * (2.0 * random.random::<f64>() - 1.0))
+    });
+    let mut effects = Effects::none();
+    if situation.slip_sinkage != SlipSinkage::None {
+        effects.set(SLIP_SINKAGE, N1, n1);
+    }
+    let on_soil = WheelOnSoil {
+        wheel: &prior::KAPVIK_WHEEL,
+        grousers: &prior::KAPVIK_GROUSERS,
+        soil: &soil,
+        effects: &effects,
+        gravity_m_s2: prior::GRAVITY_M_S2,
+        quadrature: Quadrature::for_scalar::<f64>(),
+    };
+    let noise = noise(situation.instants);
+    let mut observations = Vec::with_capacity(WHEELS);
+    for (place, load_n) in loads.into_iter().enumerate() {
+        let slip = SLIPS[0] + (SLIPS[1] - SLIPS[0]) * place as f64 / (WHEELS - 1) as f64;
+        let truth = on_soil.at_load(&Conditions::default(), slip, load_n).ok()?;
+        if truth.sinkage_m > prior::DEEPEST * prior::KAPVIK_WHEEL.radius_m {
+            return None;
+        }
+        let state = WheelState {
+            drawbar_pull_n: truth.drawbar_pull_n,
+            load_n,
+            torque_nm: truth.torque_nm,
+            slip,
+            sinkage_m: Some(truth.sinkage_m),
+        };
+        observations.push(Observation { state: seen(&state, &noise, random), noise });
+    }
+    let prior = match situation.truth {
+        Truth::Drawn => training_prior(),
+        Truth::Fixed(_) => SoilPrior::usual(),
+    };
+    let declared = if situation.slip_sinkage == SlipSinkage::Declared { vec![declared()?] } else { Vec::new() };
+    let evidence = Evidence {
+        wheel: prior::KAPVIK_WHEEL,
+        grousers: prior::KAPVIK_GROUSERS,
+        gravity_m_s2: prior::GRAVITY_M_S2,
+        observations,
+        assumed: Assumed::middle_of(&prior),
+        prior,
+        declared,
+    };
+    Some(Case { evidence, soil })
+}
+
+const SLIP_SINKAGE: &str = <SlipSinkageEffect<f64> as kapvik_firmware::terramechanics::effects::Effect<f64>>::ID;
+const N1: &str = "n1";
+
+fn declared() -> Option<DeclaredEffect> {
+    let info = kapvik_firmware::terramechanics::effects::effect_info(SLIP_SINKAGE)?;
+    let known = Knowledge::Between { min: 0.0, max: GREATEST_SLIP_SINKAGE };
+    Some(DeclaredEffect { info, form: None, known: [(N1, known)].into() })
+}
+
+fn draw_soil(random: &mut ChaCha8Rng) -> Soil<f64> {
+    let mut of = |range: prior::Range| range.at(random.random());
+    Soil {
+        cohesion_pa: of(prior::COHESION_PA),
+        friction_angle_rad: of(prior::FRICTION_ANGLE_RAD),
+        shear_modulus_m: of(prior::SHEAR_MODULUS_M),
+        sinkage_exponent: of(prior::SINKAGE_EXPONENT),
+        frictional_modulus: of(prior::STIFFNESS),
+        cohesive_modulus: 0.0,
+        peak_stress_c1: of(prior::PEAK_STRESS_C1),
+        peak_stress_c2: of(prior::PEAK_STRESS_C2),
+        rebound_ratio: 0.0,
+    }
+}
+
+/// That of Kapvik's assumed sensors, averaged.
+fn noise(instants: u32) -> WheelNoise<f64> {
+    let share = 1.0 / f64::from(instants).sqrt();
+    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 }
+        .map(|std| share * std)
+}
+
+fn seen(state: &WheelState<f64>, noise: &WheelNoise<f64>, random: &mut ChaCha8Rng) -> WheelState<f64> {
+    let mut blur = |value: f64, std: f64| {
+        let normal: f64 = StandardNormal.sample(random);
+        value + std * normal
+    };
+    WheelState {
+        drawbar_pull_n: blur(state.drawbar_pull_n, noise.drawbar_pull_n),
+        load_n: blur(state.load_n, noise.load_n),
+        torque_nm: blur(state.torque_nm, noise.torque_nm),
+        slip: blur(state.slip, noise.slip),
+        sinkage_m: state.sinkage_m.map(|sinkage_m| blur(sinkage_m, noise.sinkage_m)),
+    }
+}

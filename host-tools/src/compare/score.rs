@@ -1,0 +1,188 @@
+//! How far answers are from the truth, case by case and over many.
+
+use kapvik_firmware::terramechanics::Soil;
+use serde::Serialize;
+
+use crate::identify::method::{Finding, Statement};
+
+/// A parameter of the soil, with the unit in which its errors are told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parameter {
+    /// c, Pa.
+    Cohesion,
+    /// φ, degrees.
+    FrictionAngle,
+    /// K, mm.
+    ShearModulus,
+}
+
+/// What a contender reached in a situation.
+#[derive(Debug, Clone, Serialize)]
+pub struct Score {
+    /// The contender.
+    pub contender: &'static str,
+    /// Cases.
+    pub cases: usize,
+    /// Share of them that it refused.
+    pub refused: f64,
+    /// Its most frequent reason.
+    pub reason: Option<String>,
+    /// Mean time of an answer, s.
+    pub seconds: f64,
+    /// c, Pa.
+    pub cohesion_pa: ParameterScore,
+    /// φ, degrees.
+    pub friction_angle_deg: ParameterScore,
+    /// K, mm.
+    pub shear_modulus_mm: ParameterScore,
+}
+
+/// Of one parameter, over the cases that were answered.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct ParameterScore {
+    /// Median of the estimates.
+    pub median: f64,
+    /// A quarter of the estimates lies below.
+    pub low_quartile: f64,
+    /// A quarter of the estimates lies above.
+    pub high_quartile: f64,
+    /// Median of the errors' sizes.
+    pub median_error: f64,
+    /// Root mean square error.
+    pub rmse: f64,
+    /// Median of the errors: estimate less truth.
+    pub bias: f64,
+    /// Share of the 68 % intervals that hold the truth.
+    pub within_68: f64,
+    /// Share of the 95 % intervals that hold the truth.
+    pub within_95: f64,
+    /// Share called identifiable.
+    pub identifiable: f64,
+    /// Whether the contender takes it as given.
+    pub assumed: bool,
+}
+
+/// One answer, and how long it took.
+#[derive(Debug, Clone)]
+pub struct Timed {
+    /// What was said.
+    pub found: Result<Finding, String>,
+    /// How long it took, s.
+    pub seconds: f64,
+}
+
+impl Parameter {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Cohesion, Self::FrictionAngle, Self::ShearModulus];
+
+    /// Of a soil, in the unit of the errors.
+    pub fn of_soil(self, soil: &Soil<f64>) -> f64 {
+        self.scale()
+            * match self {
+                Self::Cohesion => soil.cohesion_pa,
+                Self::FrictionAngle => soil.friction_angle_rad,
+                Self::ShearModulus => soil.shear_modulus_m,
+            }
+    }
+
+    /// Of a finding, in the SI unit.
+    pub fn of_finding(self, finding: &Finding) -> &Statement {
+        match self {
+            Self::Cohesion => &finding.cohesion_pa,
+            Self::FrictionAngle => &finding.friction_angle_rad,
+            Self::ShearModulus => &finding.shear_modulus_m,
+        }
+    }
+
+    /// From the SI unit to that of the errors.
+    pub fn scale(self) -> f64 {
+        match self {
+            Self::Cohesion => 1.0,
+            Self::FrictionAngle => 180.0 / std::f64::consts::PI,
+            Self::ShearModulus => 1000.0,
+        }
+    }
+}
+
+impl Score {
+    /// Of a contender's answers to the cases.
+    pub fn of(contender: &'static str, truths: &[Soil<f64>], answers: &[Timed]) -> Self {
+        let answered = |(truth, timed): (&Soil<f64>, &Timed)| Some((*truth, timed.found.as_ref().ok()?.clone()));
+        let found: Vec<(Soil<f64>, Finding)> = truths.iter().zip(answers).filter_map(answered).collect();
+        let [cohesion_pa, friction_angle_deg, shear_modulus_mm] =
+            Parameter::ALL.map(|parameter| ParameterScore::of(parameter, &found));
+        let cases = answers.len();
+        Self {
+            contender,
+            cases,
+            refused: 1.0 - found.len() as f64 / cases as f64,
+            reason: most_frequent(answers.iter().filter_map(|timed| timed.found.as_ref().err())),
+            seconds: answers.iter().map(|timed| timed.seconds).sum::<f64>() / cases as f64,
+            cohesion_pa,
+            friction_angle_deg,
+            shear_modulus_mm,
+        }
+    }
+
+    /// Of one parameter.
+    pub fn parameter(&self, parameter: Parameter) -> &ParameterScore {
+        match parameter {
+            Parameter::Cohesion => &self.cohesion_pa,
+            Parameter::FrictionAngle => &self.friction_angle_deg,
+            Parameter::ShearModulus => &self.shear_modulus_mm,
+        }
+    }
+}
+
+impl ParameterScore {
+    fn of(parameter: Parameter, found: &[(Soil<f64>, Finding)]) -> Self {
+        let (scale, count) = (parameter.scale(), found.len() as f64);
+        let values = sorted(found.iter().map(|(_, finding)| scale * parameter.of_finding(finding).value));
+        let error = |(soil, finding): &(Soil<f64>, Finding)| {
+            scale * parameter.of_finding(finding).value - parameter.of_soil(soil)
+        };
+        let errors = sorted(found.iter().map(error));
+        let sizes = sorted(errors.iter().map(|error| error.abs()));
+        let share = |holds: &dyn Fn(f64, &Statement) -> bool| {
+            let held = found
+                .iter()
+                .filter(|(soil, finding)| holds(parameter.of_soil(soil) / scale, parameter.of_finding(finding)));
+            held.count() as f64 / count
+        };
+        let inside = |truth: f64, [low, high]: [f64; 2]| low <= truth && truth <= high;
+        Self {
+            median: quantile(&values, 0.5),
+            low_quartile: quantile(&values, 0.25),
+            high_quartile: quantile(&values, 0.75),
+            median_error: quantile(&sizes, 0.5),
+            rmse: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
+            bias: quantile(&errors, 0.5),
+            within_68: share(&|truth, statement| inside(truth, statement.interval_68)),
+            within_95: share(&|truth, statement| inside(truth, statement.interval_95)),
+            identifiable: share(&|_, statement| statement.identifiable),
+            assumed: found.iter().any(|(_, finding)| parameter.of_finding(finding).assumed),
+        }
+    }
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Of sorted values, between neighbours in proportion; not a number of none.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share * sorted.len().saturating_sub(1) as f64;
+    let at = |place: f64| sorted.get(place as usize).copied().unwrap_or(f64::NAN);
+    let (low, high) = (at(place.floor()), at(place.ceil()));
+    low + (high - low) * place.fract()
+}
+
+fn most_frequent<'a>(reasons: impl Iterator<Item = &'a String>) -> Option<String> {
+    let mut counts = std::collections::BTreeMap::new();
+    for reason in reasons {
+        *counts.entry(reason).or_insert(0_usize) += 1;
+    }
+    counts.into_iter().max_by_key(|(_, count)| *count).map(|(reason, _)| reason.clone())
+}

@@ -1,0 +1,127 @@
+//! What a method answers.
+
+use kapvik_firmware::identification::{Identified, Origin, Told};
+use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
+
+/// What a method says of a soil.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// c, Pa.
+    pub cohesion_pa: Statement,
+    /// φ, rad.
+    pub friction_angle_rad: Statement,
+    /// K, m.
+    pub shear_modulus_m: Statement,
+    /// Of the method's own system of equations, where it has one.
+    pub condition_number: Option<f64>,
+    /// How well the method's model explains what was seen, where it says.
+    pub fit: Option<Fit>,
+}
+
+/// What a method says of one parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Statement {
+    /// The value.
+    pub value: f64,
+    /// One standard deviation; infinite until something gives one.
+    pub std: f64,
+    /// Contains the truth in 68 of 100 cases, by the method's own account.
+    pub interval_68: [f64; 2],
+    /// Contains the truth in 95 of 100 cases, by the method's own account.
+    pub interval_95: [f64; 2],
+    /// Whether the data tell it.
+    pub identifiable: bool,
+    /// Whether the method takes it as given.
+    pub assumed: bool,
+}
+
+/// How well a model explains what was seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Sum of the squared residuals in units of their noise.
+    pub chi_square: f64,
+    /// Numbers seen less parameters that the data tell.
+    pub degrees_of_freedom: f64,
+    /// Probability of a greater sum where the model is right.
+    pub p_value: f64,
+}
+
+impl Finding {
+    /// The three statements: c, φ, K.
+    pub fn statements(&self) -> [&Statement; 3] {
+        [&self.cohesion_pa, &self.friction_angle_rad, &self.shear_modulus_m]
+    }
+
+    /// The same, to change.
+    pub fn statements_mut(&mut self) -> [&mut Statement; 3] {
+        [&mut self.cohesion_pa, &mut self.friction_angle_rad, &mut self.shear_modulus_m]
+    }
+}
+
+impl From<&Identified<f64>> for Finding {
+    fn from(identified: &Identified<f64>) -> Self {
+        Self {
+            cohesion_pa: Statement::from(&identified.cohesion_pa),
+            friction_angle_rad: Statement::from(&identified.friction_angle_rad),
+            shear_modulus_m: Statement::from(&identified.shear_modulus_m),
+            condition_number: Some(identified.condition_number).filter(|number| number.is_finite()),
+            fit: None,
+        }
+    }
+}
+
+impl From<&SoilEstimate> for Finding {
+    fn from(estimate: &SoilEstimate) -> Self {
+        Self {
+            cohesion_pa: Statement::from(&estimate.cohesion_pa),
+            friction_angle_rad: Statement::from(&estimate.friction_angle_rad),
+            shear_modulus_m: Statement::from(&estimate.shear_modulus_m),
+            condition_number: None,
+            fit: None,
+        }
+    }
+}
+
+impl Statement {
+    /// A value with symmetric intervals: what a method says that knows a standard deviation and no more.
+    pub fn normal(value: f64, std: f64) -> Self {
+        let interval = |width: f64| [value - width * std, value + width * std];
+        Self {
+            value,
+            std,
+            interval_68: interval(1.0),
+            interval_95: interval(1.96),
+            identifiable: false,
+            assumed: false,
+        }
+    }
+
+    /// The same value with another standard deviation.
+    #[must_use]
+    pub fn with_std(self, std: f64) -> Self {
+        Self { identifiable: self.identifiable, assumed: self.assumed, ..Self::normal(self.value, std) }
+    }
+}
+
+impl From<&Told<f64>> for Statement {
+    fn from(told: &Told<f64>) -> Self {
+        Self {
+            identifiable: told.identifiable,
+            assumed: told.origin == Origin::Assumed,
+            ..Self::normal(told.value, told.std.unwrap_or(f64::INFINITY))
+        }
+    }
+}
+
+impl From<&ParameterEstimate> for Statement {
+    fn from(estimate: &ParameterEstimate) -> Self {
+        Self {
+            value: estimate.value.into(),
+            std: estimate.std.into(),
+            interval_68: estimate.interval_68.map(f64::from),
+            interval_95: estimate.interval_95.map(f64::from),
+            identifiable: estimate.identifiable,
+            assumed: false,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Standard deviations of methods that give none: the scatter of their answers when the noise is drawn again.
+//!
+//! B. Efron's parametric bootstrap. Each answer is to the observations with their noise added once more, so that what a
+//! method makes of noise shows; a bias that noise gives a method does not.
+
+use kapvik_firmware::identification::Observation;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::{Evidence, Finding};
+
+/// Redraws of the noise.
+const REDRAWS: usize = 200;
+/// Share of them that must have an answer.
+const LEAST_SHARE: f64 = 0.5;
+
+/// Puts a standard deviation where a finding has none. Where the method refuses half of the redraws it stays infinite.
+pub fn complete(finding: &mut Finding, evidence: &Evidence, answer: impl Fn(&Evidence) -> Option<Finding>) {
+    if finding.statements().iter().all(|statement| statement.std.is_finite()) {
+        return;
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    let mut redrawn = || {
+        let observations = evidence.observations.iter().map(|seen| blurred(seen, &mut random)).collect();
+        answer(&Evidence { observations, ..evidence.clone() })
+    };
+    let answers: Vec<[f64; 3]> =
+        (0..REDRAWS).filter_map(|_| redrawn()).map(|found| found.statements().map(|one| one.value)).collect();
+    if (answers.len() as f64) < LEAST_SHARE * REDRAWS as f64 {
+        return;
+    }
+    for (parameter, statement) in finding.statements_mut().into_iter().enumerate() {
+        if !statement.std.is_finite() {
+            *statement = statement.with_std(half_spread(answers.iter().map(|answer| answer[parameter]).collect()));
+        }
+    }
+}
+
+/// Half the distance between the 16th and the 84th percentile: the standard deviation of a normal distribution, and a
+/// sober figure for one with outliers.
+fn half_spread(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
+    0.5 * (at(0.841) - at(0.159))
+}
+
+fn blurred(seen: &Observation<f64>, random: &mut ChaCha8Rng) -> Observation<f64> {
+    let mut blur = |value: f64, std: f64| {
+        let normal: f64 = StandardNormal.sample(random);
+        value + std * normal
+    };
+    let Observation { mut state, noise } = *seen;
+    state.drawbar_pull_n = blur(state.drawbar_pull_n, noise.drawbar_pull_n);
+    state.load_n = blur(state.load_n, noise.load_n);
+    state.torque_nm = blur(state.torque_nm, noise.torque_nm);
+    state.slip = blur(state.slip, noise.slip).clamp(-1.0, 1.0);
+    state.sinkage_m = state.sinkage_m.map(|sinkage_m| blur(sinkage_m, noise.sinkage_m).max(0.0));
+    Observation { state, noise }
+}

@@ -1,0 +1,46 @@
+//! The mean of the exact posterior, by sampling, under the prior that the networks were trained with.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::limit::coordinates::Targets;
+use crate::limit::sampler::Effort;
+use crate::limit::summary::{EFFORT, Summary, draws};
+use crate::limit::wheel_likelihood::LoadPrior;
+
+use super::networks::query;
+use super::{Evidence, Finding, Statement};
+
+/// Share of the prior's variance that must be gone for a parameter to be told: as the networks have it.
+const TOLD: f64 = 0.5;
+
+/// Mean and intervals of the posterior.
+///
+/// # Errors
+/// Where the observation is so far from the prior that there is no posterior to sample.
+pub fn posterior_mean(evidence: &Evidence) -> Result<Finding, String> {
+    let effort: &Effort = &EFFORT;
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    let found = draws(&query(evidence), LoadPrior::Flat, effort, &mut random).map_err(|error| error.to_string())?;
+    let summary = Summary::new(&found);
+    let [cohesion_pa, friction_angle_rad, shear_modulus_m] = [0, 1, 2].map(|target| statement(&summary, target));
+    Ok(Finding { cohesion_pa, friction_angle_rad, shear_modulus_m, condition_number: None, fit: None })
+}
+
+fn statement(summary: &Summary, target: usize) -> Statement {
+    let logarithmic = target != 1;
+    let unit = |value: f64| if logarithmic { value.exp() } else { value };
+    let mut values: Vec<f64> = summary.draws.iter().map(|draw: &Targets| draw[target]).collect();
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| values.get((share * (values.len() - 1) as f64).round() as usize).copied().unwrap_or(f64::NAN);
+    let (mean, std) = (summary.targets[target].mean, summary.targets[target].std);
+    let prior = f64::from(crate::train::dataset::prior_scale().std[target]);
+    Statement {
+        value: unit(mean),
+        std: if logarithmic { unit(mean) * std } else { std },
+        interval_68: [0.16, 0.84].map(|share| unit(at(share))),
+        interval_95: [0.025, 0.975].map(|share| unit(at(share))),
+        identifiable: std * std <= TOLD * prior * prior,
+        assumed: false,
+    }
+}

@@ -1,0 +1,85 @@
+//! The maximum a posteriori, with the effects that are declared.
+
+use kapvik_firmware::identification::Belief;
+use kapvik_firmware::identification::map::{DeclaredEffects, Fitted, FreeParameter, MapEstimate, identify_declared};
+use kapvik_firmware::terramechanics::effects::{Effects, Form};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use crate::data::campaign::{DeclaredEffect, Knowledge};
+
+use super::{Evidence, Finding, Fit, Statement, method_refusal};
+
+/// The posterior's mean and intervals.
+///
+/// # Errors
+/// The refusal, in words; where too many parameters of effects are free.
+pub fn map(evidence: &Evidence) -> Result<Finding, String> {
+    let declared = declared(evidence)?;
+    let estimate = identify_declared(&evidence.wheel, &evidence.observations, &[], &evidence.prior, &declared)
+        .map_err(method_refusal)?;
+    let mut finding = Finding::from(&estimate.identified);
+    finding.cohesion_pa = of_logarithm(finding.cohesion_pa, estimate.ln_cohesion);
+    finding.shear_modulus_m = of_logarithm(finding.shear_modulus_m, estimate.ln_shear_modulus);
+    finding.fit = Some(fit(&estimate));
+    Ok(finding)
+}
+
+/// Intervals of a logarithm are not symmetric about the number.
+fn of_logarithm(statement: Statement, logarithm: Fitted<f64>) -> Statement {
+    let interval = |width: f64| [-1.0, 1.0].map(|side| (logarithm.mean + side * width * logarithm.std).exp());
+    Statement { interval_68: interval(1.0), interval_95: interval(1.96), ..statement }
+}
+
+fn fit(estimate: &MapEstimate<f64>) -> Fit {
+    let degrees_of_freedom = f64::from(estimate.degrees_of_freedom);
+    let p_value = ChiSquared::new(degrees_of_freedom.max(1.0)).map_or(f64::NAN, |chi| chi.sf(estimate.misfit));
+    Fit { chi_square: estimate.misfit, degrees_of_freedom, p_value }
+}
+
+fn declared(evidence: &Evidence) -> Result<DeclaredEffects<f64>, String> {
+    let mut declared = DeclaredEffects {
+        effects: Effects::none(),
+        free: heapless::Vec::new(),
+        grousers: evidence.grousers,
+        gravity_m_s2: evidence.gravity_m_s2,
+    };
+    for effect in &evidence.declared {
+        declare(effect, &mut declared)?;
+    }
+    Ok(declared)
+}
+
+/// Puts in an effect: in its stated form, else in its first; what the form frees and the file does not know is free
+/// within its bounds.
+fn declare(effect: &DeclaredEffect, declared: &mut DeclaredEffects<f64>) -> Result<(), String> {
+    let info = effect.info;
+    declared.effects.add(info.id);
+    let form: Option<&Form> = effect.form.or_else(|| info.forms.first());
+    for parameter in info.parameters {
+        let set = form.and_then(|form| form.set.iter().find(|(name, _)| *name == parameter.name));
+        if let Some((name, value)) = set {
+            declared.effects.set(info.id, name, *value);
+        }
+        let is_free = form.is_some_and(|form| form.free.contains(&parameter.name));
+        let belief = match effect.known.get(parameter.name) {
+            Some(Knowledge::Value { value, std }) if *std == 0.0 => {
+                declared.effects.set(info.id, parameter.name, *value);
+                continue;
+            }
+            Some(Knowledge::Value { value, std }) => {
+                Belief { mean: *value, std: Some(*std), low: parameter.low, high: parameter.high }
+            }
+            Some(Knowledge::Between { min, max }) => Belief::flat(*min, *max),
+            None if is_free => Belief::flat(parameter.low, parameter.high),
+            None => continue,
+        };
+        let free = FreeParameter { effect: info.id, parameter: parameter.name, belief };
+        declared.free.push(free).map_err(|_| {
+            format!(
+                "more than {} free parameters of declared effects: give the values of some",
+                declared.free.capacity()
+            )
+        })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,131 @@
+//! The methods, side by side: each is asked about the same evidence and answers in the same form.
+
+mod answer;
+mod bootstrap;
+mod evidence;
+mod knowledge;
+mod limit;
+mod literature;
+mod map;
+pub mod networks;
+mod words;
+
+use clap::ValueEnum;
+use kapvik_firmware::wheel_state::WHEELS;
+
+use crate::data::campaign::Channel;
+
+pub use answer::{Finding, Fit, Statement};
+pub use evidence::{Assumed, Evidence, MOST_STATES};
+pub use knowledge::{soil_prior, training_prior};
+pub use words::{method_refusal, network_refusal};
+
+/// A method of the literature, or ours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum)]
+pub enum Method {
+    /// The frozen networks that fly
+    Network,
+    /// Decoupled analytical identification (L. Ding et al. 2009), least squares over wheels and instants
+    Ding,
+    /// Linearised stress, least squares for c and φ with K assumed (K. Iagnemma et al. 2004)
+    Iagnemma,
+    /// The same, row after row with forgetting
+    IagnemmaRecursive,
+    /// Simpson's rule and damped Newton–Raphson for φ, K and stiffness with c assumed (S. Hutangkabodee et al. 2006)
+    Hutangkabodee,
+    /// Bayesian multiple model over the soil catalogue, without sinkage (L. E. Ray 2009)
+    Ray,
+    /// The earlier network, one hidden layer, with sinkage (M. Cross et al. 2013)
+    Cross,
+    /// Maximum a posteriori with errors in variables and exact integrals: ours
+    Map,
+    /// Mean of the exact posterior by sampling: what no method can beat where its prior is true
+    Limit,
+}
+
+/// Slip, load, drawbar pull and torque.
+const FORCES: [Channel; 4] = [Channel::Slip, Channel::Load, Channel::DrawbarPull, Channel::Torque];
+/// The same and the sinkage.
+const FORCES_AND_SINKAGE: [Channel; 5] =
+    [Channel::Slip, Channel::Load, Channel::DrawbarPull, Channel::Torque, Channel::Sinkage];
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Network,
+        Self::Ding,
+        Self::Iagnemma,
+        Self::IagnemmaRecursive,
+        Self::Hutangkabodee,
+        Self::Ray,
+        Self::Cross,
+        Self::Map,
+        Self::Limit,
+    ];
+
+    /// The name on the command line and in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Network => "network",
+            Self::Ding => "ding",
+            Self::Iagnemma => "iagnemma",
+            Self::IagnemmaRecursive => "iagnemma-recursive",
+            Self::Hutangkabodee => "hutangkabodee",
+            Self::Ray => "ray",
+            Self::Cross => "cross",
+            Self::Map => "map",
+            Self::Limit => "limit",
+        }
+    }
+
+    /// Whether the method's model takes in the effects that a campaign declares.
+    pub const fn knows_effects(self) -> bool {
+        matches!(self, Self::Map)
+    }
+
+    /// The most states of a run that the method is given.
+    pub const fn most_states(self) -> usize {
+        match self {
+            Self::Network | Self::Limit => WHEELS,
+            Self::IagnemmaRecursive => usize::MAX,
+            _ => MOST_STATES,
+        }
+    }
+
+    /// The columns without which the method cannot work.
+    pub const fn needs(self) -> &'static [Channel] {
+        match self {
+            Self::Network | Self::Ray | Self::Map | Self::Limit => &FORCES,
+            Self::Ding | Self::Cross => &FORCES_AND_SINKAGE,
+            Self::Iagnemma | Self::IagnemmaRecursive => {
+                &[Channel::Slip, Channel::Load, Channel::Torque, Channel::Sinkage]
+            }
+            Self::Hutangkabodee => &[Channel::Slip, Channel::Load, Channel::DrawbarPull, Channel::Sinkage],
+        }
+    }
+}
+
+/// What a method says of the evidence, or why it says nothing.
+///
+/// # Errors
+/// The reason, in words.
+pub fn answer(method: Method, evidence: &Evidence) -> Result<Finding, String> {
+    let mut finding = by_itself(method, evidence)?;
+    bootstrap::complete(&mut finding, evidence, |redrawn| by_itself(method, redrawn).ok());
+    Ok(finding)
+}
+
+/// The same without standard deviations that the method does not give by itself.
+fn by_itself(method: Method, evidence: &Evidence) -> Result<Finding, String> {
+    match method {
+        Method::Network => networks::rover(evidence),
+        Method::Ding => literature::ding(evidence),
+        Method::Iagnemma => literature::iagnemma(evidence),
+        Method::IagnemmaRecursive => literature::iagnemma_recursive(evidence),
+        Method::Hutangkabodee => literature::hutangkabodee(evidence),
+        Method::Ray => literature::ray(evidence),
+        Method::Cross => Err("not there yet".to_owned()),
+        Method::Map => map::map(evidence),
+        Method::Limit => limit::posterior_mean(evidence),
+    }
+}

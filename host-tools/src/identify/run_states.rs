@@ -1,0 +1,105 @@
+//! The wheel states that a run of a campaign holds.
+
+use crate::data::campaign::{Campaign, Channel};
+use crate::error::HostError;
+
+use super::SensorNoise;
+use super::combine::{MeanState, Sample, combine};
+
+/// A run as a method sees it.
+#[derive(Debug, Clone)]
+pub struct RunStates {
+    /// Its name.
+    pub run: String,
+    /// Different times among the rows that were used.
+    pub instants: usize,
+    /// Rows that were used.
+    pub rows_used: usize,
+    /// Lines of the rows that were not, and why.
+    pub rows_left_out: Vec<(u64, String)>,
+    /// Rows as they are, or their means.
+    pub states: Vec<MeanState>,
+}
+
+/// Every run of a campaign, in the order of the file, in at most `most` states each. A row without one of `needs` is
+/// left out.
+pub fn run_states(campaign: &Campaign, noise: &SensorNoise, needs: &[Channel], most: usize) -> Vec<RunStates> {
+    let of_run = |(run, rows): (&str, Vec<usize>)| {
+        let (mut samples, mut times, mut rows_left_out) = (Vec::new(), Vec::new(), Vec::new());
+        for row in rows {
+            let id = &campaign.rows()[row];
+            match sample(campaign, row, needs) {
+                Ok(sample) => {
+                    samples.push(sample);
+                    times.push(id.t_s);
+                }
+                Err(reason) => rows_left_out.push((id.line, reason)),
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        RunStates {
+            run: run.to_owned(),
+            instants: times.len(),
+            rows_used: samples.len(),
+            rows_left_out,
+            states: combine(&samples, most, noise.slip.std, noise.load.std),
+        }
+    };
+    campaign.runs().into_iter().map(of_run).collect()
+}
+
+/// Checks that a campaign has the columns that a method needs.
+///
+/// # Errors
+/// It names the columns that are missing and those that are needed.
+pub fn check_columns(campaign: &Campaign, method: &str, needs: &[Channel]) -> Result<(), HostError> {
+    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name()).collect::<Vec<_>>().join(", ");
+    let missing: Vec<Channel> =
+        needs.iter().copied().filter(|channel| campaign.column(channel.name()).is_none()).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    Err(campaign.error(format!("no column {}: the method {method} needs {}", names(&missing), names(needs))))
+}
+
+/// The wheel state of a row, or what it lacks.
+fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, String> {
+    let value = |channel| campaign.value(row, channel);
+    if let Some(missing) = needs.iter().find(|channel| value(**channel).is_none()) {
+        return Err(format!("no {}", missing.name()));
+    }
+    let or_zero = |channel| value(channel).unwrap_or(0.0);
+    let sample = Sample {
+        slip: or_zero(Channel::Slip),
+        load_n: or_zero(Channel::Load),
+        drawbar_pull_n: or_zero(Channel::DrawbarPull),
+        torque_nm: or_zero(Channel::Torque),
+        sinkage_m: value(Channel::Sinkage),
+    };
+    if sample.load_n > 0.0 { Ok(sample) } else { Err("load_n is not above 0".to_owned()) }
+}
+
+impl RunStates {
+    /// Why rows were left out, each reason once with its lines.
+    pub fn reasons_in_words(&self) -> String {
+        let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+        for (line, reason) in &self.rows_left_out {
+            match reasons.iter_mut().find(|(known, _)| known == reason) {
+                Some((_, lines)) => lines.push(line.to_string()),
+                None => reasons.push((reason, vec![line.to_string()])),
+            }
+        }
+        let words = reasons.into_iter().map(|(reason, lines)| format!("{reason} (line {})", abbreviated(&lines)));
+        words.collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// A list that stays readable.
+fn abbreviated(lines: &[String]) -> String {
+    const SHOWN: usize = 6;
+    match lines.get(..SHOWN) {
+        Some(first) if lines.len() > SHOWN => format!("{} and {} more", first.join(", "), lines.len() - SHOWN),
+        _ => lines.join(", "),
+    }
+}

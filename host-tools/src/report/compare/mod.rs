@@ -1,0 +1,13 @@
+//! The comparison of the methods: a table for the terminal and a page.
+
+mod overview;
+mod page;
+mod quartiles;
+mod terminal;
+mod verdict;
+
+pub use page::page;
+pub use terminal::terminal;
+
+/// How the tables and charts of the comparison look.
+const COMPARE_CSS: &str = include_str!("compare.css");

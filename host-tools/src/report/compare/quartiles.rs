@@ -1,0 +1,80 @@
+//! One situation and one parameter: where each method's answers lie.
+
+use maud::{Markup, html};
+
+use crate::compare::{Compared, Parameter, ParameterScore, Score};
+use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, px, text};
+
+use super::terminal::label;
+use super::verdict::{is_best, symbol};
+
+const WIDTH: f64 = 420.0;
+const LEFT: f64 = 178.0;
+const RIGHT: f64 = WIDTH - 14.0;
+const TOP: f64 = 26.0;
+const ROW: f64 = 19.0;
+
+/// Median error of every method, and the quartiles of its answers about the truth where that is one soil.
+pub fn chart(compared: &Compared, parameter: Parameter) -> Markup {
+    let shown: Vec<&Score> = compared.scores.iter().filter(|score| is_shown(score.parameter(parameter))).collect();
+    let centre = |score: &Score| score.parameter(parameter).bias;
+    let reach = |score: &&Score| {
+        let of = score.parameter(parameter);
+        let half = 0.5 * (of.high_quartile - of.low_quartile);
+        // Where the truth differs from case to case, estimates spread with it: then the errors say more.
+        (centre(score) - of.median_error.max(half.min(2.0 * of.median_error)), centre(score) + of.median_error)
+    };
+    let ends: Vec<f64> = shown.iter().map(reach).flat_map(|(low, high)| [low, high]).collect();
+    let widest = limits(&ends);
+    let scale =
+        Scale::around([0.0].into_iter().chain(ends.iter().map(|end| end.clamp(-widest, widest))), (LEFT, RIGHT));
+    let floor = TOP + ROW * shown.len() as f64;
+    html! {
+        svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(floor + 38.0)) } role="img"
+            aria-label={ "Errors of " (symbol(parameter)) ": " (compared.title) } {
+            (bottom_axis(&scale, (TOP - 6.0, floor)))
+            (line("truth", (scale.at(0.0), TOP - 6.0), (scale.at(0.0), floor)))
+            @for (score, place) in shown.iter().zip(0..) {
+                (bar(compared, score, parameter, (&scale, widest), TOP + ROW * (f64::from(place) + 0.5)))
+            }
+            (text("tick", (0.5 * (LEFT + RIGHT), floor + 32.0), Anchor::Middle, &axis_title(parameter)))
+        }
+    }
+}
+
+fn is_shown(score: &ParameterScore) -> bool {
+    score.median_error.is_finite() && !score.assumed
+}
+
+/// What lies beyond eight times the typical error is drawn at the edge: it would hide the others.
+fn limits(ends: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = ends.iter().map(|end| end.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    8.0 * sizes.get(sizes.len() / 3).copied().unwrap_or(1.0)
+}
+
+fn bar(compared: &Compared, score: &Score, parameter: Parameter, (scale, widest): (&Scale, f64), y: f64) -> Markup {
+    let of = score.parameter(parameter);
+    let best = is_best(compared, score, parameter);
+    let class = if best { "told" } else { "untold" };
+    let at = |value: f64| scale.at(value.clamp(-widest, widest));
+    html! {
+        (text(if best { "label strong" } else { "label" }, (LEFT - 8.0, y + 4.0), Anchor::End, label(score.contender)))
+        (line(&format!("thick {class}"), (at(of.bias - of.median_error), y), (at(of.bias + of.median_error), y)))
+        (dot(class, (at(of.bias), y), 3.5))
+    }
+}
+
+fn axis_title(parameter: Parameter) -> String {
+    let (name, unit) = match parameter {
+        Parameter::Cohesion => ("c", "Pa"),
+        Parameter::FrictionAngle => ("φ", "°"),
+        Parameter::ShearModulus => ("K", "mm"),
+    };
+    format!("error of {name}, {unit}: median ± median size")
+}
+
+/// A share in percent.
+pub fn percent(share: f64) -> String {
+    if share.is_nan() { "–".to_owned() } else { number(100.0 * share, 0, false) }
+}

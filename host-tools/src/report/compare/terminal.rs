@@ -1,0 +1,123 @@
+//! The comparison as tables for the terminal.
+
+use comfy_table::Table;
+
+use crate::compare::{CONTENDERS, Compared, Comparison, MeasuredRow, Parameter, ParameterScore, Score};
+use crate::identify::ParameterDocument;
+use crate::report::draw::number;
+use crate::report::terminal::{align_right, plain_table};
+
+use super::verdict::{is_best, verdicts};
+
+/// What the figures are.
+const LEGEND: &str = "median of the estimates [quartiles], median size of the error, 68 % and 95 % intervals that hold the truth in %; \
+    * = least median error of the methods; ( ) = taken as given";
+
+/// One table for each situation, the measured figures, and what follows.
+pub fn terminal(comparison: &Comparison) -> String {
+    let mut text = format!("{} cases of each situation, seed {}\n{LEGEND}\n", comparison.cases, comparison.seed);
+    for compared in &comparison.situations {
+        text += &format!("\n{} — {}\n{}\n", compared.id, compared.title, table(compared));
+    }
+    if !comparison.measured.is_empty() {
+        text += &format!(
+            "\none wheel at six slips, measured (Ding et al. 2011); direct tests: c 250 Pa, φ 31.9°, K 9.7–13.1 mm\n{}\n",
+            measured(&comparison.measured)
+        );
+    }
+    text += "\n";
+    for verdict in verdicts(comparison) {
+        text += &format!("• {verdict}\n");
+    }
+    text
+}
+
+fn table(compared: &Compared) -> Table {
+    let mut table = plain_table();
+    let head =
+        ["", "c, Pa", "error", "68, 95", "φ, °", "error", "68, 95", "K, mm", "error", "68, 95", "refused", "time"];
+    table.set_header(head);
+    for score in &compared.scores {
+        let mut row = vec![label(score.contender).to_owned()];
+        for parameter in Parameter::ALL {
+            row.extend(cells(compared, score, parameter));
+        }
+        row.push(format!("{} %", number(100.0 * score.refused, 0, false)));
+        row.push(duration(score.seconds));
+        table.add_row(row);
+    }
+    align_right(&mut table);
+    table
+}
+
+fn cells(compared: &Compared, score: &Score, parameter: Parameter) -> [String; 3] {
+    let of = score.parameter(parameter);
+    if of.median.is_nan() {
+        return ["–", "", ""].map(str::to_owned);
+    }
+    let digits = usize::from(parameter != Parameter::Cohesion);
+    let figure = |value: f64| number(value, digits, false);
+    if of.assumed {
+        return [format!("({})", figure(of.median)), String::new(), String::new()];
+    }
+    let star = if is_best(compared, score, parameter) { "*" } else { "" };
+    [
+        format!("{} [{}, {}]", figure(of.median), figure(of.low_quartile), figure(of.high_quartile)),
+        format!("{}{star}", figure(of.median_error)),
+        coverage(of),
+    ]
+}
+
+fn coverage(score: &ParameterScore) -> String {
+    format!("{}, {}", number(100.0 * score.within_68, 0, false), number(100.0 * score.within_95, 0, false))
+}
+
+/// The words for a contender.
+pub fn label(id: &str) -> &str {
+    CONTENDERS.iter().find(|contender| contender.id == id).map_or(id, |contender| contender.label)
+}
+
+/// A time that reads well.
+pub fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-3 => format!("{:.0} µs", 1e6 * s),
+        s if s < 1.0 => format!("{:.1} ms", 1e3 * s),
+        s => format!("{s:.1} s"),
+    }
+}
+
+fn measured(rows: &[MeasuredRow]) -> Table {
+    let mut table = plain_table();
+    table.set_header(["", "c, Pa", "φ, °", "K, mm", ""]);
+    for cells in measured_rows(rows) {
+        table.add_row(cells);
+    }
+    align_right(&mut table);
+    table
+}
+
+/// The cells of each measured row: method, c, φ, K, and why it refused.
+pub fn measured_rows(rows: &[MeasuredRow]) -> Vec<[String; 5]> {
+    let row = |row: &MeasuredRow| {
+        let soil = &row.found.soil;
+        let declared =
+            if row.declared.is_empty() { String::new() } else { format!(", told of {}", row.declared.join(", ")) };
+        [
+            format!("{}{declared}", row.method),
+            told(&soil.cohesion_pa, Parameter::Cohesion),
+            told(&soil.friction_angle_rad, Parameter::FrictionAngle),
+            told(&soil.shear_modulus_m, Parameter::ShearModulus),
+            row.found.refused.clone().unwrap_or_default(),
+        ]
+    };
+    rows.iter().map(row).collect()
+}
+
+fn told(parameter: &Option<ParameterDocument>, kind: Parameter) -> String {
+    let Some(told) = parameter else { return "–".to_owned() };
+    let digits = usize::from(kind != Parameter::Cohesion);
+    let figure = |value: f64| number(kind.scale() * value, digits, false);
+    let spread = told.std.map_or_else(String::new, |std| format!(" ± {}", figure(std)));
+    let text = format!("{}{spread}", figure(told.value));
+    if told.assumed { format!("({text})") } else { text }
+}

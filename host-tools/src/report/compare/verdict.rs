@@ -1,0 +1,97 @@
+//! What follows from a comparison, in sentences.
+
+use crate::compare::{Compared, Comparison, Parameter, Score};
+use crate::report::draw::number;
+
+use super::terminal::label;
+
+/// Methods that are told what nobody knows on a drive: they stand in the table, but they are not in the contest.
+const TOLD_THE_TRUTH: [&str; 3] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n"];
+/// Who answers less often, or says more often of its answer that the data do not tell it, has no say: the middle of the prior
+/// is near a truth that lies there, whatever was seen.
+const LEAST_TOLD: f64 = 0.5;
+
+/// Whether a method has the least median error of those that claim to tell the parameter, told no more than the others.
+pub fn is_best(compared: &Compared, score: &Score, parameter: Parameter) -> bool {
+    winner(compared, parameter).is_some_and(|best| best.contender == score.contender)
+}
+
+fn winner(compared: &Compared, parameter: Parameter) -> Option<&Score> {
+    let contests = |score: &&Score| {
+        let of = score.parameter(parameter);
+        score.contender != "limit"
+            && !TOLD_THE_TRUTH.contains(&score.contender)
+            && !of.assumed
+            && (1.0 - score.refused) * of.identifiable >= LEAST_TOLD
+    };
+    let error = |score: &Score| score.parameter(parameter).median_error;
+    compared.scores.iter().filter(contests).min_by(|a, b| error(a).total_cmp(&error(b)))
+}
+
+/// Who wins where, and how near the network is to the limit.
+pub fn verdicts(comparison: &Comparison) -> Vec<String> {
+    let mut verdicts = Vec::new();
+    for parameter in Parameter::ALL {
+        verdicts.extend(wins(comparison, parameter));
+    }
+    for parameter in Parameter::ALL {
+        verdicts.extend(comparison.situations.iter().filter_map(|compared| to_limit(compared, parameter)));
+    }
+    verdicts
+}
+
+fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
+    let right: Vec<&Compared> = comparison.situations.iter().filter(|compared| compared.model_is_right).collect();
+    if right.is_empty() {
+        return None;
+    }
+    let told: Vec<&Compared> = right.into_iter().filter(|compared| winner(compared, parameter).is_some()).collect();
+    if told.is_empty() {
+        return Some(format!("{}: no method tells it in any situation", symbol(parameter)));
+    }
+    let lost: Vec<String> = told.iter().filter_map(|compared| loss(compared, parameter)).collect();
+    let won = told.len() - lost.len();
+    let mut text = format!(
+        "{}: of the methods that claim to tell it, map has the least median error in {won} of {} situations in which the model \
+         is right and some method tells it",
+        symbol(parameter),
+        told.len()
+    );
+    if !lost.is_empty() {
+        text += &format!("; otherwise {}", lost.join("; "));
+    }
+    Some(text)
+}
+
+fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
+    let best = winner(compared, parameter)?;
+    if best.contender == "map" {
+        return None;
+    }
+    let digits = usize::from(parameter != Parameter::Cohesion) * 2;
+    let error = |score: &Score| number(score.parameter(parameter).median_error, digits, false);
+    let map = compared.scores.iter().find(|score| score.contender == "map")?;
+    Some(format!("{} in {} ({} against {})", label(best.contender), compared.id, error(best), error(map)))
+}
+
+fn to_limit(compared: &Compared, parameter: Parameter) -> Option<String> {
+    let place = Parameter::ALL.iter().position(|one| *one == parameter)?;
+    let of = |id: &str| compared.to_limit.iter().find(|one| one.contender == id);
+    let ratio = |id| of(id).map(|one| number(one.ratio[place], 2, false));
+    Some(format!(
+        "{}, {}: root mean square error over that of the limit: map {}, rover network {}",
+        symbol(parameter),
+        compared.id,
+        ratio("map")?,
+        ratio("network")?
+    ))
+}
+
+/// The letter of a parameter.
+pub fn symbol(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Cohesion => "c",
+        Parameter::FrictionAngle => "φ",
+        Parameter::ShearModulus => "K",
+    }
+}
