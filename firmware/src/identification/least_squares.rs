@@ -56,6 +56,11 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
         squares.fold(S::zero(), |sum, square| sum + square).sqrt()
     }
 
+    /// The sum of squared residuals at x = 0.
+    pub fn cost_at_zero(&self) -> S {
+        self.right.iter().fold(self.rest, |sum, entry| sum + *entry * *entry)
+    }
+
     /// Half the downhill slope of the sum of squares along an unknown, at x = 0.
     pub fn descent(&self, place: usize) -> S {
         let products = self.root.iter().zip(&self.right).filter_map(|(row, right)| Some(*row.get(place)? * *right));

@@ -14,6 +14,7 @@ pub mod map;
 mod observation;
 mod prior;
 pub mod ray;
+mod singular_values;
 mod strength_told;
 pub mod trial;
 

@@ -43,7 +43,7 @@ impl<'a, S: Scalar> DrawbarPulls<'a, S> {
     pub fn equations(&self, at: &Unknowns<S>) -> Option<Equations<S>> {
         let soil = self.soil(at);
         let wheel = self.wheel.map(Dual::fixed);
-        let mut equations = Equations::none();
+        let mut equations = Equations::new();
         for observation in self.driven() {
             let [slip, sinkage_m] = [observation.state.slip, observation.state.sinkage_m?].map(Dual::fixed);
             let forces = wheel_forces_by(&Quadrature::SIMPSON, &wheel, &soil, slip, sinkage_m).ok()?;
@@ -51,7 +51,7 @@ impl<'a, S: Scalar> DrawbarPulls<'a, S> {
             let missing = (observation.state.drawbar_pull_n - pull.value) / std;
             equations.add(pull.slopes.map(|slope| slope / std), missing);
         }
-        equations.cost().is_finite().then_some(equations)
+        equations.cost_at_zero().is_finite().then_some(equations)
     }
 
     fn driven(&self) -> impl Iterator<Item = &Observation<S>> {

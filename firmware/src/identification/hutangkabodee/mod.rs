@@ -12,17 +12,17 @@
 //! exact: what their noise does is known to it from the residuals alone, and biases it.
 
 mod drawbar_pull;
-mod equations;
 mod search;
 
 use crate::scalar::Scalar;
 use crate::terramechanics::{Soil, Wheel};
 
+use super::least_squares::Triangle;
 use super::observation::check;
+use super::singular_values::singular_values;
 use super::{Identified, Observation, Refusal, SoilPrior, Told};
 
 use drawbar_pull::DrawbarPulls;
-use equations::Equations;
 pub use search::Steps;
 use search::{Bounds, Settled, search};
 
@@ -31,6 +31,8 @@ const NEEDED: usize = 3;
 
 /// φ, K and k, or their logarithms.
 type Unknowns<S> = [S; 3];
+/// An equation for each sample, straightened.
+type Equations<S> = Triangle<S, 3>;
 
 /// What the method says of a soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +66,8 @@ pub fn hutangkabodee<S: Scalar>(
 /// ln k. The standard deviations are s²(JᵀJ)⁻¹ with that matrix J; s² is the residuals' variance over the noise's, and at
 /// least 1. What ends at a bound is not identifiable.
 ///
-/// Cost: each step integrates 40 intervals an observation, with three derivatives; at most 60 steps, some six usually.
+/// Cost: each step integrates 40 intervals an observation, with three derivatives; at most 60 steps, seven to ten
+/// usually.
 ///
 /// # Errors
 /// [`Refusal::TooFew`] below three driven observations, [`Refusal::NoSinkage`] where one of them has none,
@@ -85,24 +88,33 @@ pub fn fit<S: Scalar>(
     let prior = SoilPrior::usual();
     let bounds = Bounds::of(&prior);
     let settled = search(&pulls, &bounds, steps).ok_or(Refusal::NotConverged)?;
-    let singular_values = settled.equations.singular_values();
-    if singular_values.least >= S::one() {
-        Ok(answer(&settled, &bounds, &prior, assumed, pulls.count()).conditioned(singular_values.ratio()))
-    } else {
-        Err(Refusal::NotIdentifiable)
+    // Rows and columns of a matrix have the same singular values.
+    let [a, b, c] = singular_values(settled.equations.root);
+    let (greatest, least) = (a.max(b).max(c), a.min(b).min(c));
+    match deviations(&settled.equations, pulls.count()) {
+        Some(stds) if least >= S::one() => {
+            Ok(answer(&settled, stds, &bounds, &prior, assumed).conditioned(greatest / least))
+        }
+        _ => Err(Refusal::NotIdentifiable),
     }
+}
+
+/// The standard deviations of ln φ, ln K and ln k, by the residuals of so many samples where these exceed the noise.
+fn deviations<S: Scalar>(equations: &Equations<S>, samples: usize) -> Option<Unknowns<S>> {
+    let spare = S::constant(samples.saturating_sub(NEEDED).max(1) as f64);
+    let scale = (equations.rest / spare).max(S::one());
+    equations.variances().map(|variances| variances.map(|variance| (scale * variance).sqrt()))
 }
 
 fn answer<S: Scalar>(
     settled: &Settled<S>,
+    stds: Unknowns<S>,
     bounds: &Bounds<S>,
     prior: &SoilPrior<S>,
     assumed: &Soil<S>,
-    samples: usize,
 ) -> Fit<S> {
     let [friction_angle_rad, shear_modulus_m, stiffness] = settled.at.map(Scalar::exp);
-    let scale = settled.equations.residual_std(samples);
-    let [angle_std, modulus_std, stiffness_std] = settled.equations.stds().map(|std| scale * std);
+    let [angle_std, modulus_std, stiffness_std] = stds;
     let [angle_free, modulus_free, stiffness_free] = bounds.inside(&settled.at);
     let told = |value: S, std: S, ratio: S, free: bool| {
         let told = Told::estimated(value, Some(std), ratio);

@@ -86,13 +86,13 @@ fn damped<S: Scalar>(pulls: &DrawbarPulls<'_, S>, bounds: &Bounds<S>) -> Option<
     let mut equations = pulls.equations(&at)?;
     let mut damping = S::constant(1e-2);
     for steps in 1..=MOST_STEPS {
-        let column = equations.greatest_column();
-        let free = bounds.free(&at, &equations.descent());
-        let change = equations.damped(damping * column * column, free).solve();
+        let free = bounds.free(&at, &[0, 1, 2].map(|place| equations.descent(place)));
+        // Nothing to follow: every derivative is zero.
+        let change = damped_step(&equations, damping, free).unwrap_or([S::zero(); 3]);
         let trial = bounds.held(moved(&at, &change));
         let settled = longest(&at, &trial) <= short_enough();
         match pulls.equations(&trial) {
-            Some(better) if better.cost() < equations.cost() => {
+            Some(better) if better.cost_at_zero() < equations.cost_at_zero() => {
                 (at, equations) = (trial, better);
                 damping = (damping * S::constant(0.1)).max(S::constant(1e-12));
             }
@@ -105,10 +105,27 @@ fn damped<S: Scalar>(pulls: &DrawbarPulls<'_, S>, bounds: &Bounds<S>) -> Option<
     None
 }
 
+/// The step of least squares with √damping x = 0 beside the equations, damping being in units of the longest column's
+/// square, and only the `free` unknowns.
+fn damped_step<S: Scalar>(equations: &Equations<S>, damping: S, free: [bool; 3]) -> Option<Unknowns<S>> {
+    let longest = [0, 1, 2].map(|place| equations.length(place)).into_iter().fold(S::zero(), Scalar::max);
+    let weight = longest * damping.sqrt();
+    let mut damped = *equations;
+    for (place, free) in free.into_iter().enumerate() {
+        if !free {
+            damped.drop_column(place);
+        }
+    }
+    for place in 0..3 {
+        damped.add(core::array::from_fn(|column| if column == place { weight } else { S::zero() }), S::zero());
+    }
+    damped.solution()
+}
+
 fn whole<S: Scalar>(pulls: &DrawbarPulls<'_, S>) -> Option<Settled<S>> {
     let mut at = pulls.start();
     for steps in 1..=MOST_STEPS {
-        let next = moved(&at, &pulls.equations(&at)?.solve());
+        let next = moved(&at, &pulls.equations(&at)?.solution()?);
         let settled = longest(&at, &next) <= short_enough();
         at = next;
         if settled {

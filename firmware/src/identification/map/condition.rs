@@ -2,6 +2,7 @@
 
 use crate::scalar::Scalar;
 
+use super::super::singular_values::singular_values;
 use super::problem::{Fit, Problem, unit};
 use super::unknowns::{MODULUS, UNKNOWNS};
 
@@ -25,7 +26,7 @@ pub(super) fn condition_number<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>
             *slot = row.get(MODULUS + place).copied().unwrap_or(S::zero()) / belief.spread();
         }
     }
-    let lengths = orthogonal(columns).map(|column| dot(&column, &column).sqrt());
+    let lengths = singular_values(columns);
     let free = unknowns.beliefs.iter().skip(MODULUS).filter(|belief| !belief.is_known()).count();
     ratio(lengths, free)
 }
@@ -38,43 +39,4 @@ fn ratio<S: Scalar>(mut lengths: [S; ASKED], count: usize) -> S {
         Some((greatest, least)) if *greatest > S::zero() => *greatest / least.max(S::constant(1e-30)),
         _ => S::one(),
     }
-}
-
-/// The columns turned among each other until they are at right angles: one-sided Jacobi rotations (M. R. Hestenes,
-/// J. SIAM 6 (1958) 51–90), which find small singular values to their own digits. Three columns settle in a few sweeps.
-fn orthogonal<S: Scalar>(mut columns: [[S; ASKED]; ASKED]) -> [[S; ASKED]; ASKED] {
-    const SWEEPS: usize = 12;
-    for _ in 0..SWEEPS {
-        let [a, b, c] = &mut columns;
-        turn(a, b);
-        turn(a, c);
-        turn(b, c);
-    }
-    columns
-}
-
-/// Turns two columns so that they are at right angles.
-fn turn<S: Scalar>(first: &mut [S; ASKED], second: &mut [S; ASKED]) {
-    let (own, other, between) = (dot(first, first), dot(second, second), dot(first, second));
-    if between == S::zero() {
-        return;
-    }
-    let two = S::constant(2.0);
-    let slope = (other - own) / (two * between);
-    let size = S::one() / (slope.abs() + (S::one() + slope * slope).sqrt());
-    let tan = if slope < S::zero() { -size } else { size };
-    let cos = S::one() / (S::one() + tan * tan).sqrt();
-    for (a, b) in first.iter_mut().zip(second.iter_mut()) {
-        let (old_a, old_b) = (*a, *b);
-        *a = cos * (old_a - tan * old_b);
-        *b = cos * (old_b + tan * old_a);
-    }
-}
-
-fn dot<S: Scalar>(a: &[S; ASKED], b: &[S; ASKED]) -> S {
-    let mut sum = S::zero();
-    for (x, y) in a.iter().zip(b) {
-        sum += *x * *y;
-    }
-    sum
 }

@@ -12,8 +12,7 @@ use super::{INPUTS, Scope, TARGETS};
 
 // Wide enough for most soils of the literature; recommended by our review of it, not the paper's.
 const COHESION_PA: Range = Range { low: 50.0, high: 5000.0, logarithmic: true };
-const FRICTION_ANGLE_RAD: Range =
-    Range { low: 0.349_065_850_398_865_9, high: 0.785_398_163_397_448_3, logarithmic: false };
+const FRICTION_ANGLE_RAD: Range = Range { low: 20.0_f64.to_radians(), high: 45.0_f64.to_radians(), logarithmic: false };
 const SHEAR_MODULUS_M: Range = Range { low: 0.004, high: 0.040, logarithmic: true };
 const SINKAGE_EXPONENT: Range = Range { low: 0.6, high: 1.5, logarithmic: false };
 const STIFFNESS: Range = Range { low: 2e5, high: 6e6, logarithmic: true };
