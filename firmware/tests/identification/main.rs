@@ -1,0 +1,3 @@
+//! The soil from wheel states by the methods of the literature.
+
+mod map;
