@@ -132,12 +132,8 @@ fn six_wheels_near_the_prior_as_published() {
 /// The same of a soil far from the prior. The published figures are modes; the mean lies nearer to the prior.
 #[test]
 fn six_wheels_far_from_the_prior_as_published() {
-    let soil = Soil {
-        cohesion_pa: 1500.0,
-        friction_angle_rad: 25.0_f64.to_radians(),
-        shear_modulus_m: 0.022,
-        ..TABLE_1
-    };
+    let soil =
+        Soil { cohesion_pa: 1500.0, friction_angle_rad: 25.0_f64.to_radians(), shear_modulus_m: 0.022, ..TABLE_1 };
     let found = Design::ONE_INSTANT.estimates(&soil, 100);
     assert_near(median(&found, |found| found.mode.friction_angle_rad.to_degrees()), 28.2, 1.0);
     assert_near(median(&found, |found| 1e3 * found.mode.shear_modulus_m), 22.6, 1.0);
@@ -164,7 +160,6 @@ fn identifiable_is_what_the_data_tell() {
 /// 1.6e4–3.5e4 in ln c, ln φ, ln K.
 #[test]
 fn cramer_rao_as_published() {
-    let (bound, six) = (|slips: &[f64], spread, instants| bound(slips, spread, instants), SIX_SLIPS);
     let one = bound(&[0.2], 0.0, 1.0);
     assert_near(one.ln_cohesion_std, 360.0, 5.0);
     assert_near(one.friction_angle_std_rad / TABLE_1.friction_angle_rad, 3.15, 0.01);
@@ -176,7 +171,7 @@ fn cramer_rao_as_published() {
     for (slips, instants, cohesion, friction, modulus) in [
         ([0.2; 6], 100.0, 2.79, 0.06, 0.20),
         ([0.10, 0.15, 0.20, 0.25, 0.30, 0.35], 1.0, 10.46, 0.23, 0.15),
-        (six, 1.0, 9.76, 0.21, 0.11),
+        (SIX_SLIPS, 1.0, 9.76, 0.21, 0.11),
     ] {
         let found = bound(&slips, 0.08, instants);
         assert_near(found.ln_cohesion_std, cohesion, 0.2 * cohesion);
@@ -213,7 +208,8 @@ fn bound(slips: &[f64], spread: f64, instants: f64) -> Foreseen<f64> {
     information(&WHEEL, &TABLE_1, &design, &prior).expect("a bound")
 }
 
-/// Without noise and without any belief in the shear parameters the truth is what is left.
+/// Without noise, and with nothing believed but ranges, the truth is what is left, but for a small part of what the stated
+/// noise leaves open: the mean of a range cut out of a bell is not its middle.
 #[test]
 fn noise_free_data_give_the_truth() {
     let flat = SoilPrior {
@@ -227,16 +223,21 @@ fn noise_free_data_give_the_truth() {
         ..SoilPrior::usual()
     };
     let slips = [-0.3, -0.1, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.15, 0.45];
-    let design = Design { slips: &slips, spread: 0.5, ..Design::MEAN_OF_100 };
+    let design = Design { slips: &slips, spread: 0.5, instants: 1e4, sinkage_seen: true };
     let seen = design.observe(&TABLE_1, &Effects::none(), 1, 0.0).expect("carried");
     let found = identify(&WHEEL, &seen, &flat).expect("an estimate");
-    assert!(found.settled && found.misfit < 1e-4, "{found:?}");
-    assert_near(found.mode.cohesion_pa, 250.0, 2.0);
-    assert_near(found.mode.friction_angle_rad, TABLE_1.friction_angle_rad, 2e-4);
-    assert_near(found.mode.shear_modulus_m, 0.0114, 2e-5);
-    assert_near(found.mode.sinkage_exponent, 1.10, 2e-3);
-    assert_near(found.mode.peak_stress_c1, 0.18, 1e-3);
-    assert_near(found.mode.peak_stress_c2, 0.32, 1e-3);
+    assert!(found.settled && found.chi_squared < 0.01, "{found:?}");
+    for (fitted, truth) in [
+        (found.ln_cohesion, TABLE_1.cohesion_pa.ln()),
+        (found.friction_angle_rad, TABLE_1.friction_angle_rad),
+        (found.ln_shear_modulus, TABLE_1.shear_modulus_m.ln()),
+        (found.sinkage_exponent, TABLE_1.sinkage_exponent),
+        (found.peak_stress_c1, TABLE_1.peak_stress_c1),
+        (found.peak_stress_c2, TABLE_1.peak_stress_c2),
+    ] {
+        assert_near(fitted.mean, truth, 0.1 * fitted.std);
+        assert!(fitted.std < 0.03, "{fitted:?}");
+    }
 }
 
 /// A truth from the usual beliefs.
