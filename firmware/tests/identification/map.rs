@@ -240,6 +240,30 @@ fn noise_free_data_give_the_truth() {
     }
 }
 
+/// METHODS.md, section 1, item 1: one wheel with everything else known, a condition number of 1.6e4–3.5e4 in ln c, ln φ and
+/// ln K. In φ itself the column is 1/φ as long.
+#[test]
+fn condition_number_of_one_wheel_as_published() {
+    let design = Design { slips: &[0.2], spread: 0.0, instants: 1.0, sinkage_seen: true };
+    let mut seen = design.observe(&TABLE_1, &Effects::none(), 1, 0.0).expect("carried");
+    seen[0].noise.slip = 1e-5;
+    seen[0].noise.sinkage_m = 1e-6;
+    let known = |value: f64| Belief::known(value);
+    let about = |mean: f64, std: f64| Belief { mean, std: Some(std), low: mean - 3.0, high: mean + 3.0 };
+    let prior = SoilPrior {
+        ln_cohesion: about(TABLE_1.cohesion_pa.ln(), 0.1),
+        friction_angle_rad: Belief { low: 0.1, high: 1.2, ..about(TABLE_1.friction_angle_rad, 0.01) },
+        ln_shear_modulus: about(TABLE_1.shear_modulus_m.ln(), 0.1),
+        ln_stiffness: known(TABLE_1.stiffness(WHEEL.width_m).ln()),
+        sinkage_exponent: known(1.10),
+        peak_stress_c1: known(0.18),
+        peak_stress_c2: known(0.32),
+        ..SoilPrior::usual()
+    };
+    let found = identify(&WHEEL, &seen, &prior).expect("an estimate").identified.condition_number;
+    assert!((1.6e4..3.5e4 / 0.557).contains(&found), "{found}");
+}
+
 /// A truth from the usual beliefs.
 fn drawn(seed: u64) -> Soil<f64> {
     let (mut random, prior) = (ChaCha8Rng::seed_from_u64(seed), SoilPrior::<f64>::usual());

@@ -107,7 +107,7 @@ impl<S: Scalar> Problem<'_, S> {
         cost.is_finite().then_some(Fit { state, rows, chi_squared, cost })
     }
 
-    /// A state moved by a share of a step, and into the bounds.
+    /// A state moved by a step, and into the bounds.
     pub fn moved(&self, state: &State<S>, step: &Step<S>) -> State<S> {
         // Slopes say little of what is farther away, and least where a flat belief ends.
         let farthest = S::constant(1.5);
