@@ -1,5 +1,6 @@
-//! Identification by the methods of the literature: known soils found again, known failures seen again.
 
+//! Identification by the methods of the literature: known soils found again, known failures seen again.
+//! The soil from wheel states by the methods of the literature.
 mod closed_form;
 mod ding;
 mod ding_published;
@@ -9,6 +10,7 @@ mod iagnemma;
 mod iagnemma_published;
 mod independent;
 mod made;
+mod map;
 mod non_uniqueness;
 mod properties;
 mod ray;

@@ -21,9 +21,12 @@ pub(super) fn condition_number<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>
     // The lower end of the triangle is what the rows say of the last unknowns alone.
     let mut columns = [[S::zero(); ASKED]; ASKED];
     for (place, column) in columns.iter_mut().enumerate() {
-        let Some(belief) = unknowns.beliefs.get(MODULUS + place).filter(|belief| !belief.is_known()) else { continue };
+        if unknowns.is_known(MODULUS + place) {
+            continue;
+        }
+        let slope = unknowns.slope(MODULUS + place, &fit.state.point);
         for (slot, row) in column.iter_mut().zip(triangle.rows.iter().skip(MODULUS)) {
-            *slot = row.get(MODULUS + place).copied().unwrap_or(S::zero()) / belief.spread();
+            *slot = row.get(MODULUS + place).copied().unwrap_or(S::zero()) / slope;
         }
     }
     let lengths = singular_values(columns);

@@ -60,7 +60,7 @@ pub struct MapEstimate<S> {
     /// The same sum with the residuals of the beliefs: where model, noise and beliefs hold, it is distributed as χ² with
     /// [`MapEstimate::degrees_of_freedom`]. Far more says that the model does not explain the observations.
     pub misfit: S,
-    /// Residuals less unknowns.
+    /// Residuals of observations and beliefs less unknowns.
     pub degrees_of_freedom: u16,
     /// Steps of all descents; each evaluates every wheel once.
     pub iterations: u16,
@@ -144,15 +144,13 @@ fn best_mode<S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S>, Refusal>
 fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Moments<S>) -> MapEstimate<S> {
     let unknowns = problem.forward.unknowns;
     let fitted = |place: usize| {
-        let std = moments.std.get(place).copied().unwrap_or(S::zero());
-        let spread = unknowns.beliefs.get(place).map_or(S::zero(), |belief| belief.spread());
-        Fitted { mean: unknowns.value(place, &moments.mean), std: std * spread }
+        let (mean, std) = (moments.mean.get(place), moments.std.get(place));
+        Fitted { mean: mean.copied().unwrap_or(S::zero()), std: std.copied().unwrap_or(S::zero()) }
     };
     let measured = problem.observations.iter().filter(|observation| observation.state.sinkage_m.is_some()).count();
     let seen = problem.observations.len();
     let residuals = (4 * seen + measured) as u16;
-    let flat = (0..UNKNOWNS).filter(|place| !unknowns.is_known(*place) && !unknowns.has_residual(*place)).count();
-    let lost = (2 * seen + flat) as u16;
+    let lost = (2 * seen) as u16;
     MapEstimate {
         identified: identified(problem, &mode.fit, &fitted),
         ln_cohesion: fitted(COHESION),
@@ -163,7 +161,7 @@ fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Mo
         peak_stress_c1: fitted(C1),
         peak_stress_c2: fitted(C2),
         effects: (0..problem.forward.declared.free.len()).map(fitted).collect(),
-        soil: unknowns.soil_at(&moments.mean),
+        soil: unknowns.soil(&moments.mean, |value| value),
         mode: unknowns.soil_at(&mode.fit.state.point),
         chi_squared: mode.fit.chi_squared,
         residuals,

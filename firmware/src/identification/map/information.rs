@@ -6,7 +6,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load};
 
 use super::prediction::{Forward, Latents};
-use super::problem::{Problem, State, conditional};
+use super::problem::{Problem, State, conditional, unit};
 use super::unknowns::{COHESION, FRICTION, MODULUS, UNKNOWNS, Unknowns};
 use super::{CAPACITY, DeclaredEffects};
 
@@ -63,11 +63,16 @@ pub fn information<S: Scalar>(
         latents.push(own).map_err(|_| Refusal::TooMany { room: CAPACITY as u8 })?;
     }
     let fit = problem.evaluate(State { point: [S::zero(); UNKNOWNS], latents }).ok_or(Refusal::NoSoilFits)?;
-    let (triangle, _) = fit.of_everything(&problem, S::zero(), false);
+    let (mut triangle, _) = fit.of_observations(S::zero());
+    for (place, belief) in unknowns.beliefs.iter().enumerate() {
+        if belief.std.is_some() {
+            triangle.insert(&unit(place, S::one()), S::zero());
+        }
+    }
     let triangle = conditional(&triangle, &core::array::from_fn(|place| unknowns.is_known(place)));
     let covariance = triangle.covariance();
     let entry = |a: usize, b: usize| {
-        let scale = |place: usize| unknowns.beliefs.get(place).map_or(S::zero(), |belief| belief.spread());
+        let scale = |place: usize| unknowns.slope(place, &fit.state.point);
         covariance.get(a).and_then(|row| row.get(b)).map_or(S::zero(), |entry| *entry * scale(a) * scale(b))
     };
     let std = |place: usize| entry(place, place).sqrt();
@@ -89,8 +94,8 @@ fn about<S: Scalar>(prior: &SoilPrior<S>, soil: &Soil<S>, wheel: &Wheel<S>) -> S
         if belief.is_known() {
             return Belief::known(mean);
         }
-        let (below, above) = (belief.mean - belief.low, belief.high - belief.mean);
-        Belief { mean, std: belief.std, low: mean - below, high: mean + above }
+        let half = S::constant(0.5) * (belief.high - belief.low);
+        Belief { mean, std: belief.std, low: mean - half, high: mean + half }
     };
     SoilPrior {
         ln_cohesion: moved(&prior.ln_cohesion, soil.cohesion_pa.ln()),

@@ -14,16 +14,16 @@ use crate::scalar::Scalar;
 
 use super::descent::{Patience, descend};
 use super::problem::{Fit, Held, Problem, State, conditional};
-use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS};
+use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS, Unknowns};
 
 /// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
 const WIDE: f64 = 0.2;
 
-/// Mean and standard deviation of every unknown, as coordinates of a point.
+/// Mean and standard deviation of every unknown, in the units of the beliefs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moments<S> {
-    pub mean: Point<S>,
-    pub std: Point<S>,
+    pub mean: [S; UNKNOWNS],
+    pub std: [S; UNKNOWNS],
     /// Descents' steps.
     pub steps: u16,
 }
@@ -47,17 +47,17 @@ pub(super) fn moments<S: Scalar>(problem: &Problem<'_, S>, mode: &Fit<S>) -> Mom
     let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
     let modulus = Line { place: MODULUS, spacing: S::one(), reach: 4, depth: S::constant(5.0) };
     let given_cohesion = holding(&known, COHESION);
-    let spread = unknowns.beliefs.get(MODULUS).map_or(S::zero(), |belief| belief.spread());
-    let two = deviation(problem, mode, &given_cohesion, MODULUS) * spread > S::constant(WIDE);
-    let mut sum = Sum::about(&mode.state.point);
+    let spread = unknowns.slope(MODULUS, &mode.state.point);
+    let two = deviation(mode, &given_cohesion, MODULUS) * spread > S::constant(WIDE);
+    let mut sum = Sum::about(unknowns, &mode.state.point);
     let mut inner_steps = 0;
     let steps = along(problem, mode, &known, &cohesion, |fit, _| {
         if two {
             inner_steps += along(problem, fit, &given_cohesion, &modulus, |fit, width| {
-                sum.add(problem, fit, &holding(&given_cohesion, MODULUS), width);
+                sum.add(fit, &holding(&given_cohesion, MODULUS), width);
             });
         } else {
-            sum.add(problem, fit, &given_cohesion, S::one());
+            sum.add(fit, &given_cohesion, S::one());
         }
     });
     sum.moments(steps + inner_steps)
@@ -76,7 +76,7 @@ fn along<S: Scalar>(
         visit(middle, S::one());
         return 0;
     }
-    let (triangle, _) = middle.of_everything(problem, S::zero(), true);
+    let (triangle, _) = middle.of_everything(S::zero());
     let covariance = conditional(&triangle, held).covariance();
     let column = covariance.get(line.place).copied().unwrap_or([S::zero(); UNKNOWNS]);
     let variance = column.get(line.place).copied().unwrap_or(S::one());
@@ -84,7 +84,7 @@ fn along<S: Scalar>(
     let towards = column.map(|covariance| covariance * width / variance);
     let held = holding(held, line.place);
     let bounds = problem.forward.unknowns.bounds(line.place);
-    let floor = middle.ln_evidence(problem, &held) - line.depth;
+    let floor = middle.ln_evidence(&held) - line.depth;
     let patience = Patience { steps: 4, gain: S::constant(1e-2), damping: S::constant(1e-3) };
     visit(middle, width);
     let mut steps = 0;
@@ -100,7 +100,7 @@ fn along<S: Scalar>(
             let Some(found) = descend(problem, start, &held, &patience) else { break };
             steps += found.steps;
             visit(&found.fit, width);
-            if found.fit.ln_evidence(problem, &held) < floor {
+            if found.fit.ln_evidence(&held) < floor {
                 break;
             }
             last = shifted(&found.fit.state.point, &state.point.map(|from| -from));
@@ -128,13 +128,13 @@ fn holding(held: &Held, place: usize) -> Held {
 }
 
 /// Standard deviation of an unknown about a fit; zero where it is held.
-fn deviation<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held, place: usize) -> S {
-    variances(problem, fit, held).get(place).copied().unwrap_or(S::zero()).sqrt()
+fn deviation<S: Scalar>(fit: &Fit<S>, held: &Held, place: usize) -> S {
+    variances(fit, held).get(place).copied().unwrap_or(S::zero()).sqrt()
 }
 
 /// Variances of the normal distribution about a fit; zero where an unknown is held.
-fn variances<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held) -> Point<S> {
-    let (triangle, _) = fit.of_everything(problem, S::zero(), true);
+fn variances<S: Scalar>(fit: &Fit<S>, held: &Held) -> Point<S> {
+    let (triangle, _) = fit.of_everything(S::zero());
     let covariance = conditional(&triangle, held).covariance();
     core::array::from_fn(|place| {
         let is_held = held.get(place).copied().unwrap_or(true);
@@ -143,42 +143,43 @@ fn variances<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held) -> 
     })
 }
 
-/// The mixture as it grows: weighted sums about a point near its middle, the weights over the greatest so far.
+/// The mixture as it grows: weighted sums about values near its middle, the weights over the greatest so far.
 #[derive(Debug, Clone, Copy)]
-struct Sum<S> {
-    origin: Point<S>,
+struct Sum<'a, S> {
+    unknowns: &'a Unknowns<S>,
+    origin: [S; UNKNOWNS],
     ln_greatest: Option<S>,
     total: S,
-    first: Point<S>,
-    second: Point<S>,
+    first: [S; UNKNOWNS],
+    second: [S; UNKNOWNS],
 }
 
-impl<S: Scalar> Sum<S> {
-    fn about(origin: &Point<S>) -> Self {
+impl<'a, S: Scalar> Sum<'a, S> {
+    fn about(unknowns: &'a Unknowns<S>, point: &Point<S>) -> Self {
         let zero = [S::zero(); UNKNOWNS];
-        Self { origin: *origin, ln_greatest: None, total: S::zero(), first: zero, second: zero }
+        let origin = unknowns.values(point, |_, value| value);
+        Self { unknowns, origin, ln_greatest: None, total: S::zero(), first: zero, second: zero }
     }
 
     /// Adds the normal distribution about a fit that stands for a strip of some width.
-    fn add(&mut self, problem: &Problem<'_, S>, fit: &Fit<S>, held: &Held, width: S) {
-        let ln_weight = fit.ln_evidence(problem, held) + width.ln();
+    fn add(&mut self, fit: &Fit<S>, held: &Held, width: S) {
+        let ln_weight = fit.ln_evidence(held) + width.ln();
         if !ln_weight.is_finite() {
             return;
         }
-        let greatest = self.ln_greatest.unwrap_or(ln_weight);
-        if ln_weight > greatest {
-            self.scale((greatest - ln_weight).exp());
-        }
-        let greatest = greatest.max(ln_weight);
+        let before = self.ln_greatest.unwrap_or(ln_weight);
+        let greatest = before.max(ln_weight);
+        self.scale((before - greatest).exp());
         self.ln_greatest = Some(greatest);
         let weight = (ln_weight - greatest).exp();
         self.total += weight;
-        let away = shifted(&fit.state.point, &self.origin.map(|at| -at));
-        let variances = variances(problem, fit, held);
-        let sums = self.first.iter_mut().zip(&mut self.second);
-        for ((first, second), (away, variance)) in sums.zip(away.iter().zip(variances)) {
-            *first += weight * *away;
-            *second += weight * (*away * *away + variance);
+        let coordinates = fit.state.point.iter().zip(variances(fit, held));
+        let sums = self.first.iter_mut().zip(&mut self.second).zip(self.origin);
+        for (place, (((first, second), origin), (mean, variance))) in sums.zip(coordinates).enumerate() {
+            let (mean, variance) = self.unknowns.moments(place, *mean, variance);
+            let away = mean - origin;
+            *first += weight * away;
+            *second += weight * (away * away + variance);
         }
     }
 

@@ -4,10 +4,18 @@
 //! Residuals, each over its standard deviation: drawbar pull, load, torque, slip, and the sinkage where it was measured; and
 //! those of the beliefs ([`crate::identification::SoilPrior`]). Their slopes come with the equations (dual numbers); the true
 //! sinkage and slip are rotated out wheel by wheel, so that the work grows in proportion to the observations. Levenberg and
-//! Marquardt's steps, from three places of the prior, lead to the mode. What is told is not the mode but mean and spread of
-//! the posterior about it: see [`mixture`](self).
+//! Marquardt's steps, from three places of the prior, lead to the mode; the noise is first taken sixteen and four times as
+//! great, because the floor of the valley is bent and the narrower it is the longer the way along it.
 //!
-//! Braking wheels are welcome.
+//! What is told is not the mode but mean and spread of the posterior about it, because the posterior of a small cohesion has
+//! one long end: normal distributions are mixed along ln c, and along ln K where that is not known well. The mode is given
+//! beside them.
+//!
+//! Flat beliefs of sinkage and slip are beliefs in slip and load, which do not depend on the soil. η is held at the mean of
+//! its belief; a rear contact that is to be fitted is an effect. Braking wheels are welcome.
+//!
+//! From the ground up: `triangle` (least squares by rotations), `unknowns` and their beliefs, `prediction` of the readings,
+//! `rows` of one observation, the `problem` as a whole, `descent` to the mode, `mixture` about it, `estimate`.
 
 mod condition;
 mod declared;

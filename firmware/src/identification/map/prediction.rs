@@ -29,7 +29,7 @@ pub(super) struct Latents<S> {
 pub(super) struct Prediction<S> {
     /// The readings, in their units.
     pub readings: [S; CHANNELS],
-    /// Their changes with ln z, the slip, and the unknowns in standard deviations of their beliefs.
+    /// Their changes with ln z, the slip, and the coordinates of the unknowns.
     pub slopes: [[S; COLUMNS]; CHANNELS],
     /// Change of the true load with ln z, N.
     pub load_by_ln_sinkage: S,
@@ -58,8 +58,8 @@ impl<S: Scalar> Forward<'_, S> {
             self.with_effects(conditions, load_n, point, latents)
         }?;
         for slopes in &mut prediction.slopes {
-            for (slope, belief) in slopes.iter_mut().skip(LATENTS).zip(&self.unknowns.beliefs) {
-                *slope = *slope * belief.spread();
+            for (place, slope) in slopes.iter_mut().skip(LATENTS).enumerate() {
+                *slope = *slope * self.unknowns.slope(place, point);
             }
         }
         let finite = prediction.readings.iter().chain(prediction.slopes.iter().flatten()).all(|n| n.is_finite());

@@ -100,18 +100,20 @@ impl<S: Scalar> Problem<'_, S> {
         }
         let mut cost = chi_squared;
         for (place, scaled) in state.point.iter().enumerate() {
-            if self.forward.unknowns.has_residual(place) {
+            if !self.forward.unknowns.is_known(place) {
                 cost += *scaled * *scaled;
             }
         }
         cost.is_finite().then_some(Fit { state, rows, chi_squared, cost })
     }
 
-    /// A state moved by a share of a step, and into the bounds.
+    /// A state moved by a step, and into the bounds.
     pub fn moved(&self, state: &State<S>, step: &Step<S>) -> State<S> {
+        // Slopes say little of what is farther away, and least where a flat belief ends.
+        let farthest = S::constant(1.5);
         let mut point = state.point;
         for (slot, shift) in point.iter_mut().zip(&step.shared) {
-            *slot += *shift;
+            *slot += shift.max(-farthest).min(farthest);
         }
         let mut latents = Vec::new();
         for (own, [by_ln_sinkage, by_slip]) in state.latents.iter().zip(&step.latents) {
@@ -134,26 +136,18 @@ impl<S: Scalar> Fit<S> {
         (triangle, latents)
     }
 
-    /// The same with the beliefs. A flat belief has no residual; `flat_too` gives it the information of its variance.
-    pub fn of_everything(
-        &self,
-        problem: &Problem<'_, S>,
-        damping: S,
-        flat_too: bool,
-    ) -> (Triangle<S, UNKNOWNS>, Vec<LatentRows<S>, CAPACITY>) {
+    /// The same with the beliefs.
+    pub fn of_everything(&self, damping: S) -> (Triangle<S, UNKNOWNS>, Vec<LatentRows<S>, CAPACITY>) {
         let (mut triangle, latents) = self.of_observations(damping);
-        for (place, scaled) in self.state.point.iter().enumerate() {
-            let normal = problem.forward.unknowns.has_residual(place);
-            if normal || flat_too {
-                triangle.insert(&unit(place, S::one()), if normal { *scaled } else { S::zero() });
-            }
+        for (place, coordinate) in self.state.point.iter().enumerate() {
+            triangle.insert(&unit(place, S::one()), *coordinate);
         }
         (triangle, latents)
     }
 
     /// The damped step of least cost. Unknowns that are held, or whose descent leads out of their bounds, stay.
     pub fn step(&self, problem: &Problem<'_, S>, held: &Held, damping: S) -> Step<S> {
-        let (triangle, latents) = self.of_everything(problem, damping, false);
+        let (triangle, latents) = self.of_everything(damping);
         let gradient = triangle.gradient();
         let stays: Held = core::array::from_fn(|place| {
             let (low, high) = problem.forward.unknowns.bounds(place);
@@ -189,8 +183,8 @@ impl<S: Scalar> Fit<S> {
 
     /// Logarithm of what is left of the posterior density when the latents and all shared unknowns but one that is
     /// held are integrated out, to second order about the fit.
-    pub fn ln_evidence(&self, problem: &Problem<'_, S>, held: &Held) -> S {
-        let (triangle, latents) = self.of_everything(problem, S::zero(), true);
+    pub fn ln_evidence(&self, held: &Held) -> S {
+        let (triangle, latents) = self.of_everything(S::zero());
         let mut sum = S::constant(-0.5) * self.cost;
         for (rows, latent) in self.rows.iter().zip(&latents) {
             sum += rows.ln_load_slope() - latent.ln_determinant();

@@ -59,11 +59,10 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
         gradient
     }
 
-    /// (RᵀR)⁻¹: row by row of R⁻¹, whose rows' products it is.
+    /// (RᵀR)⁻¹: the products of the rows of R⁻¹.
     pub fn covariance(&self) -> [[S; N]; N] {
         let mut inverse = [[S::zero(); N]; N];
         for (place, slot) in inverse.iter_mut().enumerate() {
-            // R⁻ᵀ e: the row of R⁻¹ is found from its diagonal on.
             *slot = self.inverse_row(place);
         }
         let product = |a: &[S; N], b: &[S; N]| {
