@@ -1,0 +1,188 @@
+//! Advice to a driver.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::bound::Bound;
+use super::search::{DrivenLeg, Finding, Manoeuvre, Question};
+use super::target::Target;
+
+/// What is to be done, and what else could be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Advice {
+    /// Targets asked for that are known well enough after it.
+    pub reached: Vec<Target>,
+    /// Manoeuvres, cheapest first, one of each kind; where no target is within reach, the one that knows most.
+    pub findings: Vec<Finding>,
+    /// The usual drive in the time of the first.
+    pub usual: Finding,
+    /// What is known before any drive, as far as anything is.
+    pub before: Option<Bound>,
+}
+
+/// Why there is no advice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoAdvice {
+    /// The rover cannot drive as usual.
+    #[error(
+        "the rover cannot drive on level ground of this soil: it does not pull, or a wheel sinks deeper than 0.6 of its radius"
+    )]
+    Stuck,
+    /// Nothing is told.
+    #[error("no manoeuvre tells all parameters of which nothing is known beforehand")]
+    Nothing,
+}
+
+impl Advice {
+    /// The advice. `done` is called after each leg of the grid.
+    ///
+    /// # Errors
+    /// Where the rover cannot drive, or nothing can be told.
+    pub fn new(question: &Question, done: impl Fn() + Sync) -> Result<Self, NoAdvice> {
+        let legs = question.legs(done);
+        let usual = legs.iter().find(|driven| driven.leg == super::manoeuvre::USUAL).ok_or(NoAdvice::Stuck)?;
+        let reached = question.within_reach(&legs);
+        let mut findings = if reached.is_empty() { Vec::new() } else { question.cheapest(&legs, usual, &reached) };
+        if findings.is_empty() {
+            findings.extend(question.best_known(&legs, usual, &question.targets));
+        }
+        let time_s = findings.first().ok_or(NoAdvice::Nothing)?.expense.time_s;
+        let alone = Manoeuvre::of(std::slice::from_ref(usual)).ok_or(NoAdvice::Nothing)?;
+        let usual = question.finding(&alone, usual, time_s).ok_or(NoAdvice::Nothing)?;
+        let before = Bound::new(&question.measurement.beforehand, &[]);
+        Ok(Self { reached, findings, usual, before })
+    }
+
+    /// The manoeuvre that is advised.
+    pub fn best(&self) -> &Finding {
+        self.findings.first().unwrap_or(&self.usual)
+    }
+
+    /// The advice as a sentence.
+    pub fn sentence(&self, question: &Question) -> String {
+        let best = self.best();
+        let mut text = order(best);
+        let known = |target: &&Target| self.reached.contains(target);
+        let named = |target: &Target| {
+            format!("{} to {}", target.symbol(), percent(best.bound.relative(*target, &question.soil)))
+        };
+        let reached: Vec<String> = question.targets.iter().filter(known).map(named).collect();
+        let missed: Vec<String> = question
+            .targets
+            .iter()
+            .filter(|target| !known(target))
+            .map(|target| {
+                format!(
+                    "{} not within reach ({})",
+                    target.symbol(),
+                    percent(best.bound.relative(*target, &question.soil))
+                )
+            })
+            .collect();
+        let all: Vec<String> = reached.into_iter().chain(missed).collect();
+        let _ = write!(text, ": {}", all.join(", "));
+        text
+    }
+}
+
+/// A share as whole per cent; more digits where it is small.
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent < 1.0 { format!("{percent:.1} %") } else { format!("{percent:.0} %") }
+}
+
+/// A manoeuvre as an order.
+pub fn order(finding: &Finding) -> String {
+    let share_s = finding.expense.time_s / finding.legs.len() as f64;
+    let legs = finding.legs.iter().map(|driven| format!("{} for {share_s:.0} s", driven.leg));
+    legs.collect::<Vec<_>>().join(", then ")
+}
+
+/// The advice as a file says it.
+#[derive(Debug, Clone, Serialize)]
+pub struct Document {
+    /// The soil, as it was asked for.
+    pub soil: String,
+    /// Accuracy asked for, as a share of the value.
+    pub accuracy: f64,
+    /// The sentence.
+    pub advice: String,
+    /// Targets that are known well enough after it.
+    pub reached: Vec<Target>,
+    /// Manoeuvres, cheapest first.
+    pub manoeuvres: Vec<Row>,
+    /// The usual drive in the same time as the first.
+    pub usual: Row,
+}
+
+/// A manoeuvre in the file.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// As an order.
+    pub order: String,
+    /// Its legs, of equal time.
+    pub legs: Vec<LegRow>,
+    /// What it takes.
+    pub expense: super::cost::Expense,
+    /// What that costs.
+    pub cost: f64,
+    /// Standard deviation of c over c.
+    pub cohesion_relative_std: f64,
+    /// Standard deviation of φ over φ.
+    pub friction_angle_relative_std: f64,
+    /// Standard deviation of K over K.
+    pub shear_modulus_relative_std: f64,
+}
+
+/// A leg in the file.
+#[derive(Debug, Clone, Serialize)]
+pub struct LegRow {
+    /// What is asked for.
+    #[serde(flatten)]
+    pub leg: super::manoeuvre::Leg,
+    /// Speed of the hubs, m/s.
+    pub hub_speed_m_s: f64,
+    /// Slips, front to rear.
+    pub slips: [f64; 3],
+    /// Loads, N, front to rear.
+    pub loads_n: [f64; 3],
+}
+
+impl Document {
+    /// Of an advice.
+    pub fn new(soil: &str, question: &Question, advice: &Advice) -> Self {
+        let row = |finding: &Finding| {
+            let relative = |target| finding.bound.relative(target, &question.soil);
+            Row {
+                order: order(finding),
+                legs: finding.legs.iter().map(LegRow::new).collect(),
+                expense: finding.expense,
+                cost: finding.cost,
+                cohesion_relative_std: relative(Target::Cohesion),
+                friction_angle_relative_std: relative(Target::FrictionAngle),
+                shear_modulus_relative_std: relative(Target::ShearModulus),
+            }
+        };
+        Self {
+            soil: soil.to_owned(),
+            accuracy: question.accuracy,
+            advice: advice.sentence(question),
+            reached: advice.reached.clone(),
+            manoeuvres: advice.findings.iter().map(row).collect(),
+            usual: row(&advice.usual),
+        }
+    }
+}
+
+impl LegRow {
+    fn new(driven: &DrivenLeg) -> Self {
+        let wheels = driven.drive.wheels.into_array();
+        Self {
+            leg: driven.leg,
+            hub_speed_m_s: driven.drive.hub_speed_m_s,
+            slips: wheels.map(|wheel| wheel.slip),
+            loads_n: wheels.map(|wheel| wheel.load_n),
+        }
+    }
+}
