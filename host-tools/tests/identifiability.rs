@@ -7,7 +7,7 @@ use kapvik_host::identifiability::bound::Bound;
 use kapvik_host::identifiability::information::Information;
 use kapvik_host::identifiability::sensors::{LastingErrors, instant_noise};
 use kapvik_host::identifiability::single_wheel::{Station, WheelMeasurement};
-use kapvik_host::identifiability::spread::Spread;
+use kapvik_host::identifiability::spread::{Spread, WheelsInTurn};
 
 const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 const LOAD_N: f64 = 65.4;
@@ -43,46 +43,72 @@ fn percent(bound: &Bound) -> [f64; 3] {
     [100.0 * c, 100.0 * phi / table_1().friction_angle_rad, 100.0 * k]
 }
 
-fn close(found: [f64; 3], expected: [f64; 3], tolerance: f64) {
-    println!("{found:.1?} {expected:?}");
+/// Within a share of a published figure, and its rounding.
+fn published(found: [f64; 3], expected: [f64; 3], share: f64) {
     for (found, expected) in found.into_iter().zip(expected) {
-        assert!((found / expected - 1.0).abs() < tolerance, "{found} not {expected}");
+        assert!((found - expected).abs() <= share * expected + 0.5, "{found} not {expected}");
     }
 }
 
-/// METHODS 7.3, which has no slip noise in it, knows the sinkage, n, stiffness, c₁ and c₂ exactly, and spreads the loads by
-/// ±8 % in an order that it does not state. That of [`Spread`] gives the rows of spread slips to 2 %; the row of equal slips,
-/// where the order is of no account, is 3 % lower, so that the loads of the table were not quite in equal steps.
+/// As SciPy has it: the Jacobians of DP, W and T at a known sinkage by differences, 64 Gauss nodes for each region.
+fn computed<const N: usize>(found: [f64; N], expected: [f64; N]) {
+    for (found, expected) in found.into_iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} not {expected}");
+    }
+}
+
+/// Six wheels with loads of ±8 %.
+fn six_wheels(measurement: &WheelMeasurement, (slip_low, slip_high): (f64, f64), instants: f64) -> Bound {
+    let spread = Spread { slip_low, slip_high, load_n: LOAD_N, load_share: 0.08 };
+    let information = spread.information(measurement, &WHEEL, &table_1()).unwrap();
+    information.bound(measurement, WheelsInTurn { wheels: 6, stations_each: 1 }, instants).unwrap()
+}
+
+/// METHODS 7.3. Its figures have no slip noise in them, know the sinkage, n, stiffness, c₁ and c₂ exactly, have nothing that
+/// lasts, and spread the loads by ±8 % in an order that is not stated. With equal loads, or loads that rise with slip, they
+/// are several times as large; the order of [`Spread`] gives them. The row of equal slips, where the order is of no account,
+/// comes out 3 % lower: the loads of the table were not quite in equal steps.
 #[test]
 fn the_published_table() {
     let measurement = of_the_table(Knowledge::Known);
     let station = Station { slip: 0.2, load_n: LOAD_N };
     let one = measurement.information(&WHEEL, &table_1(), &station).unwrap();
-    let single = |instants: f64| Bound::new(&measurement.beforehand, &[(one * instants, 1.0)]).unwrap();
-    close(percent(&single(1.0)), [36_000.0, 315.0, 761.0], 0.01);
-    close(percent(&single(100.0)), [3600.0, 32.0, 76.0], 0.02);
+    let single = |instants: f64| percent(&Bound::new(&measurement.beforehand, &[(one * instants, 1.0)]).unwrap());
+    published(single(1.0), [36_000.0, 315.0, 761.0], 0.01);
+    published(single(100.0), [3600.0, 32.0, 76.0], 0.01);
+    computed(single(1.0), [35_738.63, 315.2815, 761.2430]);
 
-    let six = |slip_low: f64, slip_high: f64, instants: f64| {
-        let spread = Spread { slip_low, slip_high, load_n: LOAD_N, load_share: 0.08 };
-        let information = spread.information(&measurement, &WHEEL, &table_1()).unwrap();
-        percent(&information.bound(&measurement, 6, instants).unwrap())
-    };
-    close(six(0.2, 0.2, 100.0), [279.0, 6.25, 19.5], 0.03);
-    close(six(0.10, 0.35, 1.0), [1046.0, 23.3, 15.0], 0.02);
-    close(six(0.05, 0.60, 1.0), [976.0, 21.3, 11.2], 0.02);
-    close(six(0.05, 0.60, 100.0), [98.0, 2.13, 1.12], 0.02);
+    let six = |slips: (f64, f64), instants: f64| percent(&six_wheels(&measurement, slips, instants));
+    published(six((0.2, 0.2), 100.0), [279.0, 6.0, 20.0], 0.03);
+    published(six((0.10, 0.35), 1.0), [1046.0, 23.0, 15.0], 0.01);
+    published(six((0.05, 0.60), 1.0), [976.0, 21.0, 11.0], 0.01);
+    published(six((0.05, 0.60), 100.0), [98.0, 2.0, 1.0], 0.01);
+    computed(six((0.2, 0.2), 100.0), [271.8402, 6.250322, 19.48179]);
+    computed(six((0.10, 0.35), 1.0), [1044.394, 23.25005, 14.93719]);
+    computed(six((0.05, 0.60), 1.0), [979.5929, 21.34820, 11.16851]);
 }
 
-/// The last row of the table: n and the stiffness unknown, too.
+/// The last row of the table: k_φ and n unknown, too.
 #[test]
 fn the_published_table_with_unknown_stiffness() {
-    let measurement = of_the_table(Knowledge::Free);
-    let spread = Spread { slip_low: 0.05, slip_high: 0.60, load_n: LOAD_N, load_share: 0.08 };
-    let found = spread.information(&measurement, &WHEEL, &table_1()).unwrap().bound(&measurement, 6, 100.0).unwrap();
-    let [.., n, k, _, _] = *found.stds();
-    println!("n {n} k {k}");
-    close(percent(&found), [102.0, 2.2, 1.2], 0.03);
-    assert!((4.5..5.5).contains(&(100.0 * k)) && (0.5..1.5).contains(&(100.0 * n / 1.10)));
+    let found = six_wheels(&of_the_table(Knowledge::Free), (0.05, 0.60), 100.0);
+    let [.., n, k, _, _] = found.stds().map(|std| 100.0 * std);
+    published(percent(&found), [102.0, 2.0, 1.0], 0.005);
+    let soil = table_1();
+    let k_phi = k * soil.stiffness(WHEEL.width_m) / soil.frictional_modulus;
+    assert_eq!([k_phi.round(), (n / soil.sinkage_exponent).round()], [5.0, 1.0]);
+    computed([n, k], [0.993_953, 4.422_529]);
+}
+
+/// Slip and sinkage measured with 0.01 and 2 mm. SciPy takes the sinkage for the latent variable where the bound takes the
+/// load.
+#[test]
+fn errors_in_slip_and_sinkage() {
+    let measurement = WheelMeasurement { noise: instant_noise(), ..of_the_table(Knowledge::Free) };
+    let found = six_wheels(&measurement, (0.05, 0.60), 100.0);
+    let [.., n, k, _, _] = found.stds().map(|std| 100.0 * std);
+    computed(percent(&found), [128.5534, 2.808_71, 1.778_95]);
+    computed([n, k], [2.566_859, 10.966_33]);
 }
 
 #[test]
@@ -97,7 +123,8 @@ fn what_lasts_does_not_average_away() {
     let spread = Spread { slip_low: 0.05, slip_high: 0.60, load_n: LOAD_N, load_share: 0.3 };
     let phi = |measurement: &WheelMeasurement, instants: f64| {
         let information = spread.information(measurement, &WHEEL, &table_1()).unwrap();
-        information.bound(measurement, 6, instants).unwrap().stds()[1]
+        let design = WheelsInTurn { wheels: 6, stations_each: 1 };
+        information.bound(measurement, design, instants).unwrap().stds()[1]
     };
     let (with, without) = (measurement(lasting), measurement(LastingErrors::NONE));
     assert!(phi(&without, 1e8) < 0.01 * phi(&without, 1.0));

@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::bound::Bound;
-use super::search::{DrivenLeg, Finding, Manoeuvre, Question};
+use super::cost::Expense;
+use super::manoeuvre::{Leg, USUAL};
+use super::search::{DrivenLeg, Finding, Manoeuvre, Question, manoeuvres};
 use super::target::Target;
 
 /// What is to be done, and what else could be.
@@ -15,6 +17,8 @@ pub struct Advice {
     pub reached: Vec<Target>,
     /// Manoeuvres, cheapest first, one of each kind; where no target is within reach, the one that knows most.
     pub findings: Vec<Finding>,
+    /// The single leg that knows most in the time of the first; none where the first has a single leg.
+    pub one_leg: Option<Finding>,
     /// The usual drive in the time of the first.
     pub usual: Finding,
     /// What is known before any drive, as far as anything is.
@@ -41,17 +45,21 @@ impl Advice {
     /// Where the rover cannot drive, or nothing can be told.
     pub fn new(question: &Question, done: impl Fn() + Sync) -> Result<Self, NoAdvice> {
         let legs = question.legs(done);
-        let usual = legs.iter().find(|driven| driven.leg == super::manoeuvre::USUAL).ok_or(NoAdvice::Stuck)?;
-        let reached = question.within_reach(&legs);
-        let mut findings = if reached.is_empty() { Vec::new() } else { question.cheapest(&legs, usual, &reached) };
+        let usual = legs.iter().find(|driven| driven.leg == USUAL).ok_or(NoAdvice::Stuck)?;
+        let all = manoeuvres(&legs);
+        let reached = question.within_reach(&all);
+        let mut findings = if reached.is_empty() { Vec::new() } else { question.cheapest(&all, usual, &reached) };
         if findings.is_empty() {
-            findings.extend(question.best_known(&legs, usual, &question.targets));
+            findings.extend(question.best_known(&all, usual, question.longest_s));
         }
-        let time_s = findings.first().ok_or(NoAdvice::Nothing)?.expense.time_s;
+        let best = findings.first().ok_or(NoAdvice::Nothing)?;
+        let time_s = best.expense.time_s;
+        let single: Vec<Manoeuvre<'_>> = all.iter().filter(|manoeuvre| manoeuvre.count() == 1).copied().collect();
+        let one_leg = if best.legs.len() == 1 { None } else { question.best_known(&single, usual, time_s) };
         let alone = Manoeuvre::of(std::slice::from_ref(usual)).ok_or(NoAdvice::Nothing)?;
         let usual = question.finding(&alone, usual, time_s).ok_or(NoAdvice::Nothing)?;
         let before = Bound::new(&question.measurement.beforehand, &[]);
-        Ok(Self { reached, findings, usual, before })
+        Ok(Self { reached, findings, one_leg, usual, before })
     }
 
     /// The manoeuvre that is advised.
@@ -112,6 +120,8 @@ pub struct Document {
     pub reached: Vec<Target>,
     /// Manoeuvres, cheapest first.
     pub manoeuvres: Vec<Row>,
+    /// The single leg that tells most in the same time as the first; none where the first has a single leg.
+    pub one_leg: Option<Row>,
     /// The usual drive in the same time as the first.
     pub usual: Row,
 }
@@ -124,7 +134,7 @@ pub struct Row {
     /// Its legs, of equal time.
     pub legs: Vec<LegRow>,
     /// What it takes.
-    pub expense: super::cost::Expense,
+    pub expense: Expense,
     /// What that costs.
     pub cost: f64,
     /// Standard deviation of c over c.
@@ -140,7 +150,7 @@ pub struct Row {
 pub struct LegRow {
     /// What is asked for.
     #[serde(flatten)]
-    pub leg: super::manoeuvre::Leg,
+    pub leg: Leg,
     /// Speed of the hubs, m/s.
     pub hub_speed_m_s: f64,
     /// Slips, front to rear.
@@ -170,6 +180,7 @@ impl Document {
             advice: advice.sentence(question),
             reached: advice.reached.clone(),
             manoeuvres: advice.findings.iter().map(row).collect(),
+            one_leg: advice.one_leg.as_ref().map(row),
             usual: row(&advice.usual),
         }
     }

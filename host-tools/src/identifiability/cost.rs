@@ -11,23 +11,19 @@ pub struct CostWeights {
     pub per_joule: f64,
     /// A millimetre by which the deepest wheel sinks deeper than in the usual drive.
     pub per_millimetre: f64,
-    /// From one leg to the next, s.
-    pub change_s: f64,
 }
 
 impl Default for CostWeights {
     fn default() -> Self {
-        Self { per_second: 1.0, per_joule: 1.0, per_millimetre: 1.0, change_s: 5.0 }
+        Self { per_second: 1.0, per_joule: 1.0, per_millimetre: 1.0 }
     }
 }
 
 /// What a manoeuvre takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Expense {
-    /// Time, s, without that between legs.
+    /// Time, s.
     pub time_s: f64,
-    /// Legs.
-    pub legs: usize,
     /// Energy at the wheels beyond that of the usual drive, J; never below zero.
     pub energy_j: f64,
     /// How much deeper the deepest wheel sinks than in the usual drive, m; never below zero.
@@ -37,8 +33,7 @@ pub struct Expense {
 impl CostWeights {
     /// The cost.
     pub fn cost(&self, expense: &Expense) -> f64 {
-        let changes = expense.legs.saturating_sub(1) as f64;
-        self.per_second * (expense.time_s + changes * self.change_s)
+        self.per_second * expense.time_s
             + self.per_joule * expense.energy_j
             + self.per_millimetre * 1e3 * expense.sinkage_m
     }

@@ -3,12 +3,19 @@
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 use rayon::prelude::*;
 
+use super::bound::Bound;
 use super::single_wheel::WheelMeasurement;
-use super::spread::{Spread, SpreadInformation};
+use super::spread::{Spread, SpreadInformation, WheelsInTurn};
 use super::target::Target;
 
-/// Numbers of wheels that a map is drawn for.
-pub const WHEEL_COUNTS: [usize; 4] = [1, 2, 3, 6];
+/// Wheels that a map is drawn for.
+pub const DESIGNS: [WheelsInTurn; 5] = [
+    WheelsInTurn { wheels: 1, stations_each: 6 },
+    WheelsInTurn { wheels: 2, stations_each: 3 },
+    WheelsInTurn { wheels: 3, stations_each: 2 },
+    WheelsInTurn { wheels: 6, stations_each: 1 },
+    WheelsInTurn { wheels: 6, stations_each: 6 },
+];
 /// Slip about which slips are spread.
 const MIDDLE_SLIP: f64 = 0.325;
 /// Greatest spread of slip, from least to greatest: 0.05 … 0.60.
@@ -48,9 +55,11 @@ pub struct Cell {
     pub slip_spread: f64,
     /// Half of the spread of load over its mean.
     pub load_share: f64,
-    /// For each number of wheels of [`WHEEL_COUNTS`], the averaging time (s) until each target is known; none where no hour
+    /// For each of [`DESIGNS`], the averaging time (s) until each target is known; none where no hour
     /// is enough.
-    pub times_s: [PerTarget<Option<f64>>; WHEEL_COUNTS.len()],
+    pub times_s: [PerTarget<Option<f64>>; DESIGNS.len()],
+    /// Standard deviation over the value after [`LONGEST_S`], for the same.
+    pub at_last: [PerTarget<f64>; DESIGNS.len()],
 }
 
 /// One value for each target.
@@ -96,15 +105,23 @@ impl MapQuestion {
             load_share,
         };
         let information = spread.information(&self.measurement, &self.wheel, &self.soil);
-        let times_s =
-            WHEEL_COUNTS.map(|wheels| PerTarget::from_fn(|target| self.time_s(information.as_ref()?, wheels, target)));
-        Cell { slip_spread, load_share, times_s }
+        let information = information.as_ref();
+        let times_s = DESIGNS.map(|design| PerTarget::from_fn(|target| self.time_s(information?, design, target)));
+        let at_last = DESIGNS.map(|design| {
+            let bound = information.and_then(|information| self.bound(information, design, LONGEST_S));
+            PerTarget::from_fn(|target| bound.map_or(f64::INFINITY, |bound| bound.relative(target, &self.soil)))
+        });
+        Cell { slip_spread, load_share, times_s, at_last }
+    }
+
+    fn bound(&self, information: &SpreadInformation, design: WheelsInTurn, time_s: f64) -> Option<Bound> {
+        information.bound(&self.measurement, design, time_s * self.instants_per_second)
     }
 
     /// Averaging time until a target is known: errors only shrink with time.
-    fn time_s(&self, information: &SpreadInformation, wheels: usize, target: Target) -> Option<f64> {
+    fn time_s(&self, information: &SpreadInformation, design: WheelsInTurn, target: Target) -> Option<f64> {
         let known_after = |time_s: f64| {
-            let bound = information.bound(&self.measurement, wheels, time_s * self.instants_per_second);
+            let bound = self.bound(information, design, time_s);
             bound.is_some_and(|bound| bound.relative(target, &self.soil) <= self.accuracy)
         };
         shortest(1.0 / self.instants_per_second, LONGEST_S, HALVINGS, known_after)

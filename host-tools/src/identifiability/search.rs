@@ -1,7 +1,8 @@
 //! The search for the manoeuvre that makes a soil known at the least cost.
 //!
 //! A grid of legs, alone and in pairs of equal time; the best are refined in steps of five per cent of a rim speed. What a leg
-//! says grows in proportion to its time, so that the time that an accuracy takes is found without driving it again.
+//! says grows in proportion to its time, so that the time that an accuracy takes is found without driving it again. The first
+//! seconds of every leg, until drives and wheels have settled, count for nothing.
 
 use kapvik_firmware::rover::{Axle, PerAxle, Rover};
 use kapvik_firmware::terramechanics::Soil;
@@ -85,8 +86,11 @@ const REFINEMENTS: [f64; 2] = [0.1, 0.05];
 const REFINING_STEPS: usize = 12;
 /// Halvings of the range of times.
 const HALVINGS: usize = 10;
-/// The shortest manoeuvre, s.
+/// The least time of a leg that is measured in, s.
 const SHORTEST_S: f64 = 1.0;
+/// Until a leg is steady, s: the drives take 1.5 s to new speeds ([`crate::simulate`]), and then the wheels roll over the
+/// length of their contact, about 50 mm at 20 mm/s.
+pub const SETTLING_S: f64 = 4.0;
 
 impl Question {
     /// What the rover does in a leg; none where it cannot.
@@ -132,12 +136,12 @@ impl Question {
         legs
     }
 
-    /// What is known after a manoeuvre.
+    /// What is known after a manoeuvre that takes so long.
     pub fn bound(&self, manoeuvre: &Manoeuvre<'_>, time_s: f64) -> Option<Bound> {
-        let share = 1.0 / manoeuvre.count() as f64;
+        let measured_s = (time_s / manoeuvre.count() as f64 - SETTLING_S).max(0.0);
         let mut seen = Information::none();
         for leg in manoeuvre.legs() {
-            seen = seen + leg.per_second * (share * time_s);
+            seen = seen + leg.per_second * measured_s;
         }
         // Left and right are alike, with sensors of their own.
         Bound::new(&self.measurement.beforehand, &[(seen, 2.0)])
@@ -159,15 +163,17 @@ impl Question {
     /// A manoeuvre just long enough, in whole seconds, for some targets; none where the longest is not enough.
     fn shortest(&self, manoeuvre: &Manoeuvre<'_>, usual: &DrivenLeg, targets: &[Target]) -> Option<Finding> {
         let known_after = |time_s: f64| self.bound(manoeuvre, time_s).is_some_and(|bound| self.is_met(&bound, targets));
-        let time_s = shortest(SHORTEST_S, self.longest_s, HALVINGS, known_after)?;
-        self.finding(manoeuvre, usual, time_s.ceil().min(self.longest_s))
+        let legs = manoeuvre.count() as f64;
+        let least_s = legs * (SETTLING_S + SHORTEST_S);
+        let time_s = shortest(least_s, self.longest_s.max(least_s), HALVINGS, known_after)?;
+        // Whole seconds for every leg.
+        self.finding(manoeuvre, usual, legs * (time_s / legs).ceil())
     }
 
     /// The cheapest manoeuvre of each kind for some targets, cheapest first.
-    pub fn cheapest(&self, legs: &[DrivenLeg], usual: &DrivenLeg, targets: &[Target]) -> Vec<Finding> {
-        let all = manoeuvres(legs);
+    pub fn cheapest(&self, manoeuvres: &[Manoeuvre<'_>], usual: &DrivenLeg, targets: &[Target]) -> Vec<Finding> {
         let findings: Vec<Finding> =
-            all.par_iter().filter_map(|manoeuvre| self.shortest(manoeuvre, usual, targets)).collect();
+            manoeuvres.par_iter().filter_map(|manoeuvre| self.shortest(manoeuvre, usual, targets)).collect();
         let mut best: Vec<Finding> = Vec::new();
         for finding in findings {
             match best.iter_mut().find(|known| known.kind() == finding.kind()) {
@@ -182,25 +188,26 @@ impl Question {
         refined
     }
 
-    /// The manoeuvre that, as long as may be, knows some targets best: the product of their errors is least.
-    pub fn best_known(&self, legs: &[DrivenLeg], usual: &DrivenLeg, targets: &[Target]) -> Option<Finding> {
+    /// The manoeuvre of some length that knows the targets asked for best: the product of their errors is least.
+    pub fn best_known(&self, manoeuvres: &[Manoeuvre<'_>], usual: &DrivenLeg, time_s: f64) -> Option<Finding> {
+        let targets = &self.targets;
         let logarithm = |finding: &Finding| -> f64 {
             targets.iter().map(|target| finding.bound.relative(*target, &self.soil).ln()).sum()
         };
-        manoeuvres(legs)
+        manoeuvres
             .par_iter()
-            .filter_map(|manoeuvre| self.finding(manoeuvre, usual, self.longest_s))
+            .filter_map(|manoeuvre| self.finding(manoeuvre, usual, time_s))
             .min_by(|a, b| logarithm(a).total_cmp(&logarithm(b)))
     }
 
     /// The largest set of the targets asked for that a manoeuvre of the longest time makes known.
-    pub fn within_reach(&self, legs: &[DrivenLeg]) -> Vec<Target> {
+    pub fn within_reach(&self, manoeuvres: &[Manoeuvre<'_>]) -> Vec<Target> {
         let known = |manoeuvre: &Manoeuvre<'_>| -> Vec<Target> {
             let bound = self.bound(manoeuvre, self.longest_s);
             let met = |target: &&Target| bound.is_some_and(|bound| self.is_met(&bound, &[**target]));
             self.targets.iter().filter(met).copied().collect()
         };
-        manoeuvres(legs).par_iter().map(known).max_by_key(Vec::len).unwrap_or_default()
+        manoeuvres.par_iter().map(known).max_by_key(Vec::len).unwrap_or_default()
     }
 
     /// A finding made cheaper by small changes of its rim speeds.
@@ -228,7 +235,7 @@ fn triples() -> impl Iterator<Item = (f64, f64, f64)> {
 }
 
 /// Every leg alone, and every two.
-fn manoeuvres(legs: &[DrivenLeg]) -> Vec<Manoeuvre<'_>> {
+pub fn manoeuvres(legs: &[DrivenLeg]) -> Vec<Manoeuvre<'_>> {
     let mut all = Vec::new();
     for (place, first) in legs.iter().enumerate() {
         all.push(Manoeuvre { first, second: None });
@@ -251,7 +258,8 @@ impl<'a> Manoeuvre<'a> {
         std::iter::once(self.first).chain(self.second)
     }
 
-    fn count(&self) -> usize {
+    /// How many legs it has.
+    pub fn count(&self) -> usize {
         1 + usize::from(self.second.is_some())
     }
 
@@ -259,12 +267,7 @@ impl<'a> Manoeuvre<'a> {
         let share_s = time_s / self.count() as f64;
         let energy_j: f64 = self.legs().map(|leg| (leg.power_w - usual.power_w) * share_s).sum();
         let deepest_m = self.legs().map(|leg| leg.deepest_m).fold(0.0, f64::max);
-        Expense {
-            time_s,
-            legs: self.count(),
-            energy_j: energy_j.max(0.0),
-            sinkage_m: (deepest_m - usual.deepest_m).max(0.0),
-        }
+        Expense { time_s, energy_j: energy_j.max(0.0), sinkage_m: (deepest_m - usual.deepest_m).max(0.0) }
     }
 }
 

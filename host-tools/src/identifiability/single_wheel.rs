@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, Vector3};
 use super::beforehand::{Beforehand, by_parameters};
 use super::information::{Information, SHARED, SPEED_SCALE, Slopes, covariance, unit};
 use super::sensors::LastingErrors;
-use crate::limit::response::{Channels, respond_to};
+use crate::limit::response::{Channels, respond_exactly};
 
 /// How a wheel is measured, and what is known beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ impl WheelMeasurement {
     /// What one instant at a station says; none where the soil does not carry the load.
     pub fn information(&self, wheel: &Wheel<f64>, soil: &Soil<f64>, station: &Station) -> Option<Information> {
         let Station { slip, load_n } = *station;
-        let response = respond_to(wheel, soil, slip, load_n, 0.25 * wheel.radius_m)?;
+        let response = respond_exactly(wheel, soil, slip, load_n)?;
         let WheelNoise { drawbar_pull_n, load_n, torque_nm, slip: slip_std, sinkage_m } = self.noise;
         // A sinkage that is not seen needs some variance all the same.
         let sinkage_m = if self.sinkage_seen { sinkage_m } else { 1.0 };

@@ -26,6 +26,15 @@ pub struct Spread {
     pub load_share: f64,
 }
 
+/// Wheels that go through the stations of a spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WheelsInTurn {
+    /// How many; a divisor of six.
+    pub wheels: usize,
+    /// How many stations each goes through in turn: all six, or its part of them.
+    pub stations_each: usize,
+}
+
 /// What one instant at each station of a spread says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpreadInformation([Information; STATIONS]);
@@ -56,14 +65,16 @@ impl Spread {
 }
 
 impl SpreadInformation {
-    /// The bound for so many wheels (a divisor of six) that go through the stations in turn, all at once, each in `instants`
-    /// independent instants altogether. Each wheel has sensors of its own.
-    pub fn bound(&self, measurement: &WheelMeasurement, wheels: usize, instants: f64) -> Option<Bound> {
-        let share = wheels as f64 * instants / STATIONS as f64;
-        let mut seen = vec![(Information::none(), 1.0); wheels];
-        for (place, information) in self.0.iter().enumerate() {
-            let (sum, _) = &mut seen[place % wheels];
-            *sum = *sum + *information * share;
+    /// The bound for wheels that go through the stations, all at once, each in `instants` independent instants altogether.
+    /// Each wheel has sensors of its own.
+    pub fn bound(&self, measurement: &WheelMeasurement, design: WheelsInTurn, instants: f64) -> Option<Bound> {
+        let share = instants / design.stations_each as f64;
+        let step = STATIONS / design.stations_each;
+        let mut seen = vec![(Information::none(), 1.0); design.wheels];
+        for (wheel, (sum, _)) in seen.iter_mut().enumerate() {
+            for information in self.0.iter().skip(wheel % step).step_by(step) {
+                *sum = *sum + *information * share;
+            }
         }
         Bound::new(&measurement.beforehand, &seen)
     }

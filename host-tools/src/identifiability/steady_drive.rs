@@ -11,7 +11,7 @@ use kapvik_firmware::rover::{
 use kapvik_firmware::terramechanics::Soil;
 use nalgebra::{Matrix4, SMatrix, Vector4};
 
-use crate::limit::response::{Response, respond_to};
+use crate::limit::response::{Response, respond_exactly};
 use crate::train::prior::DEEPEST;
 
 /// Balances of a side: force along the ground (N) and across it (N), moments of bogie and rocker (N·m).
@@ -217,8 +217,7 @@ impl Problem<'_> {
         if load_n <= 0.0 {
             return None;
         }
-        let wheel = &self.rover.wheel;
-        let response = respond_to(wheel, self.soil, slip, load_n, 0.25 * wheel.radius_m)?;
+        let response = respond_exactly(&self.rover.wheel, self.soil, slip, load_n)?;
         Some(Answer {
             pull_n: response.value[0],
             load_n,

@@ -48,6 +48,12 @@ pub fn respond(wheel: &Wheel<f64>, point: &Coordinates, slip: f64, load_n: f64, 
     Some(response)
 }
 
+/// [`respond_to`] with the slopes at the very sinkage, too.
+pub fn respond_exactly(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64) -> Option<Response> {
+    let near = respond_to(wheel, soil, slip, load_n, 0.25 * wheel.radius_m)?;
+    respond_to(wheel, soil, slip, load_n, near.value[2])
+}
+
 /// The response of a wheel on a soil, by the soil's own parameters (SI units), by Newton's method on ln W as a function of
 /// ln z from `guess_m`; none where the soil carries the load at no sinkage up to 0.9 r.
 pub fn respond_to(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64, guess_m: f64) -> Option<Response> {

@@ -10,7 +10,7 @@ pub use terminal::terminal;
 
 use crate::identifiability::advice::{Advice, Document};
 use crate::identifiability::map::{Cell, MapQuestion};
-use crate::identifiability::search::Question;
+use crate::identifiability::search::{Question, SETTLING_S};
 
 /// How the map looks.
 const MAP_CSS: &str = include_str!("map.css");
@@ -68,14 +68,18 @@ fn assumptions(told: &Observability) -> Vec<String> {
             lasting.torque_nm,
             lasting.pitch_rad.to_degrees()
         ),
+        format!(
+            "The first {SETTLING_S:.0} s of every leg count for nothing: the drives come up to speed and the wheels roll over \
+             the length of their contact."
+        ),
         "Plane ground, one soil, equations 1–11: no slip-sinkage, no ruts, left and right alike. A wheel that spins in place \
          may dig itself in, which these equations do not know."
             .to_owned(),
         format!(
             "The map: {:.1} N, {:.1} N, {:.2} N·m and {:.3} of noise in drawbar pull, load, torque and slip of an instant, {} \
              independent instants a second (level ground; hills leave a tenth), no sinkage, the same lasting errors and \
-             {:.2} N in each wheel's drawbar pull. Six stations of slip (about 0.33) and load; fewer wheels go through \
-             them in turn.",
+             {:.2} N in each wheel's drawbar pull. Six stations of slip (about 0.33) and load; a wheel that goes through \
+             several in turn shows its own lasting errors.",
             told.map_question.measurement.noise.drawbar_pull_n,
             told.map_question.measurement.noise.load_n,
             told.map_question.measurement.noise.torque_nm,

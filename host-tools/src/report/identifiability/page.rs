@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::terminal::{capitalised, loads, slips};
+use super::terminal::{capitalised, loads, named, slips};
 use super::{Observability, assumptions, picture};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
@@ -54,8 +54,7 @@ fn manoeuvres(told: &Observability) -> Markup {
                     th { "c" } th { "φ" } th { "K" } th { "slips" } th { "loads, N" }
                 } }
                 tbody {
-                    @for finding in &told.advice.findings { (row(told, &order(finding), finding)) }
-                    (row(told, &format!("In the same time: {}", order(&told.advice.usual)), &told.advice.usual))
+                    @for (name, finding) in named(told) { (row(told, &format!("{name}: {}", order(finding)), finding)) }
                     @if let Some(before) = &told.advice.before {
                         tr {
                             td { "Before any drive" } td {} td {} td {} td {}

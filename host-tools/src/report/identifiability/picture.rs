@@ -3,18 +3,18 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::{MAP_CSS, Observability};
-use crate::identifiability::map::{
-    Cell, GREATEST_LOAD_SHARE, GREATEST_SLIP_SPREAD, LOAD_CELLS, SLIP_CELLS, WHEEL_COUNTS,
-};
+use crate::identifiability::advice::percent;
+use crate::identifiability::map::{Cell, DESIGNS, GREATEST_LOAD_SHARE, GREATEST_SLIP_SPREAD, LOAD_CELLS, SLIP_CELLS};
+use crate::identifiability::spread::WheelsInTurn;
 use crate::identifiability::target::Target;
 use crate::report::draw::{Anchor, Scale, line, px, text, vertical_band};
 use crate::report::page::DRAW_CSS;
 
 const PANEL_WIDTH: f64 = 220.0;
-const PANEL_HEIGHT: f64 = 120.0;
+const PANEL_HEIGHT: f64 = 104.0;
 const GAP_X: f64 = 22.0;
 const GAP_Y: f64 = 14.0;
-const LEFT: f64 = 118.0;
+const LEFT: f64 = 164.0;
 const TOP: f64 = 66.0;
 const BELOW: f64 = 92.0;
 const RIGHT: f64 = 16.0;
@@ -27,7 +27,7 @@ const NEVER: &str = "not by averaging for an hour";
 /// The map.
 pub fn picture(told: &Observability) -> String {
     let width = LEFT + 3.0 * PANEL_WIDTH + 2.0 * GAP_X + RIGHT;
-    let rows = WHEEL_COUNTS.len() as f64;
+    let rows = DESIGNS.len() as f64;
     let bottom = TOP + rows * PANEL_HEIGHT + (rows - 1.0) * GAP_Y;
     let height = bottom + BELOW;
     let accuracy = 100.0 * told.map_question.accuracy;
@@ -40,14 +40,15 @@ pub fn picture(told: &Observability) -> String {
             (text("title", (14.0, 24.0), Anchor::Start, &format!("{title}, on {}", told.soil)))
             @for (column, target) in Target::ALL.into_iter().enumerate() {
                 (text("label strong", (left_of(column) + 0.5 * PANEL_WIDTH, TOP - 10.0), Anchor::Middle, &named(told, target)))
-                @for row in 0..WHEEL_COUNTS.len() { (panel(told, target, (column, row))) }
+                @for row in 0..DESIGNS.len() { (panel(told, target, (column, row))) }
             }
-            @for (row, count) in WHEEL_COUNTS.into_iter().enumerate() {
-                (text("label strong", (14.0, top_of(row) + 16.0), Anchor::Start, &wheels(count)))
+            @for (row, design) in DESIGNS.iter().enumerate() {
+                (text("label strong", (14.0, top_of(row) + 14.0), Anchor::Start, &wheels(design.wheels)))
+                (text("tick", (14.0, top_of(row) + 30.0), Anchor::Start, &stations(design)))
             }
             (text("label", (left_of(1) + 0.5 * PANEL_WIDTH, bottom + 36.0), Anchor::Middle,
                 "spread of slip among the stations, greatest less least"))
-            g transform={ "translate(" (px(LEFT - 40.0)) " " (px(0.5 * (TOP + bottom))) ") rotate(-90)" } {
+            g transform={ "translate(" (px(LEFT - 30.0)) " " (px(0.5 * (TOP + bottom))) ") rotate(-90)" } {
                 (text("label", (0.0, 0.0), Anchor::Middle, "spread of load, ± % of the mean"))
             }
             (key(bottom + 62.0))
@@ -66,6 +67,13 @@ fn top_of(row: usize) -> f64 {
 
 fn wheels(count: usize) -> String {
     format!("{count} wheel{}", if count == 1 { "" } else { "s" })
+}
+
+fn stations(design: &WheelsInTurn) -> String {
+    match design.stations_each {
+        1 => "one station each".to_owned(),
+        count => format!("{count} stations in turn"),
+    }
 }
 
 fn named(told: &Observability, target: Target) -> String {
@@ -97,8 +105,13 @@ fn panel(told: &Observability, target: Target, (column, row): (usize, usize)) ->
                 (vertical_band(&format!("t{class}"), (x(from), x(to)), (up.at(edge(place + 1)), up.at(edge(place)))))
             }
         }
+        @if told.map.iter().all(|cell| cell.times_s[row].of(target).is_none()) {
+            @let best = told.map.iter().map(|cell| *cell.at_last[row].of(target)).fold(f64::INFINITY, f64::min);
+            (text("tick", (left + 0.5 * PANEL_WIDTH, top + 0.5 * PANEL_HEIGHT + 4.0), Anchor::Middle,
+                &format!("at best {} after an hour", percent(best))))
+        }
         rect class="frame" x=(px(left)) y=(px(top)) width=(px(PANEL_WIDTH)) height=(px(PANEL_HEIGHT)) {}
-        @if row + 1 == WHEEL_COUNTS.len() {
+        @if row + 1 == DESIGNS.len() {
             @for tick in [0.0, 0.1, 0.2, 0.3, 0.4, 0.5] {
                 (line("axis", (across.at(tick), top + PANEL_HEIGHT), (across.at(tick), top + PANEL_HEIGHT + 4.0)))
                 (text("tick", (across.at(tick), top + PANEL_HEIGHT + 17.0), Anchor::Middle, &format!("{tick}")))

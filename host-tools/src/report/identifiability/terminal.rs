@@ -12,6 +12,10 @@ use crate::report::terminal::{align_right, plain_table, wrapped};
 pub fn terminal(told: &Observability) -> String {
     let mut text = format!("{}, on {}\n\n", told.rover, told.soil);
     text += &wrapped("", &capitalised(&told.advice.sentence(&told.question)));
+    text += "\n";
+    for (name, finding) in named(told) {
+        text += &wrapped("", &format!("{name}: {}", order(finding)));
+    }
     text += &format!("\n{}\n\n", table(told));
     text += "  c, φ, K: one standard deviation, of the value. Cost in seconds of driving.\n\n";
     for assumption in assumptions(told) {
@@ -20,17 +24,26 @@ pub fn terminal(told: &Observability) -> String {
     text
 }
 
+/// All manoeuvres, with short names.
+pub(super) fn named(told: &Observability) -> Vec<(String, &Finding)> {
+    let advice = &told.advice;
+    let mut all: Vec<(String, &Finding)> =
+        advice.findings.iter().enumerate().map(|(place, finding)| (format!("{}", place + 1), finding)).collect();
+    all.extend(advice.one_leg.iter().map(|finding| ("one leg, same time".to_owned(), finding)));
+    all.push(("usual, same time".to_owned(), &advice.usual));
+    all
+}
+
 fn table(told: &Observability) -> Table {
     let mut table = plain_table();
     let headers = ["", "cost", "time, s", "energy, J", "deeper, mm", "c", "φ", "K", "slips", "loads, N"];
     table.set_header(headers);
-    for finding in &told.advice.findings {
-        table.add_row(cells(told, order(finding), finding));
+    for (name, finding) in named(told) {
+        table.add_row(cells(told, name, finding));
     }
-    table.add_row(cells(told, format!("in the same time: {}", order(&told.advice.usual)), &told.advice.usual));
     if let Some(before) = &told.advice.before {
         let known = Target::ALL.map(|target| percent(before.relative(target, &told.question.soil)));
-        table.add_row(["before any drive", "", "", "", ""].map(str::to_owned).into_iter().chain(known));
+        table.add_row(["before", "", "", "", ""].map(str::to_owned).into_iter().chain(known));
     }
     align_right(&mut table);
     table
