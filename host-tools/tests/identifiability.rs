@@ -1,13 +1,20 @@
 //! What of a soil can be told: against published figures, and against estimates from simulated measurements.
 
+use kapvik_firmware::rover::Rover;
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 use kapvik_firmware::wheel_state::WheelNoise;
-use kapvik_host::identifiability::beforehand::{Beforehand, Knowledge};
+use kapvik_host::identifiability::advice::Advice;
+use kapvik_host::identifiability::beforehand::{Beforehand, Knowledge, middle_soil};
 use kapvik_host::identifiability::bound::Bound;
+use kapvik_host::identifiability::cost::CostWeights;
 use kapvik_host::identifiability::information::Information;
+use kapvik_host::identifiability::manoeuvre::RimSpeeds;
+use kapvik_host::identifiability::rover_side::RoverMeasurement;
+use kapvik_host::identifiability::search::{Question, manoeuvres};
 use kapvik_host::identifiability::sensors::{LastingErrors, instant_noise};
 use kapvik_host::identifiability::single_wheel::{Station, WheelMeasurement};
 use kapvik_host::identifiability::spread::{Spread, WheelsInTurn};
+use kapvik_host::identifiability::target::Target;
 
 const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 const LOAD_N: f64 = 65.4;
@@ -132,4 +139,50 @@ fn what_lasts_does_not_average_away() {
     // Nothing seen: what was believed beforehand.
     let before = Bound::new(&with.beforehand, &[(Information::none(), 1.0)]).unwrap();
     assert!((before.stds()[1] - 6.0_f64.to_radians()).abs() < 1e-12);
+}
+
+fn question(targets: &[Target]) -> Question {
+    Question {
+        rover: Rover::assumed(),
+        soil: middle_soil(),
+        targets: targets.to_vec(),
+        accuracy: 0.1,
+        longest_s: 120.0,
+        steepest_rad: 0.0,
+        speeds: RimSpeeds::default(),
+        measurement: RoverMeasurement {
+            sinkage_m: None,
+            ground_n: 2.0,
+            lasting: LastingErrors::default(),
+            beforehand: Beforehand::default(),
+        },
+        weights: CostWeights::default(),
+    }
+}
+
+#[test]
+fn the_advice_keeps_its_word_and_nothing_on_the_grid_is_cheaper() {
+    let question = question(&Target::ALL);
+    let advice = Advice::new(&question, || ()).unwrap();
+    println!("{}", advice.sentence(&question));
+    assert_eq!(advice.reached, [Target::FrictionAngle, Target::ShearModulus]);
+    let best = &advice.best;
+    assert!(question.is_met(&best.bound, &advice.reached));
+    assert!(!question.is_met(&advice.usual.as_ref().unwrap().bound, &[Target::ShearModulus]));
+    assert!(best.bound.std(Target::Cohesion) > question.accuracy);
+    let legs = question.legs(|| ());
+    // A shorter time is not enough, for any manoeuvre that costs nothing but time.
+    for manoeuvre in manoeuvres(&legs) {
+        let finding = question.finding(&manoeuvre, &legs[0], best.expense.time_s).unwrap();
+        assert!(finding.cost >= best.cost - 1e-9 || !question.is_met(&finding.bound, &advice.reached));
+    }
+}
+
+#[test]
+fn what_is_out_of_reach_is_said() {
+    let question = question(&[Target::Cohesion]);
+    let advice = Advice::new(&question, || ()).unwrap();
+    assert!(advice.reached.is_empty());
+    assert!(advice.sentence(&question).contains("c not within reach"));
+    assert_eq!(advice.best.expense.time_s, question.longest_s);
 }

@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::bound::Bound;
-use super::cost::Expense;
-use super::manoeuvre::{Leg, USUAL};
+use super::cost::{CostWeights, Expense};
+use super::manoeuvre::{Leg, RimSpeeds, USUAL};
+use super::rover_side::RoverMeasurement;
 use super::search::{DrivenLeg, Finding, Manoeuvre, Question, manoeuvres};
 use super::target::Target;
 
@@ -15,12 +16,14 @@ use super::target::Target;
 pub struct Advice {
     /// Targets asked for that are known well enough after it.
     pub reached: Vec<Target>,
-    /// Manoeuvres, cheapest first, one of each kind; where no target is within reach, the one that knows most.
-    pub findings: Vec<Finding>,
+    /// The cheapest manoeuvre; where no target is within reach, the one that knows most.
+    pub best: Finding,
+    /// The cheapest of each other kind, cheapest first.
+    pub others: Vec<Finding>,
     /// The single leg that knows most in the time of the first; none where the first has a single leg.
     pub one_leg: Option<Finding>,
-    /// The usual drive in the time of the first.
-    pub usual: Finding,
+    /// The usual drive in the time of the first; none where it leaves something open of which nothing is known beforehand.
+    pub usual: Option<Finding>,
     /// What is known before any drive, as far as anything is.
     pub before: Option<Bound>,
 }
@@ -52,24 +55,20 @@ impl Advice {
         if findings.is_empty() {
             findings.extend(question.best_known(&all, usual, question.longest_s));
         }
-        let best = findings.first().ok_or(NoAdvice::Nothing)?;
+        let mut findings = findings.into_iter();
+        let best = findings.next().ok_or(NoAdvice::Nothing)?;
         let time_s = best.expense.time_s;
         let single: Vec<Manoeuvre<'_>> = all.iter().filter(|manoeuvre| manoeuvre.count() == 1).copied().collect();
         let one_leg = if best.legs.len() == 1 { None } else { question.best_known(&single, usual, time_s) };
-        let alone = Manoeuvre::of(std::slice::from_ref(usual)).ok_or(NoAdvice::Nothing)?;
-        let usual = question.finding(&alone, usual, time_s).ok_or(NoAdvice::Nothing)?;
+        let alone = Manoeuvre::of(std::slice::from_ref(usual));
+        let usual = alone.and_then(|alone| question.finding(&alone, usual, time_s));
         let before = Bound::new(&question.measurement.beforehand, &[]);
-        Ok(Self { reached, findings, one_leg, usual, before })
-    }
-
-    /// The manoeuvre that is advised.
-    pub fn best(&self) -> &Finding {
-        self.findings.first().unwrap_or(&self.usual)
+        Ok(Self { reached, best, others: findings.collect(), one_leg, usual, before })
     }
 
     /// The advice as a sentence.
     pub fn sentence(&self, question: &Question) -> String {
-        let best = self.best();
+        let best = &self.best;
         let mut text = order(best);
         let known = |target: &&Target| self.reached.contains(target);
         let named = |target: &Target| {
@@ -114,6 +113,14 @@ pub struct Document {
     pub soil: String,
     /// Accuracy asked for, as a share of the value.
     pub accuracy: f64,
+    /// The longest manoeuvre that was looked at, s.
+    pub longest_s: f64,
+    /// Sensors, and what is known beforehand.
+    pub measurement: RoverMeasurement,
+    /// Rim speeds.
+    pub speeds: RimSpeeds,
+    /// What things cost.
+    pub weights: CostWeights,
     /// The sentence.
     pub advice: String,
     /// Targets that are known well enough after it.
@@ -122,8 +129,9 @@ pub struct Document {
     pub manoeuvres: Vec<Row>,
     /// The single leg that tells most in the same time as the first; none where the first has a single leg.
     pub one_leg: Option<Row>,
-    /// The usual drive in the same time as the first.
-    pub usual: Row,
+    /// The usual drive in the same time as the first; none where it leaves something open of which nothing is known
+    /// beforehand.
+    pub usual: Option<Row>,
 }
 
 /// A manoeuvre in the file.
@@ -153,6 +161,8 @@ pub struct LegRow {
     pub leg: Leg,
     /// Speed of the hubs, m/s.
     pub hub_speed_m_s: f64,
+    /// Rim speeds, m/s, front to rear.
+    pub rim_speeds_m_s: [f64; 3],
     /// Slips, front to rear.
     pub slips: [f64; 3],
     /// Loads, N, front to rear.
@@ -177,11 +187,15 @@ impl Document {
         Self {
             soil: soil.to_owned(),
             accuracy: question.accuracy,
+            longest_s: question.longest_s,
+            measurement: question.measurement,
+            speeds: question.speeds,
+            weights: question.weights,
             advice: advice.sentence(question),
             reached: advice.reached.clone(),
-            manoeuvres: advice.findings.iter().map(row).collect(),
+            manoeuvres: std::iter::once(&advice.best).chain(&advice.others).map(row).collect(),
             one_leg: advice.one_leg.as_ref().map(row),
-            usual: row(&advice.usual),
+            usual: advice.usual.as_ref().map(row),
         }
     }
 }
@@ -192,6 +206,7 @@ impl LegRow {
         Self {
             leg: driven.leg,
             hub_speed_m_s: driven.drive.hub_speed_m_s,
+            rim_speeds_m_s: wheels.map(|wheel| wheel.rim_speed_m_s),
             slips: wheels.map(|wheel| wheel.slip),
             loads_n: wheels.map(|wheel| wheel.load_n),
         }

@@ -43,6 +43,17 @@ pub struct Standardised {
     pub precision: f64,
 }
 
+impl Knowledge {
+    /// How well, in words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Known => "exactly",
+            Self::Prior => "as the usual prior has them",
+            Self::Free => "not at all",
+        }
+    }
+}
+
 impl Default for Beforehand {
     fn default() -> Self {
         Self { targets: Knowledge::Prior, pressure: Knowledge::Prior, peak: Knowledge::Prior }

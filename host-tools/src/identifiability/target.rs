@@ -1,21 +1,17 @@
 //! The three parameters that are asked for.
 
-use clap::ValueEnum;
 use kapvik_firmware::terramechanics::Soil;
 use serde::Serialize;
 
 /// A parameter that is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
     /// Cohesion c.
-    #[value(name = "c")]
     Cohesion,
     /// Angle of internal friction φ.
-    #[value(name = "phi")]
     FrictionAngle,
     /// Shear deformation modulus K.
-    #[value(name = "K", alias = "k")]
     ShearModulus,
 }
 

@@ -43,16 +43,18 @@ impl Observability {
 fn assumptions(told: &Observability) -> Vec<String> {
     let question = &told.question;
     let measurement = &question.measurement;
-    let lasting = &measurement.lasting;
+    let (lasting, beforehand) = (&measurement.lasting, &measurement.beforehand);
     let sinkage = match measurement.sinkage_m {
         Some(std_m) => format!("the sinkage of every wheel to {:.1} mm", 1e3 * std_m),
         None => "no sinkage".to_owned(),
     };
     vec![
         format!(
-            "To first order about {}. Beforehand c, φ, K, n, stiffness, c1 and c2 are known as the usual prior has them, \
-             unless said otherwise.",
-            told.soil
+            "To first order about {}. Beforehand, c, φ and K are known {}, n and the stiffness {}, c1 and c2 {}.",
+            told.soil,
+            beforehand.targets.in_words(),
+            beforehand.pressure.in_words(),
+            beforehand.peak.in_words()
         ),
         format!(
             "20 frames a second with the white noise of the rover's sensors, {sinkage}, and {:.1} N in each wheel's drawbar pull \
@@ -71,6 +73,14 @@ fn assumptions(told: &Observability) -> Vec<String> {
         format!(
             "The first {SETTLING_S:.0} s of every leg count for nothing: the drives come up to speed and the wheels roll over \
              the length of their contact."
+        ),
+        format!(
+            "Rims turn at {:.0} mm/s, and all of them slower where one would be faster than {:.0} mm/s. A joule beyond the \
+             usual drive costs {} s, a millimetre of sinkage {} s.",
+            1e3 * question.speeds.usual_m_s,
+            1e3 * question.speeds.top_m_s,
+            question.weights.per_joule,
+            question.weights.per_millimetre
         ),
         "Plane ground, one soil, equations 1–11: no slip-sinkage, no ruts, left and right alike. A wheel that spins in place \
          may dig itself in, which these equations do not know."

@@ -9,13 +9,16 @@ use crate::identifiability::search::Finding;
 use crate::identifiability::target::Target;
 use crate::report::page::head;
 
+/// Orders are sentences: they wrap.
+const STYLE: &str = "table.numbers td.manoeuvre { white-space: normal; min-width: 17rem; }";
+
 /// The page.
 pub fn page(told: &Observability) -> String {
     let title = "How to drive so that the soil shows";
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            (head(title, &[]))
+            (head(title, &[STYLE]))
             body class="wide" {
                 header {
                     h1 { (title) }
@@ -72,7 +75,7 @@ fn row(told: &Observability, what: &str, finding: &Finding) -> Markup {
     let expense = &finding.expense;
     html! {
         tr {
-            td { (what) }
+            td class="manoeuvre" { (what) }
             td { (format!("{:.0}", finding.cost)) }
             td { (format!("{:.0}", expense.time_s)) }
             td { (format!("{:.0}", expense.energy_j)) }

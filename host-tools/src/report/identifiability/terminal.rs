@@ -27,10 +27,11 @@ pub fn terminal(told: &Observability) -> String {
 /// All manoeuvres, with short names.
 pub(super) fn named(told: &Observability) -> Vec<(String, &Finding)> {
     let advice = &told.advice;
+    let computed = std::iter::once(&advice.best).chain(&advice.others).enumerate();
     let mut all: Vec<(String, &Finding)> =
-        advice.findings.iter().enumerate().map(|(place, finding)| (format!("{}", place + 1), finding)).collect();
+        computed.map(|(place, finding)| (format!("{}", place + 1), finding)).collect();
     all.extend(advice.one_leg.iter().map(|finding| ("one leg, same time".to_owned(), finding)));
-    all.push(("usual, same time".to_owned(), &advice.usual));
+    all.extend(advice.usual.iter().map(|finding| ("usual, same time".to_owned(), finding)));
     all
 }
 
