@@ -8,6 +8,7 @@ pub mod data;
 pub mod diagnose;
 pub mod error;
 pub mod flight_computer;
+pub mod identifiability;
 pub mod identify;
 pub mod limit;
 pub mod process;

@@ -6,6 +6,7 @@ mod compare;
 mod diagnose;
 mod forward;
 mod identify;
+mod observe;
 mod replay;
 mod run;
 mod setup;
@@ -56,6 +57,14 @@ pub enum Command {
     /// Every effect of the list is fitted on top of the declared model, and has to predict runs that it has not seen better
     /// than the declared model refitted. OUT.json says which effect earned its place, how sure that is, and what was next.
     Diagnose(diagnose::Arguments),
+    /// How to drive so that the soil shows: the manoeuvre that makes c, φ and K known at the least cost, computed
+    ///
+    /// Looks through what the rover can do: the wheels of each axle at rim speeds of their own, up and down a slope, one axle
+    /// spinning on the spot, alone or two in turn. Slips and loads follow from the balance of the rover's forces, what they
+    /// tell from the bound of Cramér and Rao with the noise of the rover's sensors, what of their errors lasts, and what is
+    /// believed of the soil beforehand. Also draws for which spread of slip and load, number of wheels and averaging time each
+    /// of them is known.
+    Observe(observe::Arguments),
     /// Train the networks and write the frozen table
     Train(train::Arguments),
     /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
@@ -93,6 +102,7 @@ impl Command {
             Self::CloseLoop(arguments) => close_loop::execute(&arguments),
             Self::Bench(subject) => subject.execute(),
             Self::Diagnose(arguments) => diagnose::execute(&arguments),
+            Self::Observe(arguments) => observe::execute(&arguments),
             Self::Train(arguments) => train::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
             Self::Simulate(arguments) => simulate::execute(&arguments),

@@ -141,7 +141,7 @@ fn rate(text: &str) -> Result<f64, String> {
 }
 
 /// A soil by its name in the catalogue, or from a file.
-fn soil(name: &str) -> Result<Soil<f64>, HostError> {
+pub(super) fn soil(name: &str) -> Result<Soil<f64>, HostError> {
     let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
     match soils.iter().find(|soil| soil.id == name) {
         Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {

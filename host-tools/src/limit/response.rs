@@ -22,7 +22,7 @@ pub struct Response {
     pub by_slip: Channels,
     /// Change with load (N) at constant slip.
     pub by_load: Channels,
-    /// Change with the soil at constant slip and load.
+    /// Change with the soil at constant slip and load: with its coordinates, or with c, φ, K, n, k_φ, c₁ and c₂ themselves.
     pub by_soil: Slopes,
 }
 
@@ -39,20 +39,34 @@ const PEAK: usize = 5;
 const SLIP: usize = 6;
 const SINKAGE: usize = 7;
 
-/// The response of a wheel on the soil at `point`, by Newton's method on ln W as a function of ln z from `guess_m`; none
-/// where the soil carries the load at no sinkage up to 0.9 r.
+/// The response of a wheel on the soil at `point`, by the coordinates of the soil: see [`respond_to`].
 pub fn respond(wheel: &Wheel<f64>, point: &Coordinates, slip: f64, load_n: f64, guess_m: f64) -> Option<Response> {
-    let soil = soil_at(point);
+    let mut response = respond_to(wheel, &soil_at(point), slip, load_n, guess_m)?;
+    for (mut column, scale) in response.by_soil.column_iter_mut().zip(slopes_at(point)) {
+        column *= scale;
+    }
+    Some(response)
+}
+
+/// [`respond_to`] with the slopes at the very sinkage, too.
+pub fn respond_exactly(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64) -> Option<Response> {
+    let near = respond_to(wheel, soil, slip, load_n, 0.25 * wheel.radius_m)?;
+    respond_to(wheel, soil, slip, load_n, near.value[2])
+}
+
+/// The response of a wheel on a soil, by the soil's own parameters (SI units), by Newton's method on ln W as a function of
+/// ln z from `guess_m`; none where the soil carries the load at no sinkage up to 0.9 r.
+pub fn respond_to(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64, guess_m: f64) -> Option<Response> {
     let mut sinkage_m = guess_m.clamp(1e-4 * wheel.radius_m, BOTTOM * wheel.radius_m);
     for _ in 0..STEPS {
-        let (channels, load) = forces(wheel, &soil, slip, sinkage_m)?;
+        let (channels, load) = forces(wheel, soil, slip, sinkage_m)?;
         let load_by_ln_sinkage = load.slopes[SINKAGE] * sinkage_m;
         if !(load.value > 0.0 && load_by_ln_sinkage > 0.0) {
             return None;
         }
         let step = libm::log(load_n / load.value) * load.value / load_by_ln_sinkage;
         if step.abs() < NEAR {
-            return Some(at_load(point, &soil, slip, step * load_by_ln_sinkage, &channels, &load));
+            return Some(at_load(soil, slip, step * load_by_ln_sinkage, &channels, &load));
         }
         sinkage_m *= libm::exp(step.clamp(-1.0, 1.0));
         if sinkage_m > BOTTOM * wheel.radius_m {
@@ -64,7 +78,6 @@ pub fn respond(wheel: &Wheel<f64>, point: &Coordinates, slip: f64, load_n: f64, 
 
 /// From forces at a sinkage to the response at a load that is `missing_n` greater.
 fn at_load(
-    point: &Coordinates,
     soil: &Soil<f64>,
     slip: f64,
     missing_n: f64,
@@ -75,7 +88,7 @@ fn at_load(
     let by_load = by(SINKAGE) / load.slopes[SINKAGE];
     // A change at constant sinkage, less what brings the load back.
     let at_constant_load = |variable: usize| by(variable) - by_load * load.slopes[variable];
-    let (by_peak, scale) = (at_constant_load(PEAK), slopes_at(point));
+    let by_peak = at_constant_load(PEAK);
     let mut by_soil = Slopes::zeros();
     for (axis, mut column) in by_soil.column_iter_mut().enumerate() {
         let by_parameter = match axis {
@@ -83,7 +96,7 @@ fn at_load(
             SLIP => by_peak * slip,
             _ => at_constant_load(axis),
         };
-        column.copy_from(&(by_parameter * scale[axis]));
+        column.copy_from(&by_parameter);
     }
     Response {
         value: Channels::from(channels.map(|channel| channel.value)) + by_load * missing_n,

@@ -9,6 +9,7 @@ mod estimates;
 mod facts;
 mod findings;
 mod gather;
+pub mod identifiability;
 mod legend;
 mod page;
 mod parameter;

@@ -1,0 +1,240 @@
+//! `kapvik observe`: how to drive so that the soil shows.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::time::Duration;
+
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use kapvik_firmware::terramechanics::Soil;
+
+use super::simulate;
+use crate::data::atomic_write::write_text;
+use crate::data::rover_file::RoverFile;
+use crate::error::HostError;
+use crate::identifiability::advice::Advice;
+use crate::identifiability::beforehand::{Beforehand, Knowledge, middle_soil};
+use crate::identifiability::cost::CostWeights;
+use crate::identifiability::manoeuvre::RimSpeeds;
+use crate::identifiability::map::{self, LOAD_CELLS, MapQuestion, SLIP_CELLS};
+use crate::identifiability::rover_side::RoverMeasurement;
+use crate::identifiability::search::Question;
+use crate::identifiability::sensors::{FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LastingErrors, instant_noise};
+use crate::identifiability::single_wheel::WheelMeasurement;
+use crate::identifiability::target::Target;
+use crate::report::identifiability::{Observability, page, picture, terminal};
+
+/// The soil that stands for not knowing it.
+const MIDDLE: &str = "prior";
+
+/// What is to be known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Wanted {
+    /// Cohesion
+    C,
+    /// Friction angle
+    Phi,
+    /// Shear modulus
+    K,
+    /// As many of them as can be
+    All,
+}
+
+/// Options of `kapvik observe`.
+#[derive(Args)]
+pub struct Arguments {
+    /// The soil: a name of `kapvik soils`, a file as of `kapvik forward`, or prior: the middle of what is believed beforehand
+    #[arg(long, value_name = "NAME|S.toml", default_value = MIDDLE)]
+    soil: String,
+    /// The rover; without: the assumed set K0, which also stands in for keys that the file lacks
+    #[arg(long, value_name = "R.toml")]
+    rover: Option<PathBuf>,
+    /// What is to be known
+    #[arg(long, value_enum, ignore_case = true, default_value = "all")]
+    target: Wanted,
+    /// How well: one standard deviation, as a share of the value
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, value_parser = above_zero)]
+    accuracy: f64,
+    /// The longest manoeuvre, s
+    #[arg(long, value_name = "S", default_value_t = 120.0, value_parser = above_zero)]
+    longest: f64,
+    /// The steepest slope at hand, degrees; 0: level ground alone
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = slope)]
+    slope: f64,
+    /// Rim speed of the usual drive, m/s
+    #[arg(long, value_name = "M_S", default_value_t = RimSpeeds::default().usual_m_s, value_parser = above_zero)]
+    speed: f64,
+    /// Greatest rim speed, m/s
+    #[arg(long, value_name = "M_S", default_value_t = RimSpeeds::default().top_m_s, value_parser = above_zero)]
+    top_speed: f64,
+    /// One standard deviation of a measured sinkage in one frame, m; without: sinkage is not measured
+    #[arg(long, value_name = "M", value_parser = above_zero)]
+    sinkage: Option<f64>,
+    /// What uneven ground adds to a wheel's drawbar pull over one second, N, one standard deviation; on the hills of `kapvik
+    /// simulate` it is about 2
+    #[arg(long, value_name = "N", default_value_t = 0.5, value_parser = not_negative)]
+    ground: f64,
+    /// What is known beforehand of c, φ and K
+    #[arg(long, value_enum, default_value = "prior")]
+    beforehand: Knowledge,
+    /// What is known beforehand of n and the stiffness
+    #[arg(long, value_enum, default_value = "prior")]
+    pressure: Knowledge,
+    /// What is known beforehand of c1 and c2
+    #[arg(long, value_enum, default_value = "prior")]
+    peak: Knowledge,
+    /// Lasting error of the velocimeter's scale, as a share
+    #[arg(long, value_name = "SHARE", default_value_t = LastingErrors::default().speed_scale, value_parser = not_negative)]
+    speed_bias: f64,
+    /// Lasting error of each load cell, N
+    #[arg(long, value_name = "N", default_value_t = LastingErrors::default().load_n, value_parser = not_negative)]
+    load_bias: f64,
+    /// Lasting error of each drive's torque, N·m
+    #[arg(long, value_name = "N_M", default_value_t = LastingErrors::default().torque_nm, value_parser = not_negative)]
+    torque_bias: f64,
+    /// Lasting error of the pitch, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.2, value_parser = not_negative)]
+    pitch_bias: f64,
+    /// Cost of a joule beyond the usual drive, in seconds of driving
+    #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_joule, value_parser = not_negative)]
+    joule_cost: f64,
+    /// Cost of a millimetre of sinkage beyond the usual drive, in seconds of driving
+    #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_millimetre, value_parser = not_negative)]
+    sinkage_cost: f64,
+    /// Where the advice goes as data
+    #[arg(long, value_name = "OUT.json")]
+    json: Option<PathBuf>,
+    /// Where the report goes, to open in a browser
+    #[arg(long, value_name = "OUT.html")]
+    html: Option<PathBuf>,
+    /// Where the map of identifiability goes
+    #[arg(long, value_name = "OUT.svg")]
+    picture: Option<PathBuf>,
+}
+
+/// Computes the advice and the map, and says what to do.
+///
+/// # Errors
+/// Where a file is not as it should be or cannot be written, or the rover cannot drive on the soil.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let told = observability(arguments)?;
+    println!("{}", terminal(&told));
+    if let Some(path) = &arguments.json {
+        let json = serde_json::to_string_pretty(&told.document())
+            .map_err(|error| HostError::Failed(format!("{}: {error}", path.display())))?;
+        write_text(path, &(json + "\n"))?;
+    }
+    if let Some(path) = &arguments.html {
+        write_text(path, &page(&told))?;
+    }
+    if let Some(path) = &arguments.picture {
+        write_text(path, &picture(&told))?;
+    }
+    Ok(())
+}
+
+fn observability(arguments: &Arguments) -> Result<Observability, HostError> {
+    let (soil, soil_in_words) = soil(&arguments.soil)?;
+    let rover = match &arguments.rover {
+        Some(path) => RoverFile::read(path)?,
+        None => RoverFile::assumed(),
+    }
+    .rover;
+    let question = arguments.question(rover, soil);
+    let map_question = arguments.map_question(&question);
+    // The map is only computed where it is drawn.
+    let draws = arguments.html.is_some() || arguments.picture.is_some();
+    let cells = if draws { SLIP_CELLS * LOAD_CELLS } else { 0 };
+    let bar = progress((question.grid().len() + cells) as u64);
+    let advice = Advice::new(&question, || bar.inc(1))
+        .map_err(|reason| HostError::Failed(format!("{}: {reason}", arguments.soil)))?;
+    let map = if draws { map::map(&map_question, || bar.inc(1)) } else { Vec::new() };
+    bar.finish_and_clear();
+    let rover_in_words = match &arguments.rover {
+        Some(path) => format!("rover {}", path.display()),
+        None => "assumed rover (set K0)".to_owned(),
+    };
+    Ok(Observability { soil: soil_in_words, rover: rover_in_words, question, advice, map_question, map })
+}
+
+impl Arguments {
+    fn question(&self, rover: kapvik_firmware::rover::Rover<f64>, soil: Soil<f64>) -> Question {
+        let targets = match self.target {
+            Wanted::C => vec![Target::Cohesion],
+            Wanted::Phi => vec![Target::FrictionAngle],
+            Wanted::K => vec![Target::ShearModulus],
+            Wanted::All => Target::ALL.to_vec(),
+        };
+        let lasting = LastingErrors {
+            speed_scale: self.speed_bias,
+            load_n: self.load_bias,
+            torque_nm: self.torque_bias,
+            pitch_rad: self.pitch_bias.to_radians(),
+            ..LastingErrors::default()
+        };
+        let beforehand = Beforehand { targets: self.beforehand, pressure: self.pressure, peak: self.peak };
+        Question {
+            rover,
+            soil,
+            targets,
+            accuracy: self.accuracy,
+            longest_s: self.longest,
+            steepest_rad: self.slope.to_radians(),
+            speeds: RimSpeeds { usual_m_s: self.speed, top_m_s: self.top_speed },
+            measurement: RoverMeasurement {
+                sinkage_m: self.sinkage,
+                ground_n: self.ground * FRAMES_PER_SECOND.sqrt(),
+                lasting,
+                beforehand,
+            },
+            weights: CostWeights {
+                per_joule: self.joule_cost,
+                per_millimetre: self.sinkage_cost,
+                ..CostWeights::default()
+            },
+        }
+    }
+
+    fn map_question(&self, question: &Question) -> MapQuestion {
+        let RoverMeasurement { lasting, beforehand, .. } = question.measurement;
+        let rover = &question.rover;
+        let measurement = WheelMeasurement { noise: instant_noise(), sinkage_seen: false, lasting, beforehand };
+        MapQuestion {
+            wheel: rover.wheel,
+            load_n: rover.mass_kg * rover.gravity_m_s2 / 6.0,
+            soil: question.soil,
+            measurement,
+            instants_per_second: INSTANTS_PER_SECOND,
+            accuracy: question.accuracy,
+        }
+    }
+}
+
+/// The soil, and what to call it.
+fn soil(name: &str) -> Result<(Soil<f64>, String), HostError> {
+    if name == MIDDLE {
+        return Ok((middle_soil(), "the soil in the middle of the prior".to_owned()));
+    }
+    Ok((simulate::soil(name)?, format!("soil {name}")))
+}
+
+fn progress(steps: u64) -> ProgressBar {
+    let bar = ProgressBar::new(steps);
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number = f64::from_str(text).ok().filter(|number| *number >= 0.0 && number.is_finite());
+    number.ok_or_else(|| "expected a number of 0 or more".to_owned())
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    not_negative(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+fn slope(text: &str) -> Result<f64, String> {
+    not_negative(text).ok().filter(|slope| *slope <= 30.0).ok_or_else(|| "expected degrees, 0 to 30".to_owned())
+}
