@@ -1,6 +1,5 @@
-
 //! Identification by the methods of the literature: known soils found again, known failures seen again.
-//! The soil from wheel states by the methods of the literature.
+
 mod closed_form;
 mod ding;
 mod ding_published;

@@ -2,6 +2,7 @@
 
 mod answer;
 mod bootstrap;
+mod cross;
 mod evidence;
 mod knowledge;
 mod limit;
@@ -124,7 +125,7 @@ fn by_itself(method: Method, evidence: &Evidence) -> Result<Finding, String> {
         Method::IagnemmaRecursive => literature::iagnemma_recursive(evidence),
         Method::Hutangkabodee => literature::hutangkabodee(evidence),
         Method::Ray => literature::ray(evidence),
-        Method::Cross => Err("not there yet".to_owned()),
+        Method::Cross => cross::cross(evidence),
         Method::Map => map::map(evidence),
         Method::Limit => limit::posterior_mean(evidence),
     }
