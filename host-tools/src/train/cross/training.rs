@@ -10,7 +10,7 @@ use super::{CrossNetwork, INPUTS, Scope, TARGETS};
 /// Examples that are drawn.
 const EXAMPLES: usize = 8000;
 /// Steps at most.
-const MOST_STEPS: usize = 150;
+const MOST_STEPS: usize = 100;
 /// Steps in a row without a better network on the examples to stop by, after which it ends.
 const PATIENCE: usize = 6;
 
