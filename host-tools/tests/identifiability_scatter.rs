@@ -191,7 +191,20 @@ fn question() -> Question {
     }
 }
 
-/// φ and ln K of estimates from simulated drives scatter about the truth as the bound says. What is believed beforehand is
+/// What a side showed in a leg, and where the biases of its sensors stand among the unknowns.
+type SideSeen<'a> = (&'a TrueLeg, usize, Seen);
+
+/// Residuals of unit variance: what was believed beforehand, and the channels of all sides in all legs.
+fn residuals(x: &[f64], believed: &Unknowns, stds: &Unknowns, seen: &[SideSeen<'_>]) -> DVector<f64> {
+    let mut all: Vec<f64> = (0..UNKNOWNS).map(|k| (x[k] - believed[k]) / stds[k]).collect();
+    for (leg, own, seen) in seen {
+        let found = seen.channels(x, &x[*own..*own + OWN]);
+        all.extend(leg.whitening.solve_lower_triangular(&found).unwrap().iter());
+    }
+    DVector::from_vec(all)
+}
+
+/// The bound is the covariance by differences at the truth; and φ and ln K of estimates from simulated drives scatter about the truth as the bound says. What is believed beforehand is
 /// drawn anew for every drive: it is one more measurement.
 fn scatter(ratios: &[[f64; 3]]) {
     let question = question();
@@ -205,6 +218,16 @@ fn scatter(ratios: &[[f64; 3]]) {
     let legs: Vec<TrueLeg> = driven.iter().map(|driven| TrueLeg::new(driven, measured_s)).collect();
 
     let (truth, stds) = (truth(), stds());
+    let sides = || legs.iter().flat_map(|leg| [(leg, SHARED), (leg, SHARED + OWN)]);
+    let quiet: Vec<SideSeen<'_>> = sides().map(|(leg, own)| (leg, own, leg.quiet)).collect();
+    let slopes = jacobian(&truth, &stds, |x| residuals(x, &truth, &stds, &quiet));
+    let covariance = (slopes.transpose() * &slopes).try_inverse().unwrap();
+    for (place, expected) in bound.stds().iter().enumerate() {
+        let found = covariance[(place, place)].sqrt();
+        println!("{ratios:?} unknown {place}: by differences {found}, bound {expected}");
+        assert!((found / expected - 1.0).abs() < 2e-3, "unknown {place}: {found}, bound {expected}");
+    }
+
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut normal = || random.sample::<f64, _>(StandardNormal);
     let mut errors = Vec::new();
@@ -214,28 +237,21 @@ fn scatter(ratios: &[[f64; 3]]) {
             let drawn = if place < SOIL { &mut believed } else { &mut actual };
             drawn[place] += stds[place] * normal();
         }
-        let mut seen = Vec::new();
-        for leg in &legs {
-            for own in [SHARED, SHARED + OWN] {
+        let seen: Vec<SideSeen<'_>> = sides()
+            .map(|(leg, own)| {
                 let white = std::array::from_fn(|_| normal());
-                seen.push((leg, own, leg.seen(&white, &actual, &actual[own..own + OWN])));
-            }
-        }
-        let residuals = |x: &[f64]| {
-            let mut all: Vec<f64> = (0..UNKNOWNS).map(|k| (x[k] - believed[k]) / stds[k]).collect();
-            for (leg, own, seen) in &seen {
-                let found = seen.channels(x, &x[*own..*own + OWN]);
-                all.extend(leg.whitening.solve_lower_triangular(&found).unwrap().iter());
-            }
-            DVector::from_vec(all)
-        };
+                (leg, own, leg.seen(&white, &actual, &actual[own..own + OWN]))
+            })
+            .collect();
+        let residuals = |x: &[f64]| residuals(x, &believed, &stds, &seen);
         errors.push(gauss_newton(&truth, &stds, residuals));
     }
     for (target, name) in [(1, "φ"), (2, "ln K")] {
         let squares: f64 = errors.iter().map(|x| (x[target] - truth[target]).powi(2)).sum();
         let (scatter, expected) = ((squares / DRAWS as f64).sqrt(), bound.stds()[target]);
         println!("{ratios:?} {name}: scatter {scatter}, bound {expected}");
-        // The scatter of DRAWS normal errors is known to 1/√(2 DRAWS) of itself.
+        // The scatter of DRAWS normal errors is known to 1/√(2 DRAWS) of itself; what the curvature of the equations adds
+        // is less than four of these.
         let tolerance = 4.0 / (2.0 * DRAWS as f64).sqrt();
         assert!((scatter / expected - 1.0).abs() < tolerance, "{name}: {scatter}, bound {expected}");
     }
@@ -252,22 +268,26 @@ fn estimates_of_two_legs_scatter_as_the_bound_says() {
     scatter(&[[1.0, 1.3, 1.0], [1.0, 1.0, 1.3]]);
 }
 
+/// Slopes of the residuals, by differences.
+fn jacobian(x: &[f64], scales: &[f64], residuals: impl Fn(&[f64]) -> DVector<f64>) -> DMatrix<f64> {
+    let columns = scales.iter().enumerate().map(|(k, scale)| {
+        let moved = |by: f64| {
+            let mut moved = x.to_vec();
+            moved[k] += by;
+            residuals(&moved)
+        };
+        let step = 1e-4 * scale;
+        (moved(step) - moved(-step)) / (2.0 * step)
+    });
+    DMatrix::from_columns(&columns.collect::<Vec<_>>())
+}
+
 /// The least sum of squares from `start`, by Gauss–Newton with steps that are halved until they lead down.
 fn gauss_newton(start: &[f64], scales: &[f64], residuals: impl Fn(&[f64]) -> DVector<f64>) -> Vec<f64> {
     const SETTLED: f64 = 1e-6;
     let (mut x, mut at) = (start.to_vec(), residuals(start));
     for _ in 0..15 {
-        let mut jacobian = DMatrix::zeros(at.len(), x.len());
-        for (k, scale) in scales.iter().enumerate() {
-            let moved = |by: f64| {
-                let mut moved = x.clone();
-                moved[k] += by;
-                residuals(&moved)
-            };
-            let step = 1e-4 * scale;
-            jacobian.set_column(k, &((moved(step) - moved(-step)) / (2.0 * step)));
-        }
-        let step = jacobian.svd(true, true).solve(&at, 1e-14).unwrap();
+        let step = jacobian(&x, scales, &residuals).svd(true, true).solve(&at, 1e-14).unwrap();
         let shares = (0..12).map(|halvings| 0.5_f64.powi(halvings));
         let tried = shares.map(|share| x.iter().zip(&step).map(|(x, step)| x - share * step).collect::<Vec<f64>>());
         let lower = tried.map(|to| (residuals(&to), to)).find(|(found, _)| found.norm_squared() < at.norm_squared());

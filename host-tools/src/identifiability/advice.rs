@@ -93,10 +93,14 @@ impl Advice {
     }
 }
 
-/// A share as whole per cent; more digits where it is small.
+/// A share as whole per cent; more digits where it is small, and none where it means that nothing is known.
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
-    if percent < 1.0 { format!("{percent:.1} %") } else { format!("{percent:.0} %") }
+    match percent {
+        ..1.0 => format!("{percent:.1} %"),
+        ..1000.0 => format!("{percent:.0} %"),
+        _ => "over 1000 %".to_owned(),
+    }
 }
 
 /// A manoeuvre as an order.

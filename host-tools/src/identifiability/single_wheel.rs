@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, Vector3};
 use super::beforehand::{Beforehand, by_parameters};
 use super::information::{Information, SHARED, SPEED_SCALE, Slopes, covariance, unit};
 use super::sensors::LastingErrors;
-use crate::limit::response::{Channels, respond_exactly};
+use crate::limit::response::respond_exactly;
 
 /// How a wheel is measured, and what is known beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +55,6 @@ impl WheelMeasurement {
         slopes.set_column(SHARED, &(response.by_load * lasting.load_n));
         slopes.set_column(SHARED + 1, &(unit::<3>(1) * lasting.torque_nm));
         slopes.set_column(SHARED + 2, &(unit::<3>(0) * lasting.drawbar_pull_n));
-        Information::new(slopes, &covariance(&errors), if self.sinkage_seen { Channels::zeros().len() } else { 2 })
+        Information::new(slopes, &covariance(&errors), if self.sinkage_seen { 3 } else { 2 })
     }
 }
