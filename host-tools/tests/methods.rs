@@ -115,7 +115,7 @@ fn compared(situation: &str) -> Comparison {
 
 fn score(comparison: &Comparison, contender: &str, parameter: Parameter) -> ParameterScore {
     let scores = &comparison.situations[0].scores;
-    *scores.iter().find(|score| score.contender == contender).expect("a contender").parameter(parameter)
+    scores.iter().find(|score| score.contender == contender).expect("a contender").parameter(parameter).clone()
 }
 
 /// Published: φ 31.2 [30.8, 31.7] on one instant and 31.8 [31.3, 32.0] on a mean of a hundred, K 11.1 and 11.4 mm.

@@ -2,9 +2,10 @@
 
 use kapvik_firmware::terramechanics::Soil;
 
-use crate::identify::method::{Evidence, Finding, Method, answer, networks};
+use crate::identify::method::{Evidence, Finding, Method, answer, networks, training_prior};
 
 use super::case::Case;
+use super::situation::{Situation, SlipSinkage, Truth};
 
 /// A method as it is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +33,8 @@ enum Way {
 enum Told {
     /// The middle of the prior.
     Middle,
+    /// What the networks were trained with, in place of the usual prior.
+    PriorOfNetworks,
     /// The true K.
     ShearModulus,
     /// All that it does not estimate: the truth.
@@ -45,13 +48,15 @@ const fn contender(id: &'static str, label: &'static str, way: Way, told: Told) 
 }
 
 /// All of them, in the order of the table.
-pub const CONTENDERS: [Contender; 13] = [
+pub const CONTENDERS: [Contender; 15] = [
     contender("limit", "limit (posterior mean)", Way::By(Method::Limit), Told::Middle),
     contender("map", "map", Way::By(Method::Map), Told::Middle),
+    contender("map-box", "map, prior of the networks", Way::By(Method::Map), Told::PriorOfNetworks),
     contender("network", "network, rover", Way::By(Method::Network), Told::Middle),
     contender("network-one-wheel", "network, one wheel", Way::OneWheel, Told::Middle),
     contender("cross", "cross", Way::By(Method::Cross), Told::Middle),
     contender("ding", "ding", Way::By(Method::Ding), Told::Middle),
+    contender("ding-bounded", "ding, bounded", Way::By(Method::DingBounded), Told::Middle),
     contender("iagnemma", "iagnemma, K assumed", Way::By(Method::Iagnemma), Told::Middle),
     contender("iagnemma-K", "iagnemma, K known", Way::By(Method::Iagnemma), Told::ShearModulus),
     contender(
@@ -70,6 +75,17 @@ impl Contender {
     /// Whether it is the limit, which only counts where its prior is that of the cases.
     pub fn is_limit(&self) -> bool {
         self.way == Way::By(Method::Limit)
+    }
+
+    /// Whether it is asked in a situation: not where it would be another once more.
+    pub fn takes_part(&self, situation: &Situation) -> bool {
+        let drawn = situation.truth == Truth::Drawn;
+        match (self.way, self.told) {
+            // Its prior is that of the networks, and it knows equations 1–11.
+            (Way::By(Method::Limit), _) => drawn && situation.slip_sinkage == SlipSinkage::None,
+            (_, Told::PriorOfNetworks) => !drawn,
+            _ => true,
+        }
     }
 
     /// What it says of a case.
@@ -91,6 +107,7 @@ impl Contender {
         let assumed = &mut evidence.assumed.soil;
         match self.told {
             Told::Middle => {}
+            Told::PriorOfNetworks => evidence.prior = training_prior(),
             Told::ShearModulus => assumed.shear_modulus_m = case.soil.shear_modulus_m,
             Told::AllElse => {
                 *assumed = Soil {

@@ -18,7 +18,7 @@ use crate::error::HostError;
 pub use case::{Case, case};
 pub use contender::{CONTENDERS, Contender};
 pub use measured::{MeasuredRow, measured};
-pub use score::{Parameter, ParameterScore, Score, Timed};
+pub use score::{Parameter, ParameterScore, Score, Timed, is_beaten};
 pub use situation::{SITUATIONS, Situation, SlipSinkage, Truth};
 
 /// What is to be compared.
@@ -91,9 +91,10 @@ impl CompareOptions {
     /// At a situation that there is not.
     pub fn answers(&self) -> Result<usize, HostError> {
         let of = |situation: &&Situation| {
-            let others = CONTENDERS.len() - 1;
-            let limit = if has_limit(situation) { self.limit_cases.min(self.cases) } else { 0 };
-            others * self.cases + limit
+            let cases = |contender: &Contender| {
+                if contender.is_limit() { self.limit_cases.min(self.cases) } else { self.cases }
+            };
+            CONTENDERS.iter().filter(|contender| contender.takes_part(situation)).map(cases).sum::<usize>()
         };
         Ok(self.situations()?.iter().map(of).sum())
     }
@@ -116,20 +117,14 @@ impl CompareOptions {
     }
 }
 
-/// The limit's prior is that of the networks, and it knows equations 1–11.
-fn has_limit(situation: &Situation) -> bool {
-    situation.truth == Truth::Drawn && situation.slip_sinkage == SlipSinkage::None
-}
-
 fn compared(situation: &Situation, options: &CompareOptions, done: &(impl Fn() + Sync)) -> Compared {
     let cases: Vec<Case> =
         (0..options.cases).into_par_iter().filter_map(|place| case(situation, options.seed, place)).collect();
     let truths: Vec<Soil<f64>> = cases.iter().map(|case| case.soil).collect();
-    let has_limit = has_limit(situation);
     let limit_cases = options.limit_cases.min(cases.len());
     let answers: Vec<(&Contender, Vec<Timed>)> = CONTENDERS
         .iter()
-        .filter(|contender| has_limit || !contender.is_limit())
+        .filter(|contender| contender.takes_part(situation))
         .map(|contender| {
             let asked = if contender.is_limit() { &cases[..limit_cases] } else { &cases };
             (contender, asked.par_iter().map(|case| timed(contender, case, done)).collect())

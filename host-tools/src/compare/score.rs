@@ -1,6 +1,9 @@
 //! How far answers are from the truth, case by case and over many.
 
 use kapvik_firmware::terramechanics::Soil;
+use rand::SeedableRng;
+use rand::seq::IndexedRandom;
+use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
 use crate::identify::method::{Finding, Statement};
@@ -38,7 +41,7 @@ pub struct Score {
 }
 
 /// Of one parameter, over the cases that were answered.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct ParameterScore {
     /// Median of the estimates.
     pub median: f64,
@@ -60,6 +63,9 @@ pub struct ParameterScore {
     pub identifiable: f64,
     /// Whether the contender takes it as given.
     pub assumed: bool,
+    /// Sizes of the errors by place of the case, for comparison with others; not written.
+    #[serde(skip)]
+    pub errors: Vec<(usize, f64)>,
 }
 
 /// One answer, and how long it took.
@@ -107,8 +113,11 @@ impl Parameter {
 impl Score {
     /// Of a contender's answers to the cases.
     pub fn of(contender: &'static str, truths: &[Soil<f64>], answers: &[Timed]) -> Self {
-        let answered = |(truth, timed): (&Soil<f64>, &Timed)| Some((*truth, timed.found.as_ref().ok()?.clone()));
-        let found: Vec<(Soil<f64>, Finding)> = truths.iter().zip(answers).filter_map(answered).collect();
+        let answered = |(place, (truth, timed)): (usize, (&Soil<f64>, &Timed))| {
+            Some((place, *truth, timed.found.as_ref().ok()?.clone()))
+        };
+        let found: Vec<(usize, Soil<f64>, Finding)> =
+            truths.iter().zip(answers).enumerate().filter_map(answered).collect();
         let [cohesion_pa, friction_angle_deg, shear_modulus_mm] =
             Parameter::ALL.map(|parameter| ParameterScore::of(parameter, &found));
         let cases = answers.len();
@@ -135,18 +144,19 @@ impl Score {
 }
 
 impl ParameterScore {
-    fn of(parameter: Parameter, found: &[(Soil<f64>, Finding)]) -> Self {
+    fn of(parameter: Parameter, found: &[(usize, Soil<f64>, Finding)]) -> Self {
         let (scale, count) = (parameter.scale(), found.len() as f64);
-        let values = sorted(found.iter().map(|(_, finding)| scale * parameter.of_finding(finding).value));
-        let error = |(soil, finding): &(Soil<f64>, Finding)| {
+        let values = sorted(found.iter().map(|(_, _, finding)| scale * parameter.of_finding(finding).value));
+        let error = |(_, soil, finding): &(usize, Soil<f64>, Finding)| {
             scale * parameter.of_finding(finding).value - parameter.of_soil(soil)
         };
+        let by_place = found.iter().map(|one| (one.0, error(one).abs())).collect();
         let errors = sorted(found.iter().map(error));
         let sizes = sorted(errors.iter().map(|error| error.abs()));
         let share = |holds: &dyn Fn(f64, &Statement) -> bool| {
             let held = found
                 .iter()
-                .filter(|(soil, finding)| holds(parameter.of_soil(soil) / scale, parameter.of_finding(finding)));
+                .filter(|(_, soil, finding)| holds(parameter.of_soil(soil) / scale, parameter.of_finding(finding)));
             held.count() as f64 / count
         };
         let inside = |truth: f64, [low, high]: [f64; 2]| low <= truth && truth <= high;
@@ -160,9 +170,27 @@ impl ParameterScore {
             within_68: share(&|truth, statement| inside(truth, statement.interval_68)),
             within_95: share(&|truth, statement| inside(truth, statement.interval_95)),
             identifiable: share(&|_, statement| statement.identifiable),
-            assumed: found.iter().any(|(_, finding)| parameter.of_finding(finding).assumed),
+            errors: by_place,
+            assumed: found.iter().any(|(_, _, finding)| parameter.of_finding(finding).assumed),
         }
     }
+}
+
+/// Whether the median error of one is greater than that of the other beyond the chance of the cases drawn: in 95 of 100
+/// resamplings of the cases that both answered (B. Efron's bootstrap).
+pub fn is_beaten(one: &ParameterScore, other: &ParameterScore) -> bool {
+    const RESAMPLINGS: usize = 1000;
+    let others: std::collections::HashMap<usize, f64> = other.errors.iter().copied().collect();
+    let pairs: Vec<(f64, f64)> =
+        one.errors.iter().filter_map(|(place, error)| Some((*error, *others.get(place)?))).collect();
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    let mut worse = || {
+        let drawn: Vec<&(f64, f64)> = (0..pairs.len()).filter_map(|_| pairs.choose(&mut random)).collect();
+        quantile(&sorted(drawn.iter().map(|pair| pair.0)), 0.5)
+            > quantile(&sorted(drawn.iter().map(|pair| pair.1)), 0.5)
+    };
+    let count = (0..RESAMPLINGS).filter(|_| worse()).count();
+    count as f64 > 0.95 * RESAMPLINGS as f64
 }
 
 fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {

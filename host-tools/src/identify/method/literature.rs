@@ -11,12 +11,21 @@ use super::{Evidence, Finding, method_refusal};
 /// What an equation of the recursive method counts for once the next has come: it remembers some fifty.
 const FORGETTING: f64 = 0.98;
 
-/// Decoupled analytical identification.
+/// Decoupled analytical identification, c and φ being whatever the least squares say: as its published behaviour has it.
 ///
 /// # Errors
 /// The refusal, in words; so with all of these.
 pub fn ding(evidence: &Evidence) -> Result<Finding, String> {
-    worded(ding_fit(&evidence.wheel, &evidence.observations, &DingBounds::usual()))
+    ding_within(evidence, &DingBounds::usual().with_any_strength())
+}
+
+/// The same with 0 ≤ c and 0 ≤ tan φ ≤ 1.2, without which it is not fit for use.
+pub fn ding_bounded(evidence: &Evidence) -> Result<Finding, String> {
+    ding_within(evidence, &DingBounds::usual())
+}
+
+fn ding_within(evidence: &Evidence, bounds: &DingBounds<f64>) -> Result<Finding, String> {
+    worded(ding_fit(&evidence.wheel, &evidence.observations, bounds))
 }
 
 /// Linearised stresses, K assumed.

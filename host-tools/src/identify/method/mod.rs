@@ -28,6 +28,8 @@ pub enum Method {
     Network,
     /// Decoupled analytical identification (L. Ding et al. 2009), least squares over wheels and instants
     Ding,
+    /// The same with cohesion and friction angle held within bounds
+    DingBounded,
     /// Linearised stress, least squares for c and φ with K assumed (K. Iagnemma et al. 2004)
     Iagnemma,
     /// The same, row after row with forgetting
@@ -52,9 +54,10 @@ const FORCES_AND_SINKAGE: [Channel; 5] =
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Network,
         Self::Ding,
+        Self::DingBounded,
         Self::Iagnemma,
         Self::IagnemmaRecursive,
         Self::Hutangkabodee,
@@ -69,6 +72,7 @@ impl Method {
         match self {
             Self::Network => "network",
             Self::Ding => "ding",
+            Self::DingBounded => "ding-bounded",
             Self::Iagnemma => "iagnemma",
             Self::IagnemmaRecursive => "iagnemma-recursive",
             Self::Hutangkabodee => "hutangkabodee",
@@ -97,7 +101,7 @@ impl Method {
     pub const fn needs(self) -> &'static [Channel] {
         match self {
             Self::Network | Self::Ray | Self::Map | Self::Limit => &FORCES,
-            Self::Ding | Self::Cross => &FORCES_AND_SINKAGE,
+            Self::Ding | Self::DingBounded | Self::Cross => &FORCES_AND_SINKAGE,
             Self::Iagnemma | Self::IagnemmaRecursive => {
                 &[Channel::Slip, Channel::Load, Channel::Torque, Channel::Sinkage]
             }
@@ -121,6 +125,7 @@ fn by_itself(method: Method, evidence: &Evidence) -> Result<Finding, String> {
     match method {
         Method::Network => networks::rover(evidence),
         Method::Ding => literature::ding(evidence),
+        Method::DingBounded => literature::ding_bounded(evidence),
         Method::Iagnemma => literature::iagnemma(evidence),
         Method::IagnemmaRecursive => literature::iagnemma_recursive(evidence),
         Method::Hutangkabodee => literature::hutangkabodee(evidence),

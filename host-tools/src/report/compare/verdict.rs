@@ -1,12 +1,12 @@
 //! What follows from a comparison, in sentences.
 
-use crate::compare::{Compared, Comparison, Parameter, Score};
+use crate::compare::{Compared, Comparison, Parameter, Score, is_beaten};
 use crate::report::draw::number;
 
 use super::terminal::label;
 
-/// Methods that are told what nobody knows on a drive: they stand in the table, but they are not in the contest.
-const TOLD_THE_TRUTH: [&str; 4] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n", "ray-bank"];
+/// Methods that are told what nobody knows on a drive, or stand in the table with another prior: they are not in the contest.
+const TOLD_THE_TRUTH: [&str; 5] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n", "ray-bank", "map-box"];
 /// Who answers less often, or says more often of its answer that the data do not tell it, has no say: the middle of the prior
 /// is near a truth that lies there, whatever was seen.
 const LEAST_TOLD: f64 = 0.5;
@@ -52,25 +52,25 @@ fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
     let lost: Vec<String> = told.iter().filter_map(|compared| loss(compared, parameter)).collect();
     let won = told.len() - lost.len();
     let mut text = format!(
-        "{}: of the methods that claim to tell it, map has the least median error in {won} of {} situations in which the model \
-         is right and some method tells it",
+        "{}: no method that claims to tell it has a median error below that of map, beyond the chance of the cases drawn, in \
+         {won} of {} situations in which the model is right and some method tells it",
         symbol(parameter),
         told.len()
     );
     if !lost.is_empty() {
-        text += &format!("; otherwise {}", lost.join("; "));
+        text += &format!("; but {}", lost.join("; "));
     }
     Some(text)
 }
 
 fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
     let best = winner(compared, parameter)?;
-    if best.contender == "map" {
-        return None;
-    }
     let digits = usize::from(parameter != Parameter::Cohesion) * 2;
     let error = |score: &Score| number(score.parameter(parameter).median_error, digits, false);
     let map = compared.scores.iter().find(|score| score.contender == "map")?;
+    if best.contender == "map" || !is_beaten(map.parameter(parameter), best.parameter(parameter)) {
+        return None;
+    }
     Some(format!("{} in {} ({} against {})", label(best.contender), compared.id, error(best), error(map)))
 }
 
