@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use crate::compare::{CONTENDERS, Compared, Comparison, Parameter, Score};
 use crate::report::draw::number;
 
-use super::verdict::is_best;
+use super::verdict::{is_best, is_in_contest};
 
 /// The table of one parameter. The shade of a cell says how its error compares with the least of its column.
 pub fn table(comparison: &Comparison, parameter: Parameter) -> Markup {
@@ -57,12 +57,8 @@ fn cell(compared: &Compared, contender: &str, parameter: Parameter) -> Markup {
 /// White at the least error of the situation, rust at ten times it and more.
 fn shade(compared: &Compared, score: &Score, parameter: Parameter) -> String {
     let error = |score: &Score| score.parameter(parameter).median_error;
-    let least = compared
-        .scores
-        .iter()
-        .filter(|score| !score.parameter(parameter).assumed)
-        .map(error)
-        .fold(f64::INFINITY, f64::min);
+    let counts = |score: &&Score| is_in_contest(score) && !score.parameter(parameter).assumed;
+    let least = compared.scores.iter().filter(counts).map(error).fold(f64::INFINITY, f64::min);
     let strength = ((error(score) / least.max(1e-9)).log10() * 0.42).clamp(0.0, 0.42);
     format!("rgba(180,80,28,{strength:.2})")
 }

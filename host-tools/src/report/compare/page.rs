@@ -8,7 +8,7 @@ use crate::report::page::head;
 
 use super::quartiles::{chart, percent};
 use super::terminal::{cramer_rao, duration, label, measured_rows};
-use super::verdict::{symbol, verdicts};
+use super::verdict::{symbol, to_limit, verdicts};
 use super::{COMPARE_CSS, overview};
 
 /// What the reader has to know of how it was done.
@@ -43,6 +43,7 @@ pub fn page(comparison: &Comparison) -> String {
                     }
                     p class="note" { "The darker, the further from the least error of the column (rust: tenfold). Bold: least of the methods \
                         that are told no more than the others." }
+                    (limit_section(comparison))
                     section { h2 { "How it was done" } ul class="caveats" { @for line in METHOD { li { (line) } } } }
                     @for compared in &comparison.situations { (situation(compared)) }
                     @if !comparison.measured.is_empty() { (measured_section(comparison)) }
@@ -51,6 +52,22 @@ pub fn page(comparison: &Comparison) -> String {
         }
     };
     page.into_string()
+}
+
+fn limit_section(comparison: &Comparison) -> Markup {
+    let rows = to_limit(comparison);
+    html! {
+        @if !rows.is_empty() {
+            section {
+                h2 { "How near to the limit" }
+                div class="scroll" { table class="numbers" {
+                    caption { "Root mean square error over that of the limit, on the same cases." }
+                    thead { tr { th {} th {} th { "c" } th { "φ" } th { "K" } } }
+                    tbody { @for cells in rows { tr { @for cell in cells { td { (cell) } } } } }
+                } }
+            }
+        }
+    }
 }
 
 fn unit(parameter: Parameter) -> &'static str {

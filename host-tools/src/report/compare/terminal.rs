@@ -7,7 +7,7 @@ use crate::identify::ParameterDocument;
 use crate::report::draw::number;
 use crate::report::terminal::{align_right, plain_table};
 
-use super::verdict::{is_best, verdicts};
+use super::verdict::{is_best, to_limit, verdicts};
 
 /// What the figures are.
 const LEGEND: &str = "median of the estimates [quartiles], median size of the error, 68 % and 95 % intervals that hold the truth in %; \
@@ -27,6 +27,10 @@ pub fn terminal(comparison: &Comparison) -> String {
             "\none wheel at six slips, measured (Ding et al. 2011); direct tests: c 250 Pa, φ 31.9°, K 9.7–13.1 mm\n{}\n",
             measured(&comparison.measured)
         );
+    }
+    let near = to_limit(comparison);
+    if !near.is_empty() {
+        text += &format!("\nroot mean square error over that of the limit, on the same cases\n{}\n", limit_table(near));
     }
     text += "\n";
     for verdict in verdicts(comparison) {
@@ -84,6 +88,16 @@ fn cells(compared: &Compared, score: &Score, parameter: Parameter) -> [String; 3
 
 fn coverage(score: &ParameterScore) -> String {
     format!("{}, {}", number(100.0 * score.within_68, 0, false), number(100.0 * score.within_95, 0, false))
+}
+
+fn limit_table(rows: Vec<[String; 5]>) -> Table {
+    let mut table = plain_table();
+    table.set_header(["", "", "c", "φ", "K"]);
+    for row in rows {
+        table.add_row(row);
+    }
+    align_right(&mut table);
+    table
 }
 
 /// The words for a contender.

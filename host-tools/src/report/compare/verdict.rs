@@ -16,11 +16,16 @@ pub fn is_best(compared: &Compared, score: &Score, parameter: Parameter) -> bool
     winner(compared, parameter).is_some_and(|best| best.contender == score.contender)
 }
 
+/// Whether a method is told no more than the others.
+pub fn is_in_contest(score: &Score) -> bool {
+    !TOLD_THE_TRUTH.contains(&score.contender)
+}
+
 fn winner(compared: &Compared, parameter: Parameter) -> Option<&Score> {
     let contests = |score: &&Score| {
         let of = score.parameter(parameter);
         score.contender != "limit"
-            && !TOLD_THE_TRUTH.contains(&score.contender)
+            && is_in_contest(score)
             && !of.assumed
             && (1.0 - score.refused) * of.identifiable >= LEAST_TOLD
     };
@@ -28,16 +33,23 @@ fn winner(compared: &Compared, parameter: Parameter) -> Option<&Score> {
     compared.scores.iter().filter(contests).min_by(|a, b| error(a).total_cmp(&error(b)))
 }
 
-/// Who wins where, and how near the network is to the limit.
+/// Who wins where.
 pub fn verdicts(comparison: &Comparison) -> Vec<String> {
-    let mut verdicts = Vec::new();
-    for parameter in Parameter::ALL {
-        verdicts.extend(wins(comparison, parameter));
-    }
-    for parameter in Parameter::ALL {
-        verdicts.extend(comparison.situations.iter().filter_map(|compared| to_limit(compared, parameter)));
-    }
-    verdicts
+    Parameter::ALL.into_iter().filter_map(|parameter| wins(comparison, parameter)).collect()
+}
+
+/// How near the methods come to the limit: situation, method, and the ratios of c, φ and K. The nearest methods alone.
+pub fn to_limit(comparison: &Comparison) -> Vec<[String; 5]> {
+    const NEAREST: [&str; 2] = ["map", "network"];
+    let of = |compared: &Compared| -> Vec<[String; 5]> {
+        let near = compared.to_limit.iter().filter(|one| NEAREST.contains(&one.contender));
+        near.map(|one| {
+            let [c, phi, k] = one.ratio.map(|ratio| number(ratio, 2, false));
+            [compared.id.to_owned(), label(one.contender).to_owned(), c, phi, k]
+        })
+        .collect()
+    };
+    comparison.situations.iter().flat_map(of).collect()
 }
 
 fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
@@ -72,19 +84,6 @@ fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
         return None;
     }
     Some(format!("{} in {} ({} against {})", label(best.contender), compared.id, error(best), error(map)))
-}
-
-fn to_limit(compared: &Compared, parameter: Parameter) -> Option<String> {
-    let place = Parameter::ALL.iter().position(|one| *one == parameter)?;
-    let of = |id: &str| compared.to_limit.iter().find(|one| one.contender == id);
-    let ratio = |id| of(id).map(|one| number(one.ratio[place], 2, false));
-    Some(format!(
-        "{}, {}: root mean square error over that of the limit: map {}, rover network {}",
-        symbol(parameter),
-        compared.id,
-        ratio("map")?,
-        ratio("network")?
-    ))
 }
 
 /// The letter of a parameter.
