@@ -8,6 +8,7 @@ use crate::data::atomic_write::write_json;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
 use crate::identify::{Document, Method, identify, identify_by};
+use crate::report::identified;
 
 use super::diagnose::campaign;
 
@@ -34,5 +35,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         }
         method => identify_by(method, &campaign)?,
     };
-    write_json(&arguments.json, &document)
+    write_json(&arguments.json, &document)?;
+    println!("{}", identified(&document));
+    Ok(())
 }

@@ -146,6 +146,11 @@ impl Document {
     }
 
     /// The runs.
+    pub fn runs(&self) -> &[RunDocument] {
+        &self.runs
+    }
+
+    /// The runs alone.
     pub fn into_runs(self) -> Vec<RunDocument> {
         self.runs
     }

@@ -10,6 +10,7 @@ mod facts;
 mod findings;
 mod gather;
 pub mod identifiability;
+mod identified;
 mod legend;
 mod page;
 mod parameter;
@@ -22,6 +23,7 @@ mod verdict;
 
 pub use facts::{FlightFacts, FlownNetworks, lines as flight_lines, link as link_in_words};
 pub use findings::{EstimateRow, Findings, RowKind, fingerprint};
+pub use identified::identified;
 pub use page::page;
 pub use parameter::Parameter;
 pub use picture::picture;

@@ -3,8 +3,8 @@
 use comfy_table::Table;
 
 use crate::compare::{CONTENDERS, Compared, Comparison, MeasuredRow, Parameter, ParameterScore, Score};
-use crate::identify::ParameterDocument;
 use crate::report::draw::number;
+use crate::report::identified::soil_cells;
 use crate::report::terminal::{align_right, plain_table};
 
 use super::verdict::{is_best, to_limit, verdicts};
@@ -127,25 +127,11 @@ fn measured(rows: &[MeasuredRow]) -> Table {
 /// The cells of each measured row: method, c, φ, K, and why it refused.
 pub fn measured_rows(rows: &[MeasuredRow]) -> Vec<[String; 5]> {
     let row = |row: &MeasuredRow| {
-        let soil = &row.found.soil;
         let declared =
             if row.declared.is_empty() { String::new() } else { format!(", told of {}", row.declared.join(", ")) };
-        [
-            format!("{}{declared}", row.method),
-            told(&soil.cohesion_pa, Parameter::Cohesion),
-            told(&soil.friction_angle_rad, Parameter::FrictionAngle),
-            told(&soil.shear_modulus_m, Parameter::ShearModulus),
-            row.found.refused.clone().unwrap_or_default(),
-        ]
+        let [cohesion, friction, modulus] = soil_cells(&row.found.soil);
+        let refused = row.found.refused.clone().unwrap_or_default();
+        [format!("{}{declared}", row.method), cohesion, friction, modulus, refused]
     };
     rows.iter().map(row).collect()
-}
-
-fn told(parameter: &Option<ParameterDocument>, kind: Parameter) -> String {
-    let Some(told) = parameter else { return "–".to_owned() };
-    let digits = usize::from(kind != Parameter::Cohesion);
-    let figure = |value: f64| number(kind.scale() * value, digits, false);
-    let spread = told.std.map_or_else(String::new, |std| format!(" ± {}", figure(std)));
-    let text = format!("{}{spread}", figure(told.value));
-    if told.assumed { format!("({text})") } else { text }
 }

@@ -1,0 +1,44 @@
+//! What `identify` says of each run, for the terminal.
+
+use crate::compare::Parameter;
+use crate::identify::{Document, ParameterDocument, SoilDocument};
+
+use super::draw::number;
+use super::terminal::{align_right, plain_table};
+
+/// What the marks mean.
+const LEGEND: &str = "value ± one standard deviation; ? = cannot be told from these data; ( ) = taken as given";
+
+/// A line for each run.
+pub fn identified(document: &Document) -> String {
+    let mut table = plain_table();
+    table.set_header(["run", "c, Pa", "φ, °", "K, mm", ""]);
+    for run in document.runs() {
+        let [cohesion, friction, modulus] = soil_cells(&run.soil);
+        table.add_row([run.run.clone(), cohesion, friction, modulus, run.refused.clone().unwrap_or_default()]);
+    }
+    align_right(&mut table);
+    format!("{table}\n  {LEGEND}")
+}
+
+/// Cells of a soil: c (Pa), φ (°), K (mm).
+pub fn soil_cells(soil: &SoilDocument) -> [String; 3] {
+    [
+        cell(soil.cohesion_pa.as_ref(), Parameter::Cohesion),
+        cell(soil.friction_angle_rad.as_ref(), Parameter::FrictionAngle),
+        cell(soil.shear_modulus_m.as_ref(), Parameter::ShearModulus),
+    ]
+}
+
+fn cell(parameter: Option<&ParameterDocument>, kind: Parameter) -> String {
+    let Some(told) = parameter else { return "–".to_owned() };
+    let digits = usize::from(kind != Parameter::Cohesion);
+    let figure = |value: f64| number(kind.scale() * value, digits, false);
+    let spread = told.std.map_or_else(String::new, |std| format!(" ± {}", figure(std)));
+    let text = format!("{}{spread}", figure(told.value));
+    match (told.assumed, told.identifiable) {
+        (true, _) => format!("({text})"),
+        (false, true) => text,
+        (false, false) => format!("{text} ?"),
+    }
+}
