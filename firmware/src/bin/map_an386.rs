@@ -14,6 +14,7 @@ fn main() -> ! {
     let [sand, ..] = SOILS;
     let Some(seen) = six_wheels(&sand) else { exit(1) };
     let prior = SoilPrior::usual();
-    bench.kernel("map", -1.0, 1.0, |off| map::identify(&WHEEL, &with_error(&seen, off), &prior).is_ok());
+    bench
+        .kernel("map", -1.0, 1.0, |off| map::identify_up_to::<6, f32>(&WHEEL, &with_error(&seen, off), &prior).is_ok());
     exit(0)
 }
