@@ -10,13 +10,12 @@ use crate::terramechanics::{Soil, Wheel};
 
 use super::by_seed::BySeed;
 use super::condition::condition_number;
-use super::descent::{Descent, Patience, descend};
+use super::descent::Descent;
 use super::mixture::{Moments, moments};
+use super::mode::best_mode;
 use super::prediction::{Forward, Model};
-use super::problem::{Fit, Held, Problem};
-use super::unknowns::{
-    C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, UNKNOWNS, Unknowns,
-};
+use super::problem::{Fit, Problem};
+use super::unknowns::{C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, Unknowns};
 use super::{CAPACITY, DeclaredEffects};
 
 /// Posterior mean and standard deviation of a number, in the unit of its belief.
@@ -128,40 +127,6 @@ fn solve<const N: usize, S: Scalar>(
     let mode = best_mode::<N, S>(&problem)?;
     let moments = moments(&problem, &mode.fit);
     Ok(estimate(&problem, &mode, &moments))
-}
-
-/// The least of the minima that are found from several places of the prior: in its middle, and at both ends of the ridge on
-/// which a weak soil that holds early and a strong one that holds late explain much the same.
-fn best_mode<const N: usize, S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S, N>, Refusal> {
-    const STARTS: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [0.5, -1.3, -1.0], [-0.5, 1.3, 1.0]];
-    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-6) };
-    let patience = Patience { steps: 120, gain, damping: S::constant(0.03) };
-    let held: Held = core::array::from_fn(|place| problem.forward.unknowns.is_known(place));
-    let mut best: Option<Descent<S, N>> = None;
-    let mut steps = 0;
-    for [cohesion, friction, modulus] in STARTS {
-        let mut point = [S::zero(); UNKNOWNS];
-        for (place, shift) in [(COHESION, cohesion), (FRICTION, friction), (MODULUS, modulus)] {
-            if let Some(slot) = point.get_mut(place) {
-                *slot = S::constant(shift);
-            }
-        }
-        let point = problem.forward.unknowns.inside(&point);
-        let mut state = problem.start(&point);
-        for blur in [16.0, 4.0] {
-            let blurred = Problem { blur: S::constant(blur), ..*problem };
-            let rough = Patience { steps: 10, gain: S::constant(0.1), ..patience };
-            let Some(found) = descend(&blurred, state.clone(), &held, &rough) else { continue };
-            steps += found.steps;
-            state = found.fit.state;
-        }
-        let Some(found) = descend(problem, state, &held, &patience) else { continue };
-        steps += found.steps;
-        if best.as_ref().is_none_or(|best| found.fit.cost < best.fit.cost) {
-            best = Some(found);
-        }
-    }
-    best.map(|best| Descent { steps, ..best }).ok_or(Refusal::NoSoilFits)
 }
 
 fn estimate<S: Scalar, const N: usize>(

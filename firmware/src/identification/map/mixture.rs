@@ -14,7 +14,7 @@ use crate::scalar::Scalar;
 
 use super::descent::{Patience, descend};
 use super::normal::Normal;
-use super::problem::{Fit, Held, Problem, State};
+use super::problem::{Fit, Held, Problem};
 use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS, Unknowns};
 
 /// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
@@ -89,23 +89,24 @@ fn along<S: Scalar, const N: usize>(
     visit(middle, &about_middle, width);
     let mut steps = 0;
     for sign in [S::one(), -S::one()] {
-        let mut state = middle.state.clone();
-        let mut last = towards.map(|shift| sign * shift);
+        let mut from: Option<Fit<S, N>> = None;
+        let mut shift = towards.map(|shift| sign * shift);
         for _ in 0..line.reach {
-            let point = shifted(&state.point, &last);
-            if !point.get(line.place).is_some_and(|at| *at >= bounds.0 && *at <= bounds.1) {
+            let last = from.as_ref().unwrap_or(middle);
+            let at = last.state.point;
+            let reached = at.get(line.place).zip(shift.get(line.place)).map(|(at, shift)| *at + *shift);
+            if !reached.is_some_and(|reached| reached >= bounds.0 && reached <= bounds.1) {
                 break;
             }
-            let start = State { point: problem.forward.unknowns.inside(&point), latents: state.latents.clone() };
-            let Some(found) = descend(problem, start, &held, &patience) else { break };
+            let Some(found) = descend(problem, last.beside(problem, &shift), &held, &patience) else { break };
             steps += found.steps;
             let normal = Normal::new(&found.fit, &held);
             visit(&found.fit, &normal, width);
             if normal.ln_evidence < floor {
                 break;
             }
-            last = shifted(&found.fit.state.point, &state.point.map(|from| -from));
-            state = found.fit.state;
+            shift = shifted(&found.fit.state.point, &at.map(|from| -from));
+            from = Some(found.fit);
         }
     }
     steps

@@ -15,7 +15,7 @@
 //! its belief; a rear contact that is to be fitted is an effect. Braking wheels are welcome.
 //!
 //! From the ground up: `triangle` (least squares by rotations), `unknowns` and their beliefs, `prediction` of the readings
-//! (`by_seed`, `with_effects`), `rows` of one observation, the `problem` as a whole, `descent` to the mode, the `normal`
+//! (`by_seed`, `with_effects`), `rows` of one observation, the `problem` as a whole, `descent` to the `mode`, the `normal`
 //! distribution about a fit, `mixture` of these about the mode, `estimate`.
 
 mod by_seed;
@@ -25,6 +25,7 @@ mod descent;
 mod estimate;
 mod information;
 mod mixture;
+mod mode;
 mod normal;
 mod prediction;
 mod problem;

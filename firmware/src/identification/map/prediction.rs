@@ -70,9 +70,10 @@ impl<S: Scalar> Forward<'_, S> {
     ) -> Option<Prediction<S>> {
         let (wheel, unknowns) = (self.wheel, self.unknowns);
         let mut prediction = self.model.read(&Asked { wheel, unknowns, conditions, load_n, point, latents })?;
+        let by_coordinate: Point<S> = core::array::from_fn(|place| unknowns.slope(place, point));
         for slopes in &mut prediction.slopes {
-            for (place, slope) in slopes.iter_mut().skip(LATENTS).enumerate() {
-                *slope = *slope * unknowns.slope(place, point);
+            for (slope, by_coordinate) in slopes.iter_mut().skip(LATENTS).zip(by_coordinate) {
+                *slope = *slope * by_coordinate;
             }
         }
         let finite = prediction.readings.iter().chain(prediction.slopes.iter().flatten()).all(|n| n.is_finite());

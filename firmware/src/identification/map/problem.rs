@@ -143,6 +143,16 @@ impl<S: Scalar, const N: usize> Fit<S, N> {
         triangle
     }
 
+    /// The state at a distance along the shared unknowns, with the latents that go with it to first order.
+    pub fn beside(&self, problem: &Problem<'_, S>, shift: &Point<S>) -> State<S, N> {
+        let mut latents = Vec::new();
+        let _ = self.of_observations(S::zero(), |_, own| {
+            // As many as observations.
+            let _ = latents.push(own.step(shift));
+        });
+        problem.moved(&self.state, &Step { shared: *shift, latents, gain: S::zero() })
+    }
+
     /// The damped step of least cost. Unknowns that are held, or whose descent leads out of their bounds, stay.
     pub fn step(&self, problem: &Problem<'_, S>, held: &Held, damping: S) -> Step<S, N> {
         let mut latents: Vec<LatentRows<S>, N> = Vec::new();
