@@ -38,15 +38,24 @@ pub const FINGERPRINTS: [Fingerprint; 12] = [
 ];
 
 /// The checksum of a row of numbers.
-struct Digest(crc::Digest<'static, u32>);
+pub(crate) struct Digest(crc::Digest<'static, u32>);
 
 impl Digest {
-    fn add(&mut self, value: f32) {
+    pub(crate) fn new() -> Self {
+        static START: crc::Crc<u32> = CHECKSUM;
+        Self(START.digest())
+    }
+
+    pub(crate) fn finish(self) -> u32 {
+        self.0.finalize()
+    }
+
+    pub(crate) fn add(&mut self, value: f32) {
         let value = if value.is_nan() { f32::NAN } else { value };
         self.0.update(&value.to_bits().to_le_bytes());
     }
 
-    fn add_all<const N: usize>(&mut self, values: [f32; N]) {
+    pub(crate) fn add_all<const N: usize>(&mut self, values: [f32; N]) {
         values.into_iter().for_each(|value| self.add(value));
     }
 }
@@ -56,12 +65,11 @@ const STRIDE: usize = 65_537;
 
 /// Calls `function` with bit patterns spread over all of `f32`, both signs, infinities and NaNs included.
 fn sweep(function: fn(f32, &mut Digest)) -> u32 {
-    static START: crc::Crc<u32> = CHECKSUM;
-    let mut digest = Digest(START.digest());
+    let mut digest = Digest::new();
     for bits in (0..=u32::MAX).step_by(STRIDE) {
         function(f32::from_bits(bits), &mut digest);
     }
-    digest.0.finalize()
+    digest.finish()
 }
 
 /// The exponents that the equations raise to.
@@ -96,8 +104,7 @@ fn even(state: &mut u32) -> f32 {
 
 /// A wheel on three soils, braking to spinning, barely sunk to deep.
 fn grid(function: fn(&Wheel<f32>, &Soil<f32>, f32, f32, &mut Digest)) -> u32 {
-    static START: crc::Crc<u32> = CHECKSUM;
-    let mut digest = Digest(START.digest());
+    let mut digest = Digest::new();
     let wheel = Wheel { radius_m: 0.075, width_m: 0.07 };
     for soil in &SOILS {
         for slip in [-0.6, -0.2, 0.0, 0.05, 0.2, 0.4, 0.7, 0.95] {
@@ -106,7 +113,7 @@ fn grid(function: fn(&Wheel<f32>, &Soil<f32>, f32, f32, &mut Digest)) -> u32 {
             }
         }
     }
-    digest.0.finalize()
+    digest.finish()
 }
 
 fn forces(wheel: &Wheel<f32>, soil: &Soil<f32>, slip: f32, depth: f32, digest: &mut Digest) {
@@ -126,8 +133,7 @@ fn sinkage(wheel: &Wheel<f32>, soil: &Soil<f32>, slip: f32, depth: f32, digest: 
 fn filter<const N: usize, const M: usize>() -> u32 {
     const STEPS: usize = 100;
     const MISSING: usize = 7;
-    static START: crc::Crc<u32> = CHECKSUM;
-    let mut digest = Digest(START.digest());
+    let mut digest = Digest::new();
     let scales = Scales::NOMINAL;
     let std = [scales.start_std; N];
     let Ok(mut filter) = Gaussian::independent([0.0; N], std).and_then(|start| SigmaPointFilter::new(start, std))
@@ -148,7 +154,7 @@ fn filter<const N: usize, const M: usize>() -> u32 {
         digest.add_all(filter.estimate().stds());
         digest.add(told.normalised_square);
     }
-    digest.0.finalize()
+    digest.finish()
 }
 
 /// Firm, loose and cohesive: they differ in exponent, in every modulus and in whether the soil rises behind the wheel.

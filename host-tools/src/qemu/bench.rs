@@ -55,14 +55,16 @@ const INSTRUCTIONS_PER_TICK: f64 = 40.0;
 const CALIBRATION_TOLERANCE: f64 = 1e-3;
 
 impl TargetBench {
-    /// Builds the measuring image and runs it to its end.
+    /// Builds the measuring images, and runs them to their ends one after the other.
     ///
     /// # Errors
     /// Where it does not build, does not end well, or prints what is not understood.
     pub fn run(toolchain: &Toolchain, patience: Duration) -> Result<Self, HostError> {
         let mut bench = Self::of(toolchain, Binary::Bench, patience)?;
         for binary in [Binary::Tick, Binary::Identify, Binary::Map] {
-            bench.kernels.extend(Self::of(toolchain, binary, patience)?.kernels);
+            let more = Self::of(toolchain, binary, patience)?;
+            bench.kernels.extend(more.kernels);
+            bench.fingerprints.extend(more.fingerprints);
         }
         Ok(bench)
     }

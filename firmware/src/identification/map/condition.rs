@@ -12,9 +12,9 @@ const ASKED: usize = UNKNOWNS - MODULUS;
 /// Greatest over least singular value of the change of the whitened residuals with ln c, φ (rad) and ln K, once all else is
 /// taken out that is unknown: true sinkages and slips, and, with what is believed of them, pressure law, position of the
 /// peak stress and effects. Those of the three that are known are left out.
-pub(super) fn condition_number<S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S>) -> S {
+pub(super) fn condition_number<S: Scalar, const N: usize>(problem: &Problem<'_, S>, fit: &Fit<S, N>) -> S {
     let unknowns = problem.forward.unknowns;
-    let (mut triangle, _) = fit.of_observations(S::zero());
+    let mut triangle = fit.of_observations(S::zero(), |_, _| ());
     for place in (0..MODULUS).filter(|place| !unknowns.is_known(*place)) {
         triangle.insert(&unit(place, S::one()), S::zero());
     }

@@ -17,8 +17,8 @@ pub(super) struct Patience<S> {
 
 /// Where a descent ended.
 #[derive(Debug, Clone)]
-pub(super) struct Descent<S> {
-    pub fit: Fit<S>,
+pub(super) struct Descent<S, const N: usize> {
+    pub fit: Fit<S, N>,
     /// Steps tried.
     pub steps: u16,
     /// Whether it ended for want of descent, and not of patience.
@@ -26,12 +26,12 @@ pub(super) struct Descent<S> {
 }
 
 /// Descends from a state; none where the equations do not hold there.
-pub(super) fn descend<S: Scalar>(
+pub(super) fn descend<S: Scalar, const N: usize>(
     problem: &Problem<'_, S>,
-    start: State<S>,
+    start: State<S, N>,
     held: &Held,
     patience: &Patience<S>,
-) -> Option<Descent<S>> {
+) -> Option<Descent<S, N>> {
     // Damping beyond which a step is no step.
     let stuck = S::constant(1e3);
     let (shrink, grow) = (S::constant(0.3), S::constant(3.0));

@@ -8,14 +8,14 @@ use crate::scalar::Scalar;
 use crate::terramechanics::effects::Conditions;
 use crate::terramechanics::{Soil, Wheel};
 
+use super::by_seed::BySeed;
 use super::condition::condition_number;
-use super::descent::{Descent, Patience, descend};
+use super::descent::Descent;
 use super::mixture::{Moments, moments};
-use super::prediction::Forward;
-use super::problem::{Fit, Held, Problem};
-use super::unknowns::{
-    C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, UNKNOWNS, Unknowns,
-};
+use super::mode::best_mode;
+use super::prediction::{Forward, Model};
+use super::problem::{Fit, Problem};
+use super::unknowns::{C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, Unknowns};
 use super::{CAPACITY, DeclaredEffects};
 
 /// Posterior mean and standard deviation of a number, in the unit of its belief.
@@ -78,10 +78,24 @@ pub fn identify<S: Scalar>(
     observations: &[Observation<S>],
     prior: &SoilPrior<S>,
 ) -> Result<MapEstimate<S>, Refusal> {
-    identify_declared(wheel, observations, &[], prior, &DeclaredEffects::none())
+    identify_up_to::<CAPACITY, S>(wheel, observations, prior)
 }
 
-/// The same with effects that the model is told of. `conditions` go with the observations; beyond its end nothing is known.
+/// The same with room for N observations: the stack grows with it, the answer does not depend on it.
+///
+/// # Errors
+/// As [`identify`], with N in the place of [`CAPACITY`].
+pub fn identify_up_to<const N: usize, S: Scalar>(
+    wheel: &Wheel<S>,
+    observations: &[Observation<S>],
+    prior: &SoilPrior<S>,
+) -> Result<MapEstimate<S>, Refusal> {
+    let unknowns = Unknowns::new(prior, &[])?;
+    solve::<N, S>(Forward { wheel, unknowns: &unknowns, model: &BySeed }, observations, &[])
+}
+
+/// [`identify`] with effects that the model is told of. `conditions` go with the observations; beyond its end nothing is
+/// known.
 ///
 /// # Errors
 /// As [`identify`], and where an effect lacks a parameter that is to be fitted.
@@ -92,56 +106,34 @@ pub fn identify_declared<S: Scalar>(
     prior: &SoilPrior<S>,
     declared: &DeclaredEffects<S>,
 ) -> Result<MapEstimate<S>, Refusal> {
-    check(wheel, observations, 1)?;
-    if observations.len() > CAPACITY {
-        return Err(Refusal::TooMany { room: CAPACITY as u8 });
-    }
     if !declared.is_valid() {
         return Err(Refusal::OutOfRange);
     }
-    let unknowns = Unknowns::new(prior, declared)?;
-    let forward = Forward { wheel, unknowns: &unknowns, declared };
+    let unknowns = Unknowns::new(prior, &declared.free)?;
+    let model: &dyn Model<S> = if declared.is_none() { &BySeed } else { declared };
+    solve::<CAPACITY, S>(Forward { wheel, unknowns: &unknowns, model }, observations, conditions)
+}
+
+fn solve<const N: usize, S: Scalar>(
+    forward: Forward<'_, S>,
+    observations: &[Observation<S>],
+    conditions: &[Conditions<S>],
+) -> Result<MapEstimate<S>, Refusal> {
+    check(forward.wheel, observations, 1)?;
+    if observations.len() > N {
+        return Err(Refusal::TooMany { room: u8::try_from(N).unwrap_or(u8::MAX) });
+    }
     let problem = Problem { forward, observations, conditions, blur: S::one() };
-    let mode = best_mode(&problem)?;
+    let mode = best_mode::<N, S>(&problem)?;
     let moments = moments(&problem, &mode.fit);
     Ok(estimate(&problem, &mode, &moments))
 }
 
-/// The least of the minima that are found from several places of the prior: in its middle, and at both ends of the ridge on
-/// which a weak soil that holds early and a strong one that holds late explain much the same.
-fn best_mode<S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S>, Refusal> {
-    const STARTS: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [0.5, -1.3, -1.0], [-0.5, 1.3, 1.0]];
-    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-6) };
-    let patience = Patience { steps: 120, gain, damping: S::constant(0.03) };
-    let held: Held = core::array::from_fn(|place| problem.forward.unknowns.is_known(place));
-    let mut best: Option<Descent<S>> = None;
-    let mut steps = 0;
-    for [cohesion, friction, modulus] in STARTS {
-        let mut point = [S::zero(); UNKNOWNS];
-        for (place, shift) in [(COHESION, cohesion), (FRICTION, friction), (MODULUS, modulus)] {
-            if let Some(slot) = point.get_mut(place) {
-                *slot = S::constant(shift);
-            }
-        }
-        let point = problem.forward.unknowns.inside(&point);
-        let mut state = problem.start(&point);
-        for blur in [16.0, 4.0] {
-            let blurred = Problem { blur: S::constant(blur), ..*problem };
-            let rough = Patience { steps: 10, gain: S::constant(0.1), ..patience };
-            let Some(found) = descend(&blurred, state.clone(), &held, &rough) else { continue };
-            steps += found.steps;
-            state = found.fit.state;
-        }
-        let Some(found) = descend(problem, state, &held, &patience) else { continue };
-        steps += found.steps;
-        if best.as_ref().is_none_or(|best| found.fit.cost < best.fit.cost) {
-            best = Some(found);
-        }
-    }
-    best.map(|best| Descent { steps, ..best }).ok_or(Refusal::NoSoilFits)
-}
-
-fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Moments<S>) -> MapEstimate<S> {
+fn estimate<S: Scalar, const N: usize>(
+    problem: &Problem<'_, S>,
+    mode: &Descent<S, N>,
+    moments: &Moments<S>,
+) -> MapEstimate<S> {
     let unknowns = problem.forward.unknowns;
     let fitted = |place: usize| {
         let (mean, std) = (moments.mean.get(place), moments.std.get(place));
@@ -160,7 +152,7 @@ fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Mo
         ln_stiffness: fitted(STIFFNESS),
         peak_stress_c1: fitted(C1),
         peak_stress_c2: fitted(C2),
-        effects: (0..problem.forward.declared.free.len()).map(fitted).collect(),
+        effects: (0..unknowns.effects).map(fitted).collect(),
         soil: unknowns.soil(&moments.mean, |value| value),
         mode: unknowns.soil_at(&mode.fit.state.point),
         chi_squared: mode.fit.chi_squared,
@@ -172,9 +164,9 @@ fn estimate<S: Scalar>(problem: &Problem<'_, S>, mode: &Descent<S>, moments: &Mo
     }
 }
 
-fn identified<S: Scalar>(
+fn identified<S: Scalar, const N: usize>(
     problem: &Problem<'_, S>,
-    mode: &Fit<S>,
+    mode: &Fit<S, N>,
     fitted: &impl Fn(usize) -> Fitted<S>,
 ) -> Identified<S> {
     let unknowns = problem.forward.unknowns;

@@ -5,10 +5,11 @@ use crate::identification::{Belief, Observation, Refusal, SoilPrior};
 use crate::scalar::Scalar;
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load};
 
+use super::CAPACITY;
+use super::by_seed::BySeed;
 use super::prediction::{Forward, Latents};
 use super::problem::{Problem, State, conditional, unit};
 use super::unknowns::{COHESION, FRICTION, MODULUS, UNKNOWNS, Unknowns};
-use super::{CAPACITY, DeclaredEffects};
 
 /// How well observations of a design would tell the soil, to first order about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,15 +47,14 @@ pub fn information<S: Scalar>(
     if !(soil.is_valid() && soil.cohesion_pa > S::zero() && soil.stiffness(wheel.width_m) > S::zero()) {
         return Err(Refusal::OutOfRange);
     }
-    let declared = DeclaredEffects::none();
-    let unknowns = Unknowns::new(&about(prior, soil, wheel), &declared)?;
+    let unknowns = Unknowns::new(&about(prior, soil, wheel), &[])?;
     let problem = Problem {
-        forward: Forward { wheel, unknowns: &unknowns, declared: &declared },
+        forward: Forward { wheel, unknowns: &unknowns, model: &BySeed },
         observations: design,
         blur: S::one(),
         conditions: &[],
     };
-    let mut latents = heapless::Vec::new();
+    let mut latents = heapless::Vec::<_, CAPACITY>::new();
     for observation in design {
         let slip = observation.state.slip;
         let sinkage_m =
@@ -63,17 +63,16 @@ pub fn information<S: Scalar>(
         latents.push(own).map_err(|_| Refusal::TooMany { room: CAPACITY as u8 })?;
     }
     let fit = problem.evaluate(State { point: [S::zero(); UNKNOWNS], latents }).ok_or(Refusal::NoSoilFits)?;
-    let (mut triangle, _) = fit.of_observations(S::zero());
+    let mut triangle = fit.of_observations(S::zero(), |_, _| ());
     for (place, belief) in unknowns.beliefs.iter().enumerate() {
         if belief.std.is_some() {
             triangle.insert(&unit(place, S::one()), S::zero());
         }
     }
     let triangle = conditional(&triangle, &core::array::from_fn(|place| unknowns.is_known(place)));
-    let covariance = triangle.covariance();
     let entry = |a: usize, b: usize| {
         let scale = |place: usize| unknowns.slope(place, &fit.state.point);
-        covariance.get(a).and_then(|row| row.get(b)).map_or(S::zero(), |entry| *entry * scale(a) * scale(b))
+        triangle.covariances(a).get(b).map_or(S::zero(), |entry| *entry * scale(a) * scale(b))
     };
     let std = |place: usize| entry(place, place).sqrt();
     let told = (0..UNKNOWNS).all(|place| unknowns.is_known(place) || std(place) > S::zero());

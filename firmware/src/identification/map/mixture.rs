@@ -13,7 +13,8 @@
 use crate::scalar::Scalar;
 
 use super::descent::{Patience, descend};
-use super::problem::{Fit, Held, Problem, State, conditional};
+use super::normal::Normal;
+use super::problem::{Fit, Held, Problem};
 use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS, Unknowns};
 
 /// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
@@ -41,70 +42,71 @@ struct Line<S> {
 }
 
 /// The posterior about its mode.
-pub(super) fn moments<S: Scalar>(problem: &Problem<'_, S>, mode: &Fit<S>) -> Moments<S> {
+pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode: &Fit<S, N>) -> Moments<S> {
     let unknowns = problem.forward.unknowns;
     let known: Held = core::array::from_fn(|place| unknowns.is_known(place));
     let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
     let modulus = Line { place: MODULUS, spacing: S::one(), reach: 4, depth: S::constant(5.0) };
     let given_cohesion = holding(&known, COHESION);
-    let spread = unknowns.slope(MODULUS, &mode.state.point);
-    let two = deviation(mode, &given_cohesion, MODULUS) * spread > S::constant(WIDE);
+    let two = deviation(unknowns, mode, &given_cohesion, MODULUS) > S::constant(WIDE);
     let mut sum = Sum::about(unknowns, &mode.state.point);
     let mut inner_steps = 0;
-    let steps = along(problem, mode, &known, &cohesion, |fit, _| {
+    let steps = along(problem, mode, &known, &cohesion, |fit, normal, _| {
         if two {
-            inner_steps += along(problem, fit, &given_cohesion, &modulus, |fit, width| {
-                sum.add(fit, &holding(&given_cohesion, MODULUS), width);
+            inner_steps += along(problem, fit, &given_cohesion, &modulus, |fit, normal, width| {
+                sum.add(&fit.state.point, normal, width);
             });
         } else {
-            sum.add(fit, &given_cohesion, S::one());
+            sum.add(&fit.state.point, normal, S::one());
         }
     });
     sum.moments(steps + inner_steps)
 }
 
-/// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the distance
-/// of the steps; `middle` alone where the unknown is held. Returns how many steps the descents took.
-fn along<S: Scalar>(
+/// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the
+/// distribution about each and the distance of the steps; `middle` alone where the unknown is held. Returns how many steps
+/// the descents took.
+fn along<S: Scalar, const N: usize>(
     problem: &Problem<'_, S>,
-    middle: &Fit<S>,
+    middle: &Fit<S, N>,
     held: &Held,
     line: &Line<S>,
-    mut visit: impl FnMut(&Fit<S>, S),
+    mut visit: impl FnMut(&Fit<S, N>, &Normal<S>, S),
 ) -> u16 {
+    let about_middle = Normal::new(middle, &holding(held, line.place));
     if held.get(line.place).copied().unwrap_or(true) {
-        visit(middle, S::one());
+        visit(middle, &about_middle, S::one());
         return 0;
     }
-    let (triangle, _) = middle.of_everything(S::zero());
-    let covariance = conditional(&triangle, held).covariance();
-    let column = covariance.get(line.place).copied().unwrap_or([S::zero(); UNKNOWNS]);
+    let column = Normal::new(middle, held).covariances(line.place);
     let variance = column.get(line.place).copied().unwrap_or(S::one());
     let width = line.spacing * variance.sqrt().min(S::one());
     let towards = column.map(|covariance| covariance * width / variance);
     let held = holding(held, line.place);
     let bounds = problem.forward.unknowns.bounds(line.place);
-    let floor = middle.ln_evidence(&held) - line.depth;
+    let floor = about_middle.ln_evidence - line.depth;
     let patience = Patience { steps: 4, gain: S::constant(1e-2), damping: S::constant(1e-3) };
-    visit(middle, width);
+    visit(middle, &about_middle, width);
     let mut steps = 0;
     for sign in [S::one(), -S::one()] {
-        let mut state = middle.state.clone();
-        let mut last = towards.map(|shift| sign * shift);
+        let mut from: Option<Fit<S, N>> = None;
+        let mut shift = towards.map(|shift| sign * shift);
         for _ in 0..line.reach {
-            let point = shifted(&state.point, &last);
-            if !point.get(line.place).is_some_and(|at| *at >= bounds.0 && *at <= bounds.1) {
+            let last = from.as_ref().unwrap_or(middle);
+            let at = last.state.point;
+            let reached = at.get(line.place).zip(shift.get(line.place)).map(|(at, shift)| *at + *shift);
+            if !reached.is_some_and(|reached| reached >= bounds.0 && reached <= bounds.1) {
                 break;
             }
-            let start = State { point: problem.forward.unknowns.inside(&point), latents: state.latents.clone() };
-            let Some(found) = descend(problem, start, &held, &patience) else { break };
+            let Some(found) = descend(problem, last.beside(problem, &shift), &held, &patience) else { break };
             steps += found.steps;
-            visit(&found.fit, width);
-            if found.fit.ln_evidence(&held) < floor {
+            let normal = Normal::new(&found.fit, &held);
+            visit(&found.fit, &normal, width);
+            if normal.ln_evidence < floor {
                 break;
             }
-            last = shifted(&found.fit.state.point, &state.point.map(|from| -from));
-            state = found.fit.state;
+            shift = shifted(&found.fit.state.point, &at.map(|from| -from));
+            from = Some(found.fit);
         }
     }
     steps
@@ -127,20 +129,10 @@ fn holding(held: &Held, place: usize) -> Held {
     more
 }
 
-/// Standard deviation of an unknown about a fit; zero where it is held.
-fn deviation<S: Scalar>(fit: &Fit<S>, held: &Held, place: usize) -> S {
-    variances(fit, held).get(place).copied().unwrap_or(S::zero()).sqrt()
-}
-
-/// Variances of the normal distribution about a fit; zero where an unknown is held.
-fn variances<S: Scalar>(fit: &Fit<S>, held: &Held) -> Point<S> {
-    let (triangle, _) = fit.of_everything(S::zero());
-    let covariance = conditional(&triangle, held).covariance();
-    core::array::from_fn(|place| {
-        let is_held = held.get(place).copied().unwrap_or(true);
-        let own = covariance.get(place).and_then(|row| row.get(place)).copied();
-        if is_held { S::zero() } else { own.unwrap_or(S::zero()) }
-    })
+/// Standard deviation of an unknown about a fit, in the unit of its belief; zero where it is held.
+fn deviation<S: Scalar, const N: usize>(unknowns: &Unknowns<S>, fit: &Fit<S, N>, held: &Held, place: usize) -> S {
+    let variance = Normal::new(fit, held).variances().get(place).copied().unwrap_or(S::zero());
+    variance.sqrt() * unknowns.slope(place, &fit.state.point)
 }
 
 /// The mixture as it grows: weighted sums about values near its middle, the weights over the greatest so far.
@@ -161,9 +153,9 @@ impl<'a, S: Scalar> Sum<'a, S> {
         Self { unknowns, origin, ln_greatest: None, total: S::zero(), first: zero, second: zero }
     }
 
-    /// Adds the normal distribution about a fit that stands for a strip of some width.
-    fn add(&mut self, fit: &Fit<S>, held: &Held, width: S) {
-        let ln_weight = fit.ln_evidence(held) + width.ln();
+    /// Adds the normal distribution about a point that stands for a strip of some width.
+    fn add(&mut self, point: &Point<S>, normal: &Normal<S>, width: S) {
+        let ln_weight = normal.ln_evidence + width.ln();
         if !ln_weight.is_finite() {
             return;
         }
@@ -173,7 +165,7 @@ impl<'a, S: Scalar> Sum<'a, S> {
         self.ln_greatest = Some(greatest);
         let weight = (ln_weight - greatest).exp();
         self.total += weight;
-        let coordinates = fit.state.point.iter().zip(variances(fit, held));
+        let coordinates = point.iter().zip(normal.variances());
         let sums = self.first.iter_mut().zip(&mut self.second).zip(self.origin);
         for (place, (((first, second), origin), (mean, variance))) in sums.zip(coordinates).enumerate() {
             let (mean, variance) = self.unknowns.moments(place, *mean, variance);

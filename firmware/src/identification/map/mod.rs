@@ -14,25 +14,30 @@
 //! Flat beliefs of sinkage and slip are beliefs in slip and load, which do not depend on the soil. η is held at the mean of
 //! its belief; a rear contact that is to be fitted is an effect. Braking wheels are welcome.
 //!
-//! From the ground up: `triangle` (least squares by rotations), `unknowns` and their beliefs, `prediction` of the readings,
-//! `rows` of one observation, the `problem` as a whole, `descent` to the mode, `mixture` about it, `estimate`.
+//! From the ground up: `triangle` (least squares by rotations), `unknowns` and their beliefs, `prediction` of the readings
+//! (`by_seed`, `with_effects`), `rows` of one observation, the `problem` as a whole, `descent` to the `mode`, the `normal`
+//! distribution about a fit, `mixture` of these about the mode, `estimate`.
 
+mod by_seed;
 mod condition;
 mod declared;
 mod descent;
 mod estimate;
 mod information;
 mod mixture;
+mod mode;
+mod normal;
 mod prediction;
 mod problem;
 mod rows;
 mod triangle;
 mod unknowns;
+mod with_effects;
 
 pub use declared::{DeclaredEffects, FreeParameter};
-pub use estimate::{Fitted, MapEstimate, identify, identify_declared};
+pub use estimate::{Fitted, MapEstimate, identify, identify_declared, identify_up_to};
 pub use information::{Foreseen, information};
 pub use unknowns::EFFECT_PARAMETERS;
 
-/// Most observations.
+/// Most observations, where none are stated.
 pub const CAPACITY: usize = 24;

@@ -7,14 +7,13 @@ use crate::scalar::Scalar;
 use crate::terramechanics::effects::Conditions;
 use crate::terramechanics::{deepest_sinkage, sinkage_for_load};
 
-use super::CAPACITY;
 use super::prediction::{Forward, LATENTS, Latents};
 use super::rows::{LatentRows, Rows};
 use super::triangle::Triangle;
 use super::unknowns::{Point, UNKNOWNS};
 
 /// What is to be explained, and by what.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Problem<'a, S> {
     pub forward: Forward<'a, S>,
     pub observations: &'a [Observation<S>],
@@ -24,18 +23,18 @@ pub(super) struct Problem<'a, S> {
     pub conditions: &'a [Conditions<S>],
 }
 
-/// Values of all unknowns.
+/// Values of all unknowns of at most N observations.
 #[derive(Debug, Clone)]
-pub(super) struct State<S> {
+pub(super) struct State<S, const N: usize> {
     pub point: Point<S>,
-    pub latents: Vec<Latents<S>, CAPACITY>,
+    pub latents: Vec<Latents<S>, N>,
 }
 
 /// A state and how well it explains what was seen.
 #[derive(Debug, Clone)]
-pub(super) struct Fit<S> {
-    pub state: State<S>,
-    rows: Vec<Rows<S>, CAPACITY>,
+pub(super) struct Fit<S, const N: usize> {
+    pub state: State<S, N>,
+    rows: Vec<Rows<S>, N>,
     /// Sum of the squared residuals of the observations.
     pub chi_squared: S,
     /// The same with those of the beliefs.
@@ -44,9 +43,9 @@ pub(super) struct Fit<S> {
 
 /// A step of all unknowns.
 #[derive(Debug, Clone)]
-pub(super) struct Step<S> {
+pub(super) struct Step<S, const N: usize> {
     shared: Point<S>,
-    latents: Vec<[S; LATENTS], CAPACITY>,
+    latents: Vec<[S; LATENTS], N>,
     /// By how much it should lower the cost.
     pub gain: S,
 }
@@ -57,11 +56,11 @@ pub(super) type Held = [bool; UNKNOWNS];
 impl<S: Scalar> Problem<'_, S> {
     /// Where the latents are looked for first: as measured; a sinkage that was not measured is the one at which the soil
     /// of the point carries the load.
-    pub fn start(&self, point: &Point<S>) -> State<S> {
+    pub fn start<const N: usize>(&self, point: &Point<S>) -> State<S, N> {
         let soil = self.forward.unknowns.soil_at(point);
         let wheel = self.forward.wheel;
         let mut latents = Vec::new();
-        for observation in self.observations.iter().take(CAPACITY) {
+        for observation in self.observations.iter().take(N) {
             let state = &observation.state;
             let slip = state.slip;
             let measured = state.sinkage_m.filter(|sinkage_m| *sinkage_m > S::constant(0.02) * wheel.radius_m);
@@ -86,7 +85,7 @@ impl<S: Scalar> Problem<'_, S> {
     }
 
     /// How well a state explains what was seen; none where the equations do not hold.
-    pub fn evaluate(&self, state: State<S>) -> Option<Fit<S>> {
+    pub fn evaluate<const N: usize>(&self, state: State<S, N>) -> Option<Fit<S, N>> {
         let mut rows = Vec::new();
         let mut chi_squared = S::zero();
         let unknown = Conditions::<()>::default().map(|()| S::zero());
@@ -108,7 +107,7 @@ impl<S: Scalar> Problem<'_, S> {
     }
 
     /// A state moved by a step, and into the bounds.
-    pub fn moved(&self, state: &State<S>, step: &Step<S>) -> State<S> {
+    pub fn moved<const N: usize>(&self, state: &State<S, N>, step: &Step<S, N>) -> State<S, N> {
         // Slopes say little of what is farther away, and least where a flat belief ends.
         let farthest = S::constant(1.5);
         let mut point = state.point;
@@ -125,29 +124,42 @@ impl<S: Scalar> Problem<'_, S> {
     }
 }
 
-impl<S: Scalar> Fit<S> {
-    /// The shared unknowns' triangle, the latents taken out, without beliefs; and the latents' rows.
-    pub fn of_observations(&self, damping: S) -> (Triangle<S, UNKNOWNS>, Vec<LatentRows<S>, CAPACITY>) {
+impl<S: Scalar, const N: usize> Fit<S, N> {
+    /// The shared unknowns' triangle, the latents taken out, without beliefs. The rows that tell the latents go by.
+    pub fn of_observations(&self, damping: S, mut pass: impl FnMut(&Rows<S>, LatentRows<S>)) -> Triangle<S, UNKNOWNS> {
         let mut triangle = Triangle::empty();
-        let mut latents = Vec::new();
         for rows in &self.rows {
-            let _ = latents.push(rows.eliminate(damping, &mut triangle));
+            pass(rows, rows.eliminate(damping, &mut triangle));
         }
-        (triangle, latents)
+        triangle
     }
 
     /// The same with the beliefs.
-    pub fn of_everything(&self, damping: S) -> (Triangle<S, UNKNOWNS>, Vec<LatentRows<S>, CAPACITY>) {
-        let (mut triangle, latents) = self.of_observations(damping);
+    pub fn of_everything(&self, damping: S, pass: impl FnMut(&Rows<S>, LatentRows<S>)) -> Triangle<S, UNKNOWNS> {
+        let mut triangle = self.of_observations(damping, pass);
         for (place, coordinate) in self.state.point.iter().enumerate() {
             triangle.insert(&unit(place, S::one()), *coordinate);
         }
-        (triangle, latents)
+        triangle
+    }
+
+    /// The state at a distance along the shared unknowns, with the latents that go with it to first order.
+    pub fn beside(&self, problem: &Problem<'_, S>, shift: &Point<S>) -> State<S, N> {
+        let mut latents = Vec::new();
+        let _ = self.of_observations(S::zero(), |_, own| {
+            // As many as observations.
+            let _ = latents.push(own.step(shift));
+        });
+        problem.moved(&self.state, &Step { shared: *shift, latents, gain: S::zero() })
     }
 
     /// The damped step of least cost. Unknowns that are held, or whose descent leads out of their bounds, stay.
-    pub fn step(&self, problem: &Problem<'_, S>, held: &Held, damping: S) -> Step<S> {
-        let (triangle, latents) = self.of_everything(damping);
+    pub fn step(&self, problem: &Problem<'_, S>, held: &Held, damping: S) -> Step<S, N> {
+        let mut latents: Vec<LatentRows<S>, N> = Vec::new();
+        let triangle = self.of_everything(damping, |_, own| {
+            // As many as observations.
+            let _ = latents.push(own);
+        });
         let gradient = triangle.gradient();
         let stays: Held = core::array::from_fn(|place| {
             let (low, high) = problem.forward.unknowns.bounds(place);
@@ -179,17 +191,6 @@ impl<S: Scalar> Fit<S> {
             gain += own.square();
         }
         Step { shared, latents: latents.iter().map(|own| own.step(&shared)).collect(), gain }
-    }
-
-    /// Logarithm of what is left of the posterior density when the latents and all shared unknowns but one that is
-    /// held are integrated out, to second order about the fit.
-    pub fn ln_evidence(&self, held: &Held) -> S {
-        let (triangle, latents) = self.of_everything(S::zero());
-        let mut sum = S::constant(-0.5) * self.cost;
-        for (rows, latent) in self.rows.iter().zip(&latents) {
-            sum += rows.ln_load_slope() - latent.ln_determinant();
-        }
-        sum - conditional(&triangle, held).ln_determinant()
     }
 }
 

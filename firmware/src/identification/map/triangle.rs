@@ -59,20 +59,18 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
         gradient
     }
 
-    /// (RᵀR)⁻¹: the products of the rows of R⁻¹.
-    pub fn covariance(&self) -> [[S; N]; N] {
-        let mut inverse = [[S::zero(); N]; N];
-        for (place, slot) in inverse.iter_mut().enumerate() {
-            *slot = self.inverse_row(place);
-        }
-        let product = |a: &[S; N], b: &[S; N]| {
-            let mut sum = S::zero();
-            for (x, y) in a.iter().zip(b) {
-                sum += *x * *y;
-            }
-            sum
-        };
-        inverse.map(|row| inverse.map(|other| product(&row, &other)))
+    /// A column of (RᵀR)⁻¹: products of the rows of R⁻¹.
+    pub fn covariances(&self, place: usize) -> [S; N] {
+        let own = self.inverse_row(place);
+        core::array::from_fn(|other| product(&own, &self.inverse_row(other)))
+    }
+
+    /// The diagonal of (RᵀR)⁻¹.
+    pub fn variances(&self) -> [S; N] {
+        core::array::from_fn(|place| {
+            let row = self.inverse_row(place);
+            product(&row, &row)
+        })
     }
 
     /// A row of R⁻¹: y with yᵀ R = eᵀ.
@@ -101,6 +99,14 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
         }
         sum
     }
+}
+
+fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
+    let mut sum = S::zero();
+    for (x, y) in a.iter().zip(b) {
+        sum += *x * *y;
+    }
+    sum
 }
 
 /// A plane rotation that brings the second number to zero.

@@ -4,7 +4,7 @@ use crate::identification::{Belief, Refusal, SoilPrior};
 use crate::scalar::Scalar;
 use crate::terramechanics::Soil;
 
-use super::DeclaredEffects;
+use super::FreeParameter;
 
 /// Parameters of effects that may be fitted along.
 pub const EFFECT_PARAMETERS: usize = 4;
@@ -31,16 +31,18 @@ pub(super) type Point<S> = [S; UNKNOWNS];
 pub(super) struct Unknowns<S> {
     /// By place; those that no effect needs are known.
     pub beliefs: [Belief<S>; UNKNOWNS],
+    /// Parameters of effects among them.
+    pub effects: usize,
     known_depth_m: S,
     rebound_ratio: S,
 }
 
 impl<S: Scalar> Unknowns<S> {
-    /// Of a soil and of the parameters of effects.
+    /// Of a soil and of the parameters of effects that are fitted.
     ///
     /// # Errors
     /// Where a belief contradicts itself.
-    pub fn new(prior: &SoilPrior<S>, declared: &DeclaredEffects<S>) -> Result<Self, Refusal> {
+    pub fn new(prior: &SoilPrior<S>, effects: &[FreeParameter<S>]) -> Result<Self, Refusal> {
         let mut beliefs = [Belief::known(S::zero()); UNKNOWNS];
         let of_soil = [
             prior.sinkage_exponent,
@@ -51,13 +53,18 @@ impl<S: Scalar> Unknowns<S> {
             prior.friction_angle_rad,
             prior.ln_cohesion,
         ];
-        let of_effects = declared.free.iter().map(|parameter| parameter.belief);
+        let of_effects = effects.iter().map(|parameter| parameter.belief);
         let padding = core::iter::repeat(Belief::known(S::zero()));
         let all = of_effects.chain(padding).take(EFFECT_PARAMETERS).chain(of_soil);
         for (slot, belief) in beliefs.iter_mut().zip(all) {
             *slot = belief;
         }
-        let unknowns = Self { beliefs, known_depth_m: prior.known_depth_m, rebound_ratio: prior.rebound_ratio.mean };
+        let unknowns = Self {
+            beliefs,
+            effects: effects.len(),
+            known_depth_m: prior.known_depth_m,
+            rebound_ratio: prior.rebound_ratio.mean,
+        };
         let valid = beliefs.iter().all(Belief::is_valid) && prior.known_depth_m > S::zero();
         if valid { Ok(unknowns) } else { Err(Refusal::OutOfRange) }
     }
