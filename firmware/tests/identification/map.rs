@@ -386,6 +386,9 @@ fn declared_effects_are_fitted_along() {
     assert!(told.misfit < 40.0, "{told:?}");
     let untold = identify(&WHEEL, &seen, &prior).expect("an estimate");
     assert!(untold.misfit > 2.0 * told.misfit, "{} {}", untold.misfit, told.misfit);
+    assert_eq!(told.widened, 1.0);
+    let ratio = (untold.misfit / f64::from(untold.degrees_of_freedom)).sqrt();
+    assert_near(untold.widened, ratio, 1e-12);
 }
 
 /// An effect that is neutral and not fitted changes nothing but rounding, and none at all nothing.

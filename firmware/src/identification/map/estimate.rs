@@ -62,6 +62,10 @@ pub struct MapEstimate<S> {
     pub misfit: S,
     /// Residuals of observations and beliefs less unknowns.
     pub degrees_of_freedom: u16,
+    /// By how much the standard deviations are wider than noise and beliefs would have them: 1, or where the misfit is beyond
+    /// chance its root per degree of freedom (R. T. Birge, Phys. Rev. 40 (1932) 207–227), up to what is believed beforehand.
+    /// A model that does not explain the observations must not seem sure of the soil; how wrong it is, nobody knows.
+    pub widened: S,
     /// Steps of all descents; each evaluates every wheel once.
     pub iterations: u16,
     /// Whether the descent to the mode settled.
@@ -135,14 +139,17 @@ fn estimate<S: Scalar, const N: usize>(
     moments: &Moments<S>,
 ) -> MapEstimate<S> {
     let unknowns = problem.forward.unknowns;
-    let fitted = |place: usize| {
-        let (mean, std) = (moments.mean.get(place), moments.std.get(place));
-        Fitted { mean: mean.copied().unwrap_or(S::zero()), std: std.copied().unwrap_or(S::zero()) }
-    };
     let measured = problem.observations.iter().filter(|observation| observation.state.sinkage_m.is_some()).count();
     let seen = problem.observations.len();
     let residuals = (4 * seen + measured) as u16;
     let lost = (2 * seen) as u16;
+    let degrees_of_freedom = residuals.saturating_sub(lost);
+    let widened = birge_ratio(mode.fit.cost, degrees_of_freedom);
+    let fitted = |place: usize| {
+        let (mean, std) = (moments.mean.get(place), moments.std.get(place).copied().unwrap_or(S::zero()));
+        let spread = unknowns.beliefs.get(place).map_or(std, |belief| belief.spread());
+        Fitted { mean: mean.copied().unwrap_or(S::zero()), std: (widened * std).min(spread.max(std)) }
+    };
     MapEstimate {
         identified: identified(problem, &mode.fit, &fitted),
         ln_cohesion: fitted(COHESION),
@@ -158,10 +165,18 @@ fn estimate<S: Scalar, const N: usize>(
         chi_squared: mode.fit.chi_squared,
         residuals,
         misfit: mode.fit.cost,
-        degrees_of_freedom: residuals.saturating_sub(lost),
+        degrees_of_freedom,
+        widened,
         iterations: mode.steps + moments.steps,
         settled: mode.settled,
     }
+}
+
+/// 1 where a misfit could be chance: up to four of its standard deviations above its mean.
+fn birge_ratio<S: Scalar>(misfit: S, degrees_of_freedom: u16) -> S {
+    let mean = S::constant(f64::from(degrees_of_freedom));
+    let by_chance = mean + S::constant(4.0) * (mean + mean).sqrt();
+    if mean > S::zero() && misfit > by_chance { (misfit / mean).sqrt() } else { S::one() }
 }
 
 fn identified<S: Scalar, const N: usize>(
