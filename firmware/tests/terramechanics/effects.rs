@@ -25,6 +25,7 @@ const EVERYTHING_KNOWN: Conditions<f64> = Conditions {
     travel_m: Some(0.4),
     pitch_rad: Some(0.1),
     slip_angle_rad: Some(0.2),
+    felt_slip: Some(0.25),
 };
 
 fn on_sand(effects: &Effects<f64>) -> WheelOnSoil<'_, f64> {
@@ -69,6 +70,27 @@ fn check(settings: &[(&str, &str, f64)], expected: [[f64; 3]; 3]) {
 #[test]
 fn slip_sinkage() {
     check(&[("slip-sinkage", "n1", 0.3)], [[0.37, 0.08, 1.5], [0.06, 0.18, 4.7], [-2.7, 0.20, 10.6]]);
+}
+
+/// Soil that has felt another slip than the present one: the wheel shears by its slip and sinks by the soil's.
+#[test]
+fn slip_sinkage_where_the_soil_has_felt_another_slip() {
+    let effects = with(&[("slip-sinkage", "n1", 0.3), ("slip-sinkage", "apparent", 0.5)]);
+    for (slip, felt) in [(1.0, 0.0), (0.3, 0.6), (0.1, -0.5)] {
+        let conditions = Conditions { felt_slip: Some(felt), ..Conditions::default() };
+        let found = state(&effects, &conditions, slip);
+        let soil = Soil { sinkage_exponent: 1.1 + 0.3 * f64::abs(felt), ..SAND };
+        let sinkage_m = sinkage_for_load(&WHEEL, &soil, slip, LOAD_N).expect("carried");
+        let expected = wheel_forces(&WHEEL, &soil, slip, sinkage_m).expect("in range");
+        assert!((found.sinkage_m - sinkage_m).abs() < 1e-9, "{slip} {felt}: {} for {sinkage_m}", found.sinkage_m);
+        assert!((found.drawbar_pull_n - expected.drawbar_pull_n).abs() < 1e-6, "{slip} {felt}");
+        let read = on_sand(&effects).readings(&conditions, &found, &mut Memory::start());
+        assert!((read.sinkage_m / found.sinkage_m - (1.0 + 0.5 * f64::abs(felt))).abs() < 1e-12, "{slip} {felt}");
+    }
+    assert_eq!(state(&effects, &Conditions::default(), 0.3), {
+        let conditions = Conditions { felt_slip: Some(0.3), ..Conditions::default() };
+        state(&effects, &conditions, 0.3)
+    });
 }
 
 #[test]

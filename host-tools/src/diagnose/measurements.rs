@@ -205,5 +205,6 @@ fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
         travel_m: value(Channel::Travel),
         pitch_rad: value(Channel::Pitch),
         slip_angle_rad: value(Channel::SlipAngle),
+        felt_slip: None,
     }
 }

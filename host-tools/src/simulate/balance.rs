@@ -45,6 +45,9 @@ pub struct Motion {
     pub rim_speed_m_s: PerWheel<f64>,
     /// Way of the rims against the links since the start, m.
     pub rim_way_m: PerWheel<f64>,
+    /// The slip that the soil under each wheel has felt, 0 … 1: it follows the size of the wheel's slip over the length of the
+    /// contact.
+    pub felt_slip: PerWheel<f64>,
 }
 
 /// One wheel at one instant.
@@ -137,6 +140,7 @@ impl World {
             pass: Some(pass),
             wheel_angle_rad: Some(motion.rim_way_m.of_wheel(side, axle) / self.rover.wheel.radius_m),
             pitch_rad: Some(motion.pose.pitch),
+            felt_slip: Some(*motion.felt_slip.of_wheel(side, axle)),
             ..Conditions::default()
         }
     }

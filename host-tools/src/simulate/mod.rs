@@ -16,6 +16,7 @@
 //! - The accelerometer sits at the centre of mass.
 //! - A wheel that backs up is the mirror image of one that drives ahead: slip is positive when it drives in its own direction,
 //!   pull and torque change their sign. A wheel below 0.1 mm/s stands: it has no slip.
+//! - Effects that follow the slip by digging follow it over a way: see [`Motion::felt_slip`](balance::Motion::felt_slip).
 //! - Soil takes effect where a hub is: the two soils of a border mix over 5 cm.
 
 pub mod audit;
@@ -23,6 +24,7 @@ pub mod balance;
 mod course;
 pub mod effects;
 pub mod faults;
+mod felt_slip;
 pub mod ground_soils;
 mod newton;
 pub mod pose;

@@ -3,9 +3,10 @@
 use kapvik_firmware::rover::{Axes, PerWheel};
 
 use super::balance::{Instant, Motion, World};
+use super::felt_slip::felt_slip_after;
 use super::newton::{Newton, Residual};
 use super::pose::{Coordinates, Pose};
-use super::wheel_soil::standing_conditions;
+use super::wheel_soil::{WheelMotion, standing_conditions};
 
 /// The longest step, s.
 const LONGEST_STEP_S: f64 = 0.05;
@@ -26,6 +27,9 @@ pub struct Stepper {
     rates: Coordinates,
     /// At the last instant: rim speeds, m/s, and the way of the rims, m.
     rims: (PerWheel<f64>, PerWheel<f64>),
+    /// At the last instant: how the wheels moved, and the slip that the soil under them had felt.
+    wheels: PerWheel<WheelMotion>,
+    felt_slip: PerWheel<f64>,
 }
 
 /// The backward differentiation formula of second order for steps of unequal length:
@@ -78,7 +82,8 @@ impl Residual for AtRest<'_> {
         pose.x = self.x_m;
         let rim_speed_m_s = PerWheel::default();
         let (acceleration_m_s2, rim_way_m) = (Axes::default(), PerWheel::default());
-        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, rim_way_m };
+        let felt_slip = PerWheel::default();
+        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, rim_way_m, felt_slip };
         let instant = self.world.instant(&motion).ok()?;
         Some((instant.residual, instant))
     }
@@ -91,6 +96,7 @@ struct Step<'a> {
     difference: BackwardDifference,
     rim_speed_m_s: PerWheel<f64>,
     rim_way_m: PerWheel<f64>,
+    felt_slip: PerWheel<f64>,
 }
 
 impl Residual for Step<'_> {
@@ -106,8 +112,8 @@ impl Residual for Step<'_> {
             y: self.difference.rate(velocity.y, last.y, before.y),
             z: self.difference.rate(velocity.z, last.z, before.z),
         };
-        let (rim_speed_m_s, rim_way_m) = (self.rim_speed_m_s, self.rim_way_m);
-        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, rim_way_m };
+        let Self { rim_speed_m_s, rim_way_m, felt_slip, .. } = *self;
+        let motion = Motion { pose, rates, acceleration_m_s2, rim_speed_m_s, rim_way_m, felt_slip };
         let instant = self.world.instant(&motion).ok()?;
         Some((instant.residual, instant))
     }
@@ -129,6 +135,8 @@ impl Stepper {
             between_s: LONGEST_STEP_S,
             rates: Coordinates::zeros(),
             rims: (PerWheel::default(), PerWheel::default()),
+            wheels: instant.wheels.map_wheels(|wheel| wheel.motion),
+            felt_slip: PerWheel::default(),
         };
         Some((stepper, instant))
     }
@@ -166,8 +174,9 @@ impl Stepper {
     fn step(&mut self, world: &World, step_s: f64, rim_speed_m_s: PerWheel<f64>) -> Option<Instant> {
         let difference = BackwardDifference::new(step_s, self.between_s);
         let rim_way_m = self.rim_way_m(step_s, &rim_speed_m_s);
+        let felt_slip = self.felt_slip(world, step_s);
         let mut newton = std::mem::take(&mut self.newton);
-        let step = Step { world, stepper: self, difference, rim_speed_m_s, rim_way_m };
+        let step = Step { world, stepper: self, difference, rim_speed_m_s, rim_way_m, felt_slip };
         let solved = newton.solve(&step, self.rates)?;
         let Motion { pose, rates, .. } = solved.state.motion;
         self.newton = newton;
@@ -176,7 +185,19 @@ impl Stepper {
         self.last = Past { pose: pose.into(), centre_velocity_m_s: centre_velocity_m_s(world, &pose, &rates) };
         self.rates = solved.unknowns;
         self.rims = (rim_speed_m_s, rim_way_m);
+        self.wheels = solved.state.wheels.map_wheels(|wheel| wheel.motion);
+        self.felt_slip = felt_slip;
         Some(solved.state)
+    }
+
+    /// The slip that the soil has felt at the end of a step, from how the wheels moved at its beginning: a step takes a small
+    /// part of the contact's length.
+    fn felt_slip(&self, world: &World, step_s: f64) -> PerWheel<f64> {
+        let mut felt_slip = self.felt_slip;
+        felt_slip.iter_wheels_mut().zip(self.wheels.iter_wheels()).for_each(|(felt, motion)| {
+            *felt = felt_slip_after(step_s, *felt, motion, &world.rover.wheel);
+        });
+        felt_slip
     }
 
     /// The way of the rims at the end of a step, by the mean of the speeds at its ends.

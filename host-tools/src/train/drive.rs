@@ -57,6 +57,7 @@ impl Drive {
             travel_m: Some(self.travel_m),
             pitch_rad: Some(pitch_rad),
             slip_angle_rad: Some(self.slip_angle_rad),
+            felt_slip: None,
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod balance;
 mod command;
+mod digging;
 mod drives;
 mod faults;
 mod files;

@@ -1,7 +1,6 @@
 //! Sensors as the conventions define them, and their noise.
 
 use kapvik_firmware::rover::Rover;
-use kapvik_firmware::terramechanics::{Soil, wheel_forces};
 use kapvik_host::data::sensor_channels::{names, values};
 use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
@@ -185,39 +184,4 @@ fn effects_do_what_their_names_say() {
     let [(with, _), (without, _)] = rows[rows.len() - 1];
     let leaked = cell(&with) - cell(&without);
     assert!(leaked > 0.5 && leaked < 2.5, "a tenth of the rear wheel's pull: {leaked}");
-}
-
-/// n = n₀ + n₁ i is, wheel by wheel, the seed's model on a soil of another exponent.
-#[test]
-fn slip_sinkage_acts_on_each_wheel_by_its_slip() {
-    let soil = Soil {
-        sinkage_exponent: 1.0,
-        cohesive_modulus: 0.0,
-        frictional_modulus: 2.0e6,
-        cohesion_pa: 500.0,
-        friction_angle_rad: 0.6,
-        shear_modulus_m: 0.012,
-        peak_stress_c1: 0.3,
-        peak_stress_c2: 0.1,
-        rebound_ratio: 0.0,
-    };
-    let mut effects = RoverEffects::default();
-    // A small one: with n₁ = 0.5 the wheels, whose slip is one as they start, dig themselves in.
-    effects.set("slip-sinkage.n1", 0.1).unwrap();
-    let options = Options { duration_s: Some(15.0), soil: Some(soil), effects, ..Options::default() };
-    let wheel = Rover::assumed().wheel;
-    let mut slips = Vec::new();
-    for (_, truth) in drive(Scenario::Spread, 6, &options).iter().skip(100) {
-        for truth in truth.wheels.iter_wheels() {
-            let slip = truth.slip.unwrap();
-            let soil = Soil { sinkage_exponent: 1.0 + 0.1 * slip.abs(), ..soil };
-            let forces = wheel_forces(&wheel, &soil, slip, truth.sinkage_m).unwrap();
-            assert!((truth.drawbar_pull_n - forces.drawbar_pull_n).abs() < 1e-9);
-            assert!((truth.resistive_torque_nm - forces.torque_nm).abs() < 1e-9);
-            // The load also holds the damping of the sinking motion.
-            assert!((truth.normal_load_n / forces.load_n - 1.0).abs() < 0.01);
-            slips.push(slip);
-        }
-    }
-    assert!(slips.iter().copied().fold(0.0, f64::max) > 0.3, "wheels that slip");
 }

@@ -25,6 +25,9 @@ pub struct Conditions<S> {
     pub pitch_rad: Option<S>,
     /// Slip angle, rad.
     pub slip_angle_rad: Option<S>,
+    /// The slip that the soil under the wheel has felt, −1 … 1, where it is not the present one: a wheel digs over a way of
+    /// about a contact length, not at once.
+    pub felt_slip: Option<S>,
 }
 
 impl<S: Copy> Conditions<S> {
@@ -40,6 +43,7 @@ impl<S: Copy> Conditions<S> {
             travel_m: self.travel_m.map(&convert),
             pitch_rad: self.pitch_rad.map(&convert),
             slip_angle_rad: self.slip_angle_rad.map(&convert),
+            felt_slip: self.felt_slip.map(&convert),
         }
     }
 }
@@ -88,6 +92,11 @@ impl<S: Scalar> Circumstances<'_, S> {
     /// v/(rω): 1 − i when driving, 1/(1 + i) when braking.
     fn speed_ratio(&self) -> S {
         if self.slip < S::zero() { S::one() / (S::one() + self.slip) } else { S::one() - self.slip }
+    }
+
+    /// The slip that the soil under the wheel has felt: as stated, or the present one.
+    pub fn felt_slip(&self) -> S {
+        self.conditions.felt_slip.unwrap_or(self.slip)
     }
 
     /// Rate of the wheel, rad/s: as stated, or from the speed over the ground and the slip. None of a wheel that spins on

@@ -13,7 +13,8 @@ effect_parameters! {
     /// - p = k (z/(1 + m S))ⁿ: soil dug away stretches the sinkage, as in Lyasko's (1 + i)/(1 − i/2);
     /// - z read = (1 + q S) z: soil moved past the wheel, which carries no load.
     ///
-    /// The saturation a is ours: measured sinkage stops growing at high slip.
+    /// The saturation a is ours: measured sinkage stops growing at high slip. The slip i is the one that the soil has felt,
+    /// where that is known beside the present one.
     pub struct SlipSinkage {
         /// n₁.
         exponent_per_slip: "n1" ["-"] = 0.0, -0.5 to 2.0, about 0.3;
@@ -52,13 +53,13 @@ impl<S: Scalar> Effect<S> for SlipSinkage<S> {
     ];
 
     fn soil(&self, soil: &mut Soil<S>, at: &Circumstances<'_, S>) {
-        let slip = self.measure(at.slip);
+        let slip = self.measure(at.felt_slip());
         let stretch = (S::one() + self.stretch_per_slip * slip).max(S::constant(0.05));
         soil.scale_stiffness((-(soil.sinkage_exponent * stretch.ln())).exp());
         soil.sinkage_exponent = (soil.sinkage_exponent + self.exponent_per_slip * slip).max(S::zero());
     }
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
-        readings.sinkage_m = readings.sinkage_m * (S::one() + self.apparent_per_slip * self.measure(at.slip));
+        readings.sinkage_m = readings.sinkage_m * (S::one() + self.apparent_per_slip * self.measure(at.felt_slip()));
     }
 }

@@ -79,5 +79,6 @@ fn conditions(setting: &Setting) -> Conditions<f64> {
         travel_m: Some(setting.travel_m),
         pitch_rad: Some(setting.pitch_rad),
         slip_angle_rad: Some(setting.slip_angle_rad),
+        felt_slip: None,
     }
 }
