@@ -10,13 +10,16 @@ use super::iagnemma::{IagnemmaAssumptions, Recursive, iagnemma};
 use super::ray::ray;
 use super::{Assumed, Identified, Observation, Refusal, SoilPrior, map};
 
+/// What six wheels read at one instant.
+pub type SixWheels = [Observation<f32>; 6];
+
 /// A method as it is called on six wheels.
 #[derive(Debug, Clone, Copy)]
 pub struct Method {
     /// Its name.
     pub name: &'static str,
     /// What it says of the soil.
-    pub call: fn(&[Observation<f32>; 6]) -> Result<Identified<f32>, Refusal>,
+    pub call: fn(&SixWheels) -> Result<Identified<f32>, Refusal>,
 }
 
 /// The methods of the literature. What they take as given is that of the first soil of [`SOILS`].
@@ -104,8 +107,9 @@ const NOISE: WheelNoise<f32> =
     WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
 /// Slip and load (N) of each wheel.
 const WHEELS: [(f32, f32); 6] = [(0.05, 45.0), (0.16, 80.0), (0.27, 55.0), (0.38, 90.0), (0.49, 65.0), (0.60, 50.0)];
+
 /// What faultless sensors read on a soil that carries the wheels.
-pub fn six_wheels(soil: &Soil<f32>) -> Option<[Observation<f32>; 6]> {
+pub fn six_wheels(soil: &Soil<f32>) -> Option<SixWheels> {
     let mut seen = [Observation { state: state(0.0, 0.0), noise: NOISE }; 6];
     for (observation, (slip, load_n)) in seen.iter_mut().zip(WHEELS) {
         let sinkage_m = sinkage_for_load(&WHEEL, soil, slip, load_n).ok()?;
@@ -125,7 +129,7 @@ fn state(slip: f32, load_n: f32) -> WheelState<f32> {
 }
 
 /// The same with the first wheel's torque `off` standard deviations off, so that no two calls are alike.
-pub fn with_error(seen: &[Observation<f32>; 6], off: f32) -> [Observation<f32>; 6] {
+pub fn with_error(seen: &SixWheels, off: f32) -> SixWheels {
     let mut seen = *seen;
     seen.iter_mut().take(1).for_each(|first| first.state.torque_nm += off * NOISE.torque_nm);
     seen
