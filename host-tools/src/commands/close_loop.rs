@@ -50,7 +50,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     // Of a seed that no plan draws its scenes from.
     let options = Options { plan, rovers, seed: arguments.seed.wrapping_add(1 << 30) };
     let closed = close(&campaign, &diagnosis, &folder, &options)?;
-    println!("{}: {}", diagnosis.campaign, sentence(&diagnosis));
+    println!("{}", sentence(&diagnosis));
     println!("\nRoot mean square errors on held-out runs\n\n{}", closed.forces);
     println!("\ndeclared model: {}", folder.join("declared.toml").display());
     let Some(soil) = closed.soil else {
@@ -60,7 +60,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let [before, after] = &soil.effects;
     println!("\nRover network trained for\n  before  {before}\n  after   {after}");
     println!("by the same plan: {} scenes, {} epochs.", plan.scenes, plan.rover_epochs);
-    println!("\nErrors on {rovers} simulated rovers of each kind, on soil as after\n\n{}", soil.errors);
+    println!(
+        "\nErrors on {rovers} simulated rovers of each kind, on soil with the effects of after\n\n{}",
+        soil.errors
+    );
     println!(
         "\nEstimates on the campaign itself, whose truth is not known; medians over its runs\n\n{}",
         soil.intervals
@@ -70,8 +73,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     Ok(())
 }
 
+/// The diagnosis' own sentence, which begins with the campaign's name.
 fn sentence(diagnosis: &Diagnosis) -> String {
-    if diagnosis.sentence.is_empty() { diagnosis.verdict.to_string() } else { diagnosis.sentence.clone() }
+    match diagnosis.sentence.as_str() {
+        "" => format!("{}: {}", diagnosis.campaign, diagnosis.verdict),
+        sentence => sentence.to_owned(),
+    }
 }
 
 fn read(path: &Path) -> Result<Diagnosis, HostError> {

@@ -7,18 +7,22 @@ use crate::data::campaign::{Campaign, Knowledge};
 use super::document::Diagnosis;
 
 /// A TOML file with the declared effects and those found, each with its form and its parameters and their spread. A reader
-/// ignores everything but `[declared]`.
+/// ignores everything but `[declared]`. Of an effect that is both, what was found counts: the campaign may have been told of
+/// it since this diagnosis.
 pub fn declared_file(campaign: &Campaign, diagnosis: &Diagnosis) -> String {
     let mut text = format!(
         "# What `kapvik diagnose` found in: {}\n# {}\n",
         one_line(&diagnosis.campaign),
         one_line(&diagnosis.sentence)
     );
-    let found = diagnosis.effects.iter().map(|effect| effect.id.clone());
-    let ids: Vec<_> = campaign.declared.ids().into_iter().chain(found).map(|id| format!("\"{id}\"")).collect();
+    let is_new = |id: &str| diagnosis.effects.iter().all(|found| found.id != id);
+    let declared: Vec<_> = campaign.declared.effects.iter().filter(|effect| is_new(effect.info.id)).collect();
+    let found = diagnosis.effects.iter().map(|effect| effect.id.as_str());
+    let ids = declared.iter().map(|effect| effect.info.id).chain(found).map(|id| format!("\"{id}\""));
+    let ids: Vec<_> = ids.collect();
     // Writing to a text cannot fail.
     let _ = writeln!(text, "[declared]\neffects = [{}]", ids.join(", "));
-    for effect in &campaign.declared.effects {
+    for effect in declared {
         let _ = writeln!(text, "[declared.{}]", effect.info.id);
         if let Some(form) = effect.form {
             let _ = writeln!(text, "form = \"{}\"", form.name);
