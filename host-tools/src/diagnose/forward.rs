@@ -80,8 +80,10 @@ fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Optio
     let place = step.ranking.iter().position(Judged::is_significant)?;
     let effect = &step.ranking[place].trial;
     let left = search(bench, effect, step.dispersion);
-    let shown = structures.iter().filter(|structure| structure.is_significant()).take(SUSPECTS);
-    let left = left.iter().filter(|structure| structure.is_significant()).take(SUSPECTS);
+    // Every effect is a function of the contact, so that a curve in slip, load or sinkage accuses none.
+    let is_suspect = |structure: &&Structure| structure.is_significant() && !structure.of_contact;
+    let shown = structures.iter().filter(is_suspect).take(SUSPECTS);
+    let left = left.iter().filter(is_suspect).take(SUSPECTS);
     let mimic = shown.chain(left).any(|structure| is_mimic(bench, step, effect, structure));
     (!mimic).then_some(place)
 }

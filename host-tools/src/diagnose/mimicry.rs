@@ -3,7 +3,7 @@
 use super::fit::Fit;
 use super::linearised::{AddedTerms, Linearised};
 use super::residual_search::Structure;
-use super::selection::{PARAMETER_COST, Step};
+use super::selection::{PARAMETER_COST, Step, TELLS_APART};
 use super::trial::{Bench, Trial};
 
 /// What the dependence must still gain in ln likelihood beside the effect to be more than the effect is.
@@ -12,7 +12,8 @@ const MORE: f64 = 6.0;
 const OWN: f64 = 6.0;
 
 /// Each is added to the model beside the other. An effect that then gains nothing of its own, while the dependence still
-/// gains much, only mimics it. An effect that is real carries over to every channel, and its mimics gain nothing beside it.
+/// gains much, or by itself gains more than the effect by what tells two candidates apart, only mimics it. An effect that is
+/// real carries over to every channel, and its mimics gain nothing beside it.
 pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structure: &Structure) -> bool {
     let added = &structure.added;
     let gains = || {
@@ -25,7 +26,9 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
             |less: f64, parameters: usize| (both - less) / step.dispersion - PARAMETER_COST * parameters as f64;
         Some((beside(alone, added.terms.len()), beside(dependence, effect.added_parameters())))
     };
-    gains().is_some_and(|(dependence, effect)| dependence > MORE && effect < OWN)
+    // The difference of the two is that of the dependence alone and the effect alone.
+    let is_better = |dependence: f64, effect: f64| dependence > MORE || dependence - effect > TELLS_APART;
+    gains().is_some_and(|(dependence, effect)| effect < OWN && is_better(dependence, effect))
 }
 
 fn about<'a>(bench: &'a Bench<'_>, trial: &Trial<'_>) -> Option<Linearised<'a>> {

@@ -14,6 +14,8 @@ pub struct Regressor {
     pub values: Vec<f64>,
     /// Of a product, the values of what it is made of.
     pub factors: Vec<Vec<f64>>,
+    /// Of an angle of the wheel, its sine and its cosine.
+    pub turns: Option<[Vec<f64>; 2]>,
     parts: Vec<String>,
 }
 
@@ -29,7 +31,16 @@ impl Regressor {
     pub fn contains(&self, reading: Reading) -> bool {
         self.parts.iter().any(|part| part == COLUMNS[reading.index()].name())
     }
+
+    /// Whether it is made of slip, load and sinkage alone.
+    pub fn is_of_contact(&self) -> bool {
+        let is_contact = |part: &String| CONTACT.iter().any(|reading| part == COLUMNS[reading.index()].name());
+        self.parts.iter().all(is_contact)
+    }
 }
+
+/// What the contact itself is made of.
+const CONTACT: [Reading; 3] = [Reading::Slip, Reading::Load, Reading::Sinkage];
 
 /// The columns of a campaign that vary, the ones that the format names first.
 pub fn columns(campaign: &Campaign, measurements: &Measurements) -> Vec<Regressor> {
@@ -45,10 +56,17 @@ pub fn columns(campaign: &Campaign, measurements: &Measurements) -> Vec<Regresso
             !found.iter().any(|other| correlation(&other.values, &regressor.values).abs() > SAME)
         };
         if let Some(regressor) = standardised(name.to_owned(), vec![name.to_owned()], &values).filter(new) {
-            found.push(regressor);
+            let turns = (name == Channel::WheelAngle.name()).then(|| turns(&values));
+            found.push(Regressor { turns, ..regressor });
         }
     }
     found
+}
+
+/// Sine and cosine of an angle; 0 where a row does not have it.
+fn turns(angles_rad: &[Option<f64>]) -> [Vec<f64>; 2] {
+    let of = |part: fn(f64) -> f64| angles_rad.iter().map(|angle| angle.map_or(0.0, part)).collect();
+    [of(f64::sin), of(f64::cos)]
 }
 
 /// Products of two different columns, and the squares of none: a power of one column is for the search to try.
@@ -97,6 +115,7 @@ fn standardised(name: String, parts: Vec<String>, values: &[Option<f64>]) -> Opt
         name,
         values: values.iter().map(scale).collect(),
         factors: Vec::new(),
+        turns: None,
         parts,
     })
 }

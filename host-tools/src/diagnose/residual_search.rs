@@ -17,6 +17,8 @@ pub struct Structure {
     pub channel: Reading,
     /// The column, or the product of two.
     pub regressor: String,
+    /// Whether the column is one of what the contact itself is made of: slip, load and sinkage.
+    pub of_contact: bool,
     /// The terms by which it was fitted.
     pub added: AddedTerms,
     /// Gain in ln likelihood in units of the dispersion, less the cost of the terms' coefficients.
@@ -43,8 +45,8 @@ const SIGNIFICANT_STRUCTURE: f64 = 0.001;
 const PER_TERM: f64 = 4.0;
 /// The best of each channel that are looked at again.
 const OF_CHANNEL: usize = 8;
-/// Powers of one column that are tried: a line, and a curve that may turn twice.
-const DEGREES: [usize; 2] = [1, 3];
+/// Powers of one column that are tried: a line, a bend that few observations can bear, and a curve that may turn twice.
+const DEGREES: [usize; 3] = [1, 2, 3];
 
 /// Every channel against every column and every product of two, refitted with the model's parameters; the best first. One
 /// entry a channel and column.
@@ -66,17 +68,20 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
     let nothing = linearised.fit_with(&no_terms()).ok()?;
     let channels = Reading::JUDGED.into_iter().filter(|channel| measurements.has(*channel));
     let singles = columns.iter().flat_map(|column| DEGREES.map(|degree| (column, degree)));
-    let all: Vec<_> = singles.chain(products.iter().map(|product| (product, 1))).collect();
+    let curves = singles.chain(products.iter().map(|product| (product, 1)));
+    let curves = curves.map(|(regressor, degree)| (regressor, powers(regressor, degree)));
+    let all: Vec<_> = curves.chain(columns.iter().filter_map(|column| Some((column, wave(column)?)))).collect();
     let tries: Vec<_> = channels
-        .flat_map(|channel| all.iter().map(move |(regressor, degree)| (channel, *regressor, *degree)))
+        .flat_map(|channel| all.iter().map(move |(regressor, terms)| (channel, *regressor, terms)))
         .filter(|(channel, regressor, _)| !regressor.contains(*channel))
         .collect();
-    let examine = |&(channel, regressor, degree): &(Reading, &Regressor, usize)| {
-        let added = AddedTerms { channel, terms: powers(regressor, degree) };
+    let examine = |&(channel, regressor, terms): &(Reading, &Regressor, &Vec<Vec<f64>>)| {
+        let added = AddedTerms { channel, terms: terms.clone() };
         let fit = linearised.fit_with(&added).ok()?;
         Some(Structure {
             channel,
             regressor: regressor.name.clone(),
+            of_contact: regressor.is_of_contact(),
             score: gain(trial, &nothing, &fit) / dispersion - PARAMETER_COST * added.terms.len() as f64,
             share_of_variance: share(&nothing, &fit, channel),
             p_value: 1.0,
@@ -162,6 +167,12 @@ fn powers(regressor: &Regressor, degree: usize) -> Vec<Vec<f64>> {
     let constant = vec![1.0; regressor.values.len()];
     let power = |power: i32| regressor.values.iter().map(|value| value.clamp(-4.0, 4.0).powi(power)).collect();
     std::iter::once(constant).chain(regressor.factors.iter().cloned()).chain((1..=degree as i32).map(power)).collect()
+}
+
+/// A constant and a swing once a turn, of an angle of the wheel.
+fn wave(regressor: &Regressor) -> Option<Vec<Vec<f64>>> {
+    let [sine, cosine] = regressor.turns.clone()?;
+    Some(vec![vec![1.0; regressor.values.len()], sine, cosine])
 }
 
 /// Share of the squares of a channel's standardised residual that is gone.
