@@ -10,6 +10,7 @@ mod iagnemma_published;
 mod independent;
 mod made;
 mod map;
+mod map_design;
 mod non_uniqueness;
 mod properties;
 mod ray;

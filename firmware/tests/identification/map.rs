@@ -7,90 +7,16 @@ use kapvik_firmware::identification::map::{
 };
 use kapvik_firmware::identification::{Belief, Observation, Refusal, SoilPrior};
 use kapvik_firmware::scalar::Scalar;
-use kapvik_firmware::terramechanics::effects::{Conditions, Effects, Grousers};
-use kapvik_firmware::terramechanics::{Quadrature, Soil, Wheel, WheelOnSoil};
+use kapvik_firmware::terramechanics::Soil;
+use kapvik_firmware::terramechanics::effects::Effects;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
-const SIX_SLIPS: [f64; 6] = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
-const INSTANT: WheelNoise<f64> =
-    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
-/// Table 1 of the seed.
-const TABLE_1: Soil<f64> = Soil {
-    sinkage_exponent: 1.10,
-    cohesive_modulus: 15.6e3,
-    frictional_modulus: 2407.4e3,
-    cohesion_pa: 250.0,
-    friction_angle_rad: 0.556_760_031_367_831_4,
-    shear_modulus_m: 0.0114,
-    peak_stress_c1: 0.18,
-    peak_stress_c2: 0.32,
-    rebound_ratio: 0.0,
-};
-
-/// A way to look at a soil: slips, half the spread of the loads about 65.4 N, and how many instants are averaged.
-#[derive(Clone, Copy)]
-struct Design<'a> {
-    slips: &'a [f64],
-    spread: f64,
-    instants: f64,
-    sinkage_seen: bool,
-}
-
-impl Design<'_> {
-    const ONE_INSTANT: Self = Self { slips: &SIX_SLIPS, spread: 0.08, instants: 1.0, sinkage_seen: true };
-    const MEAN_OF_100: Self = Self { instants: 100.0, ..Self::ONE_INSTANT };
-
-    fn noise(&self) -> WheelNoise<f64> {
-        INSTANT.map(|std| std / self.instants.sqrt())
-    }
-
-    /// What is seen, `blur` standard deviations off; none where the soil carries a wheel deeper than 0.6 r.
-    fn observe(&self, soil: &Soil<f64>, effects: &Effects<f64>, seed: u64, blur: f64) -> Option<Vec<Observation<f64>>> {
-        let (mut random, noise) = (ChaCha8Rng::seed_from_u64(seed), self.noise());
-        let on_soil = WheelOnSoil {
-            wheel: &WHEEL,
-            grousers: &Grousers::none(),
-            soil,
-            effects,
-            gravity_m_s2: 9.81,
-            quadrature: Quadrature::REFERENCE,
-        };
-        let mut seen = Vec::new();
-        for &slip in self.slips {
-            let load_n = 65.4 * (1.0 + self.spread * (2.0 * random.random::<f64>() - 1.0));
-            let truth = on_soil.at_load(&Conditions::default(), slip, load_n).ok()?;
-            if truth.sinkage_m > 0.6 * WHEEL.radius_m {
-                return None;
-            }
-            let mut off = |value: f64, std: f64| {
-                let normal: f64 = StandardNormal.sample(&mut random);
-                value + blur * std * normal
-            };
-            let state = WheelState {
-                drawbar_pull_n: off(truth.drawbar_pull_n, noise.drawbar_pull_n),
-                load_n: off(truth.load_n, noise.load_n),
-                torque_nm: off(truth.torque_nm, noise.torque_nm),
-                slip: off(slip, noise.slip),
-                sinkage_m: Some(off(truth.sinkage_m, noise.sinkage_m)).filter(|_| self.sinkage_seen),
-            };
-            seen.push(Observation { state, noise });
-        }
-        Some(seen)
-    }
-
-    fn estimates(&self, soil: &Soil<f64>, count: u64) -> Vec<MapEstimate<f64>> {
-        let estimate = |seed| {
-            let seen = self.observe(soil, &Effects::none(), seed, 1.0).expect("the soil carries the wheels");
-            identify(&WHEEL, &seen, &SoilPrior::usual()).expect("an estimate")
-        };
-        (0..count).into_par_iter().map(estimate).collect()
-    }
-}
+use super::made::{NOISE, SIX_SLIPS};
+use super::map_design::{Design, TABLE_1, WHEEL};
 
 fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
     let mut values: Vec<f64> = values.collect();
@@ -193,7 +119,7 @@ fn bound(slips: &[f64], spread: f64, instants: f64) -> Foreseen<f64> {
         ..SoilPrior::usual()
     };
     let share = 1.0 / instants.sqrt();
-    let noise = INSTANT.map(|std| std * share);
+    let noise = NOISE.map(|std| std * share);
     let noise = WheelNoise { slip: 1e-9, sinkage_m: 1e-9, ..noise };
     let loads = [-1.0, 0.6, -0.2, 1.0, -0.6, 0.2];
     let design: Vec<_> = slips

@@ -1,8 +1,8 @@
 //! The comparison of the methods: a table for the terminal and a page.
 
+mod error_chart;
 mod overview;
 mod page;
-mod quartiles;
 mod terminal;
 mod verdict;
 

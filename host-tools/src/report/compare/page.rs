@@ -6,7 +6,7 @@ use crate::compare::{Compared, Comparison, Parameter, Score};
 use crate::report::draw::number;
 use crate::report::page::head;
 
-use super::quartiles::{chart, percent};
+use super::error_chart::{chart, percent};
 use super::terminal::{cramer_rao, duration, label, measured_rows};
 use super::verdict::{symbol, to_limit, verdicts};
 use super::{COMPARE_CSS, overview};

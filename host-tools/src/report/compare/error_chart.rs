@@ -1,4 +1,4 @@
-//! One situation and one parameter: where each method's answers lie.
+//! One situation and one parameter: how far each method's answers are from the truth.
 
 use maud::{Markup, html};
 
@@ -14,17 +14,14 @@ const RIGHT: f64 = WIDTH - 14.0;
 const TOP: f64 = 26.0;
 const ROW: f64 = 19.0;
 
-/// Median error of every method, and the quartiles of its answers about the truth where that is one soil.
+/// Bias of every method, and the median size of its errors to both sides.
 pub fn chart(compared: &Compared, parameter: Parameter) -> Markup {
     let shown: Vec<&Score> = compared.scores.iter().filter(|score| is_shown(score.parameter(parameter))).collect();
-    let centre = |score: &Score| score.parameter(parameter).bias;
     let reach = |score: &&Score| {
         let of = score.parameter(parameter);
-        let half = 0.5 * (of.high_quartile - of.low_quartile);
-        // Where the truth differs from case to case, estimates spread with it: then the errors say more.
-        (centre(score) - of.median_error.max(half.min(2.0 * of.median_error)), centre(score) + of.median_error)
+        [of.bias - of.median_error, of.bias + of.median_error]
     };
-    let ends: Vec<f64> = shown.iter().map(reach).flat_map(|(low, high)| [low, high]).collect();
+    let ends: Vec<f64> = shown.iter().flat_map(reach).collect();
     let widest = limits(&ends);
     let scale =
         Scale::around([0.0].into_iter().chain(ends.iter().map(|end| end.clamp(-widest, widest))), (LEFT, RIGHT));
@@ -71,7 +68,7 @@ fn axis_title(parameter: Parameter) -> String {
         Parameter::FrictionAngle => ("φ", "°"),
         Parameter::ShearModulus => ("K", "mm"),
     };
-    format!("error of {name}, {unit}: median ± median size")
+    format!("error of {name}, {unit}: median, and ± its median size")
 }
 
 /// A share in percent.
