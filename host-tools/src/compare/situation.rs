@@ -30,7 +30,7 @@ pub enum Truth {
     Fixed(Soil<f64>),
 }
 
-/// Slip-sinkage that equations 1–11 lack: n = n₀ + n₁ i, n₁ drawn from 0 … [`GREATEST_SLIP_SINKAGE`].
+/// Slip-sinkage that equations 1–11 lack: n = n₀ + n₁ i, n₁ drawn from 0 … 0.7.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SlipSinkage {
     /// There is none.
