@@ -8,8 +8,8 @@ use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, px, tex
 use super::terminal::label;
 use super::verdict::{is_best, symbol};
 
-const WIDTH: f64 = 420.0;
-const LEFT: f64 = 178.0;
+const WIDTH: f64 = 440.0;
+const LEFT: f64 = 205.0;
 const RIGHT: f64 = WIDTH - 14.0;
 const TOP: f64 = 26.0;
 const ROW: f64 = 19.0;
