@@ -6,6 +6,7 @@ use kapvik_firmware::terramechanics::{Soil, Wheel};
 use nalgebra::SMatrix;
 use serde::Serialize;
 
+use crate::identify::method::Assumed;
 use crate::limit::coordinates::DIMENSION;
 
 /// Parameters of a soil in a bound: ln c, φ, ln K, n, ln(k_c/b + k_φ), c₁, c₂, in this order.
@@ -91,18 +92,7 @@ pub fn prior_stds() -> [f64; PARAMETERS] {
 
 /// The soil in the middle of the usual prior.
 pub fn middle_soil() -> Soil<f64> {
-    let prior = SoilPrior::<f64>::usual();
-    Soil {
-        cohesion_pa: prior.ln_cohesion.mean.exp(),
-        friction_angle_rad: prior.friction_angle_rad.mean,
-        shear_modulus_m: prior.ln_shear_modulus.mean.exp(),
-        sinkage_exponent: prior.sinkage_exponent.mean,
-        frictional_modulus: prior.ln_stiffness.mean.exp(),
-        cohesive_modulus: 0.0,
-        peak_stress_c1: prior.peak_stress_c1.mean,
-        peak_stress_c2: prior.peak_stress_c2.mean,
-        rebound_ratio: 0.0,
-    }
+    Assumed::middle_of(&SoilPrior::usual()).soil
 }
 
 /// Changes with c, φ, K, n, k_φ, c₁, c₂ as changes with the parameters of a bound.
