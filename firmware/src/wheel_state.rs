@@ -3,7 +3,8 @@
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::terramechanics::Wheel;
+use crate::scalar::Scalar;
+use crate::terramechanics::{SinkageError, Soil, Wheel, WheelTruth, sinkage_for_load, wheel_forces};
 
 /// The most wheels that a query can hold: those of a rocker-bogie.
 pub const WHEELS: usize = 6;
@@ -47,6 +48,43 @@ impl<S> WheelState<S> {
             torque_nm: convert(self.torque_nm),
             slip: convert(self.slip),
             sinkage_m: self.sinkage_m.map(convert),
+        }
+    }
+}
+
+impl<S: Scalar> WheelState<S> {
+    /// The state that equations 1–11 give a wheel at a slip under a load, N.
+    ///
+    /// # Errors
+    /// Where the soil does not carry the load, or a number is out of its range.
+    pub fn under_load(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, load_n: S) -> Result<Self, SinkageError> {
+        let sinkage_m = sinkage_for_load(wheel, soil, slip, load_n)?;
+        let forces = wheel_forces(wheel, soil, slip, sinkage_m).map_err(|_| SinkageError::Input)?;
+        let sinkage_m = Some(sinkage_m);
+        Ok(Self { drawbar_pull_n: forces.drawbar_pull_n, load_n, torque_nm: forces.torque_nm, slip, sinkage_m })
+    }
+
+    /// The state with noise of these standard deviations; `normal` draws from the standard normal distribution.
+    pub fn blurred(&self, noise: &WheelNoise<S>, mut normal: impl FnMut() -> S) -> Self {
+        let mut blur = |value: S, std: S| value + std * normal();
+        Self {
+            drawbar_pull_n: blur(self.drawbar_pull_n, noise.drawbar_pull_n),
+            load_n: blur(self.load_n, noise.load_n),
+            torque_nm: blur(self.torque_nm, noise.torque_nm),
+            slip: blur(self.slip, noise.slip),
+            sinkage_m: self.sinkage_m.map(|sinkage_m| blur(sinkage_m, noise.sinkage_m)),
+        }
+    }
+}
+
+impl<S> From<WheelTruth<S>> for WheelState<S> {
+    fn from(truth: WheelTruth<S>) -> Self {
+        Self {
+            drawbar_pull_n: truth.drawbar_pull_n,
+            load_n: truth.load_n,
+            torque_nm: truth.torque_nm,
+            slip: truth.slip,
+            sinkage_m: Some(truth.sinkage_m),
         }
     }
 }

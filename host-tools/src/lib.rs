@@ -19,5 +19,6 @@ pub mod report;
 pub mod setup;
 pub mod simulate;
 pub mod soil_catalogue;
+pub mod statistics;
 pub mod train;
 pub mod trial;

@@ -159,3 +159,21 @@ fn a_campaign_without_its_description_names_the_file_that_is_expected() {
     let error = Campaign::read(&path).expect_err("no description").to_string();
     assert!(error.contains("alone.toml: no such file"), "{error}");
 }
+
+#[test]
+fn a_gross_error_is_told_from_other_units() {
+    let row = |pull: &str| format!("a,0,0.2,80.0,{pull},4.2,0.006\n");
+    let table = |pulls: &[&str]| {
+        let rows: String = pulls.iter().map(|pull| row(pull)).collect();
+        format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}")
+    };
+    let toml = TOML.replace("camera_c = 0.1\n", "");
+    // A locked wheel feels twice its load; no wheel feels a meganewton.
+    let campaign = parse(&table(&["14.5", "1e6", "-150", "13"]), &toml).expect("one gross error among four");
+    let gross: Vec<bool> = (0..4).map(|row| campaign.gross_error(row).is_some()).collect();
+    assert_eq!(gross, [false, true, false, false]);
+    // Newtons in the load and millinewtons in the pull.
+    let error = parse(&table(&["14500", "1300", "1250"]), &toml).expect_err("most of a column beyond what can be");
+    assert!(error.starts_with("test.csv:2:5: drawbar_pull_n of 14500 N"), "{error}");
+    assert!(error.ends_with("expected newtons, newton-metres and metres"), "{error}");
+}

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use kapvik_firmware::identification::{Observation, Refusal};
-use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::{Soil, Wheel};
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::soil_catalogue::{Completion, catalogue};
 use kapvik_host::train::cross::{Scope, Trained, train};
@@ -21,15 +21,7 @@ fn sand() -> Soil<f64> {
 /// Six wheels at slips of 0.05 … 0.60 under one load, without noise.
 fn six_wheels(wheel: &Wheel<f64>, load_n: f64) -> [Observation<f64>; 6] {
     [0.05, 0.16, 0.27, 0.38, 0.49, 0.60].map(|slip| {
-        let sinkage_m = sinkage_for_load(wheel, &sand(), slip, load_n).expect("carried");
-        let forces = wheel_forces(wheel, &sand(), slip, sinkage_m).expect("inputs in range");
-        let state = WheelState {
-            drawbar_pull_n: forces.drawbar_pull_n,
-            load_n,
-            torque_nm: forces.torque_nm,
-            slip,
-            sinkage_m: Some(sinkage_m),
-        };
+        let state = WheelState::under_load(wheel, &sand(), slip, load_n).expect("carried");
         Observation { state, noise: NOISE }
     })
 }

@@ -2,7 +2,7 @@
 
 use kapvik_firmware::identification::Observation;
 use kapvik_firmware::identification::ray::{BANK, MultipleModel, ray};
-use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::{Soil, Wheel};
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::identify::soil_bank::soil_bank;
 
@@ -14,10 +14,8 @@ fn six_wheels(soil: &Soil<f64>) -> Option<Vec<Observation<f64>>> {
     let noise = WheelNoise { drawbar_pull_n: 0.05, load_n: 0.1, torque_nm: 0.005, slip: 0.001, sinkage_m: 0.0002 };
     let slips = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
     let observe = |slip: f64| {
-        let sinkage_m = sinkage_for_load(&WHEEL, soil, slip, 65.4).ok()?;
-        let forces = wheel_forces(&WHEEL, soil, slip, sinkage_m).ok()?;
-        let (drawbar_pull_n, torque_nm) = (forces.drawbar_pull_n, forces.torque_nm);
-        let state = WheelState { drawbar_pull_n, load_n: 65.4, torque_nm, slip, sinkage_m: None };
+        let state = WheelState::under_load(&WHEEL, soil, slip, 65.4).ok()?;
+        let state = WheelState { sinkage_m: None, ..state };
         Some(Observation { state, noise })
     };
     slips.into_iter().map(observe).collect()

@@ -1,7 +1,7 @@
 //! Observations made by the equations: Kapvik's assumed wheel on the seed's sand.
 
 use kapvik_firmware::identification::Observation;
-use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::{Soil, Wheel};
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 
 /// Six slips in equal steps.
@@ -34,15 +34,7 @@ pub const fn table_1_sand() -> Soil<f64> {
 
 /// What faultless sensors read of Kapvik's wheel at a slip and a load.
 pub fn seen(soil: &Soil<f64>, slip: f64, load_n: f64) -> Observation<f64> {
-    let sinkage_m = sinkage_for_load(&kapvik_wheel(), soil, slip, load_n).expect("carried");
-    let forces = wheel_forces(&kapvik_wheel(), soil, slip, sinkage_m).expect("inputs in range");
-    let state = WheelState {
-        drawbar_pull_n: forces.drawbar_pull_n,
-        load_n,
-        torque_nm: forces.torque_nm,
-        slip,
-        sinkage_m: Some(sinkage_m),
-    };
+    let state = WheelState::under_load(&kapvik_wheel(), soil, slip, load_n).expect("carried");
     Observation { state, noise: NOISE }
 }
 
@@ -92,14 +84,7 @@ impl Normal {
 
 /// The observation with noise drawn.
 pub fn noisy(observation: &Observation<f64>, random: &mut Normal) -> Observation<f64> {
-    let (state, noise) = (&observation.state, &observation.noise);
-    let state = WheelState {
-        drawbar_pull_n: state.drawbar_pull_n + noise.drawbar_pull_n * random.next(),
-        load_n: state.load_n + noise.load_n * random.next(),
-        torque_nm: state.torque_nm + noise.torque_nm * random.next(),
-        slip: state.slip + noise.slip * random.next(),
-        sinkage_m: state.sinkage_m.map(|sinkage_m| sinkage_m + noise.sinkage_m * random.next()),
-    };
+    let state = observation.state.blurred(&observation.noise, || random.next());
     Observation { state, ..*observation }
 }
 

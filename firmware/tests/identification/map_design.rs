@@ -57,17 +57,9 @@ impl Design<'_> {
             if truth.sinkage_m > 0.6 * WHEEL.radius_m {
                 return None;
             }
-            let mut off = |value: f64, std: f64| {
-                let normal: f64 = StandardNormal.sample(&mut random);
-                value + blur * std * normal
-            };
-            let state = WheelState {
-                drawbar_pull_n: off(truth.drawbar_pull_n, noise.drawbar_pull_n),
-                load_n: off(truth.load_n, noise.load_n),
-                torque_nm: off(truth.torque_nm, noise.torque_nm),
-                slip: off(slip, noise.slip),
-                sinkage_m: Some(off(truth.sinkage_m, noise.sinkage_m)).filter(|_| self.sinkage_seen),
-            };
+            let normal = || -> f64 { StandardNormal.sample(&mut random) };
+            let state = WheelState::from(truth).blurred(&noise.map(|std| blur * std), normal);
+            let state = WheelState { sinkage_m: state.sinkage_m.filter(|_| self.sinkage_seen), ..state };
             seen.push(Observation { state, noise });
         }
         Some(seen)

@@ -36,7 +36,7 @@ pub fn case(situation: &Situation, seed: u64, place: usize) -> Option<Case> {
 
 fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
     let soil = match situation.truth {
-        Truth::Drawn => draw_soil(random),
+        Truth::Drawn => prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random()))),
         Truth::Fixed(soil) => soil,
     };
     let n1 = GREATEST_SLIP_SINKAGE * random.random::<f64>();
@@ -63,14 +63,8 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
         if truth.sinkage_m > prior::DEEPEST * prior::KAPVIK_WHEEL.radius_m {
             return None;
         }
-        let state = WheelState {
-            drawbar_pull_n: truth.drawbar_pull_n,
-            load_n,
-            torque_nm: truth.torque_nm,
-            slip,
-            sinkage_m: Some(truth.sinkage_m),
-        };
-        observations.push(Observation { state: seen(&state, &noise, random), noise });
+        let state = WheelState { load_n, ..truth.into() };
+        observations.push(Observation { state: state.blurred(&noise, || StandardNormal.sample(random)), noise });
     }
     let prior = match situation.truth {
         Truth::Drawn => training_prior(),
@@ -99,38 +93,9 @@ fn declared() -> Option<DeclaredEffect> {
     Some(DeclaredEffect { info, form: None, known: [(N1, known)].into() })
 }
 
-fn draw_soil(random: &mut ChaCha8Rng) -> Soil<f64> {
-    let mut of = |range: prior::Range| range.at(random.random());
-    Soil {
-        cohesion_pa: of(prior::COHESION_PA),
-        friction_angle_rad: of(prior::FRICTION_ANGLE_RAD),
-        shear_modulus_m: of(prior::SHEAR_MODULUS_M),
-        sinkage_exponent: of(prior::SINKAGE_EXPONENT),
-        frictional_modulus: of(prior::STIFFNESS),
-        cohesive_modulus: 0.0,
-        peak_stress_c1: of(prior::PEAK_STRESS_C1),
-        peak_stress_c2: of(prior::PEAK_STRESS_C2),
-        rebound_ratio: 0.0,
-    }
-}
-
 /// That of Kapvik's assumed sensors, averaged.
 fn noise(instants: u32) -> WheelNoise<f64> {
     let share = 1.0 / f64::from(instants).sqrt();
     WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 }
         .map(|std| share * std)
-}
-
-fn seen(state: &WheelState<f64>, noise: &WheelNoise<f64>, random: &mut ChaCha8Rng) -> WheelState<f64> {
-    let mut blur = |value: f64, std: f64| {
-        let normal: f64 = StandardNormal.sample(random);
-        value + std * normal
-    };
-    WheelState {
-        drawbar_pull_n: blur(state.drawbar_pull_n, noise.drawbar_pull_n),
-        load_n: blur(state.load_n, noise.load_n),
-        torque_nm: blur(state.torque_nm, noise.torque_nm),
-        slip: blur(state.slip, noise.slip),
-        sinkage_m: state.sinkage_m.map(|sinkage_m| blur(sinkage_m, noise.sinkage_m)),
-    }
 }

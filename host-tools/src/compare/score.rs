@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
 use crate::identify::method::{Finding, Statement};
+use crate::statistics::{median, quantile, sorted};
 
 /// A parameter of the soil, with the unit in which its errors are told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -186,25 +187,10 @@ pub fn is_beaten(one: &ParameterScore, other: &ParameterScore) -> bool {
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let mut worse = || {
         let drawn: Vec<&(f64, f64)> = (0..pairs.len()).filter_map(|_| pairs.choose(&mut random)).collect();
-        quantile(&sorted(drawn.iter().map(|pair| pair.0)), 0.5)
-            > quantile(&sorted(drawn.iter().map(|pair| pair.1)), 0.5)
+        median(drawn.iter().map(|pair| pair.0)) > median(drawn.iter().map(|pair| pair.1))
     };
     let count = (0..RESAMPLINGS).filter(|_| worse()).count();
     count as f64 > 0.95 * RESAMPLINGS as f64
-}
-
-fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
-/// Of sorted values, between neighbours in proportion; not a number of none.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let place = share * sorted.len().saturating_sub(1) as f64;
-    let at = |place: f64| sorted.get(place as usize).copied().unwrap_or(f64::NAN);
-    let (low, high) = (at(place.floor()), at(place.ceil()));
-    low + (high - low) * place.fract()
 }
 
 fn most_frequent<'a>(reasons: impl Iterator<Item = &'a String>) -> Option<String> {

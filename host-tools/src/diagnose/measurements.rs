@@ -50,7 +50,7 @@ impl Measurements {
         let mut reasons = [
             (0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"),
             (0, "braking"),
-            (0, "a sinkage beyond the wheel's radius"),
+            (0, "gross errors: a force or sinkage that no wheel can have felt"),
         ];
         let mut usable = Vec::new();
         for row in 0..campaign.rows().len() {
@@ -59,8 +59,7 @@ impl Measurements {
                 reasons[0].0 += 1;
             } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
                 reasons[1].0 += 1;
-            } else if readings[Reading::Sinkage.index()].is_some_and(|sinkage| sinkage.abs() > campaign.wheel.radius_m)
-            {
+            } else if campaign.gross_error(row).is_some() {
                 reasons[2].0 += 1;
             } else {
                 usable.push((row, readings));
@@ -166,23 +165,7 @@ fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
             campaign.error("nothing to judge: expected `drawbar_pull_n`, `torque_nm` or, beside a load, `sinkage_m`")
         );
     }
-    check_units(campaign)
-}
-
-/// A sinkage that is mostly beyond the wheel's radius is in other units than the format's. Single ones are gross errors, and
-/// are left out row by row.
-fn check_units(campaign: &Campaign) -> Result<(), HostError> {
-    let radius_m = campaign.wheel.radius_m;
-    let sinkages = || (0..campaign.rows().len()).filter_map(|row| Some((row, campaign.value(row, Channel::Sinkage)?)));
-    let middle_m = median(sinkages().map(|(_, sinkage)| sinkage.abs()).collect()).unwrap_or(0.0);
-    match sinkages().find(|(_, sinkage)| sinkage.abs() > radius_m) {
-        Some((row, sinkage)) if middle_m > radius_m => Err(campaign.error_at_row(
-            row,
-            Channel::Sinkage,
-            format!("a sinkage of {sinkage} m under a wheel of {radius_m} m radius: expected metres, 0 to the radius"),
-        )),
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 /// A slip, what determines the sinkage, and something to judge that by.

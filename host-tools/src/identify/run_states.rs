@@ -69,6 +69,9 @@ fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, 
     if let Some(missing) = needs.iter().find(|channel| value(**channel).is_none()) {
         return Err(format!("no {}", missing.name()));
     }
+    if let Some(reason) = campaign.gross_error(row) {
+        return Err(reason);
+    }
     let or_zero = |channel| value(channel).unwrap_or(0.0);
     let sample = Sample {
         slip: or_zero(Channel::Slip),

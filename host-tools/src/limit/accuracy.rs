@@ -3,6 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::statistics::median;
+
 use super::coordinates::Targets;
 
 /// Resamplings of the cases for a standard error (B. Efron's bootstrap).
@@ -34,10 +36,7 @@ impl Errors {
 
     /// Median of |e^error − 1|: the relative error of a target that is a logarithm.
     pub fn median_relative(&self, target: usize) -> f64 {
-        let mut errors: Vec<f64> = self.0.iter().map(|error| libm::expm1(error[target]).abs()).collect();
-        errors.sort_by(f64::total_cmp);
-        let (low, high) = (errors.get((errors.len().max(1) - 1) / 2), errors.get(errors.len() / 2));
-        low.zip(high).map_or(f64::NAN, |(low, high)| 0.5 * (low + high))
+        median(self.0.iter().map(|error| libm::expm1(error[target]).abs()))
     }
 
     /// Root mean square error of one target over that of `limit` on the same cases.

@@ -8,10 +8,10 @@ use kapvik_firmware::terramechanics::Soil;
 use nalgebra::SVector;
 
 use crate::train::example::soil_targets;
-use crate::train::prior::{self, Range};
+use crate::train::prior::{self, Range, SOIL_RANGES};
 
 /// Parameters that the prior of a soil draws.
-pub const DIMENSION: usize = 7;
+pub const DIMENSION: usize = prior::SOIL_PARAMETERS;
 
 /// c, φ, K, n, k_φ, c₁, c₂, each as the normal quantile of its share of the prior's range.
 pub type Coordinates = SVector<f64, DIMENSION>;
@@ -19,42 +19,20 @@ pub type Coordinates = SVector<f64, DIMENSION>;
 /// ln c (c in Pa), φ (rad), ln K (K in m): what is estimated.
 pub type Targets = [f64; TARGETS];
 
-/// The ranges, in the order of the coordinates.
-const RANGES: [Range; DIMENSION] = [
-    prior::COHESION_PA,
-    prior::FRICTION_ANGLE_RAD,
-    prior::SHEAR_MODULUS_M,
-    prior::SINKAGE_EXPONENT,
-    prior::STIFFNESS,
-    prior::PEAK_STRESS_C1,
-    prior::PEAK_STRESS_C2,
-];
-
 /// The soil at a point.
 pub fn soil_at(point: &Coordinates) -> Soil<f64> {
-    let [c, phi, shear, n, stiffness, c1, c2] = parameters_at(point);
-    Soil {
-        cohesion_pa: c,
-        friction_angle_rad: phi,
-        shear_modulus_m: shear,
-        sinkage_exponent: n,
-        frictional_modulus: stiffness,
-        cohesive_modulus: 0.0,
-        peak_stress_c1: c1,
-        peak_stress_c2: c2,
-        rebound_ratio: 0.0,
-    }
+    prior::soil(parameters_at(point))
 }
 
 fn parameters_at(point: &Coordinates) -> [f64; DIMENSION] {
-    std::array::from_fn(|axis| RANGES[axis].at(normal_distribution(point[axis])))
+    std::array::from_fn(|axis| SOIL_RANGES[axis].at(normal_distribution(point[axis])))
 }
 
 /// Change of each parameter with its own coordinate.
 pub fn slopes_at(point: &Coordinates) -> [f64; DIMENSION] {
     let parameters = parameters_at(point);
     std::array::from_fn(|axis| {
-        let Range { low, high, logarithmic } = RANGES[axis];
+        let Range { low, high, logarithmic } = SOIL_RANGES[axis];
         let by_share = if logarithmic { parameters[axis] * libm::log(high / low) } else { high - low };
         by_share * normal_density(point[axis])
     })

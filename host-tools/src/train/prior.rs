@@ -3,8 +3,8 @@
 //! The soil ranges and the noise are those of the experiment that the project compares itself with (φ 22–42°, K
 //! 5–35 mm, n 0.8–1.3, k_φ 0.8–5 MPa/mⁿ, 0.5 N, 1 N, 0.05 N·m, 2 mm and 0.01 per instant on the assumed Kapvik wheel).
 
-use kapvik_firmware::terramechanics::Wheel;
 use kapvik_firmware::terramechanics::effects::Grousers;
+use kapvik_firmware::terramechanics::{Soil, Wheel};
 
 /// A range, and how a number lies in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +58,28 @@ pub const STIFFNESS: Range = Range::logarithmic(0.8e6, 5.0e6);
 pub const PEAK_STRESS_C1: Range = Range::linear(0.15, 0.50);
 /// Peak-stress shift c₂.
 pub const PEAK_STRESS_C2: Range = Range::linear(0.0, 0.35);
+
+/// Parameters of a soil that are drawn.
+pub const SOIL_PARAMETERS: usize = 7;
+/// Their ranges: c, φ, K, n, stiffness, c₁, c₂.
+pub const SOIL_RANGES: [Range; SOIL_PARAMETERS] =
+    [COHESION_PA, FRICTION_ANGLE_RAD, SHEAR_MODULUS_M, SINKAGE_EXPONENT, STIFFNESS, PEAK_STRESS_C1, PEAK_STRESS_C2];
+
+/// The soil of these parameters, in the order and the units of [`SOIL_RANGES`].
+pub fn soil(parameters: [f64; SOIL_PARAMETERS]) -> Soil<f64> {
+    let [cohesion_pa, friction_angle_rad, shear_modulus_m, sinkage_exponent, stiffness, c1, c2] = parameters;
+    Soil {
+        cohesion_pa,
+        friction_angle_rad,
+        shear_modulus_m,
+        sinkage_exponent,
+        frictional_modulus: stiffness,
+        cohesive_modulus: 0.0,
+        peak_stress_c1: c1,
+        peak_stress_c2: c2,
+        rebound_ratio: 0.0,
+    }
+}
 
 /// Share of scenes with Kapvik's wheel.
 pub const KAPVIK_SHARE: f64 = 0.7;

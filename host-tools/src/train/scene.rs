@@ -134,7 +134,7 @@ fn gather(world: &World, design: Design, count: usize, seed: u32, draws: u32) ->
 fn draw(world: &World, design: Design, index: u32, seed: u32) -> Option<Scene> {
     let mut shares = Shares::new(index, seed);
     let mut of_effects = shares.of_effects();
-    let soil = draw_soil(&mut shares);
+    let soil = prior::soil(prior::SOIL_RANGES.map(|range| range.at(shares.next())));
     let ground = Ground {
         soil,
         drive: Drive::draw(|| of_effects.next()),
@@ -144,20 +144,6 @@ fn draw(world: &World, design: Design, index: u32, seed: u32) -> Option<Scene> {
     match design {
         Design::Training => draw_training(&mut shares, &ground),
         Design::Kapvik { instants, sinkage } => draw_kapvik(&mut shares, &ground, instants, sinkage),
-    }
-}
-
-fn draw_soil(shares: &mut Shares) -> Soil<f64> {
-    Soil {
-        cohesion_pa: prior::COHESION_PA.at(shares.next()),
-        friction_angle_rad: prior::FRICTION_ANGLE_RAD.at(shares.next()),
-        shear_modulus_m: prior::SHEAR_MODULUS_M.at(shares.next()),
-        sinkage_exponent: prior::SINKAGE_EXPONENT.at(shares.next()),
-        frictional_modulus: prior::STIFFNESS.at(shares.next()),
-        cohesive_modulus: 0.0,
-        peak_stress_c1: prior::PEAK_STRESS_C1.at(shares.next()),
-        peak_stress_c2: prior::PEAK_STRESS_C2.at(shares.next()),
-        rebound_ratio: 0.0,
     }
 }
 
@@ -261,7 +247,7 @@ impl Ground {
             (truth.sinkage_m <= prior::DEEPEST * wheel.radius_m).then_some(WheelTruth { load_n: *load_n, ..truth })
         };
         let truths: heapless::Vec<_, WHEELS> = asked.iter().enumerate().map(truth).collect::<Option<_>>()?;
-        let wheels: States = truths.iter().map(true_state).collect();
+        let wheels: States = truths.iter().map(|truth| WheelState::from(*truth).map(|number| number as f32)).collect();
         if self.faultless {
             return Some((wheels, None));
         }
@@ -277,16 +263,6 @@ impl Ground {
             })
         };
         Some((wheels, Some(truths.iter().enumerate().map(read).collect::<Option<_>>()?)))
-    }
-}
-
-fn true_state(truth: &WheelTruth<f64>) -> WheelState {
-    WheelState {
-        drawbar_pull_n: truth.drawbar_pull_n as f32,
-        load_n: truth.load_n as f32,
-        torque_nm: truth.torque_nm as f32,
-        slip: truth.slip as f32,
-        sinkage_m: Some(truth.sinkage_m as f32),
     }
 }
 

@@ -4,6 +4,8 @@ use kapvik_firmware::network::{Marginal, OUTPUTS, Posterior, PosteriorScale, Rov
 use kapvik_firmware::wheel_state::SoilQuery;
 use rayon::prelude::*;
 
+use crate::statistics::median;
+
 use super::dataset::stream;
 use super::example::{Example, targets};
 use super::observe::observe;
@@ -42,8 +44,6 @@ pub fn score(posteriors: &[Posterior], truths: &[[f64; TARGETS]]) -> Score {
         let mean_square = errors.iter().map(|e| e * e).sum::<f64>() / count;
         let truth_mean = pairs().map(|(_, truth)| truth).sum::<f64>() / count;
         let truth_variance = pairs().map(|(_, truth)| (truth - truth_mean).powi(2)).sum::<f64>() / count;
-        let mut ratios: Vec<f64> = errors.iter().map(|&e| (libm::exp(e) - 1.0).abs()).collect();
-        ratios.sort_by(f64::total_cmp);
         let inside = |truth: f64, [low, high]: [f32; 2]| f64::from(low) <= truth && truth <= f64::from(high);
         let within = |truth: f64, m: &Marginal, deviations: f64| {
             (truth - f64::from(m.mean)).abs() <= deviations * f64::from(m.std)
@@ -51,7 +51,7 @@ pub fn score(posteriors: &[Posterior], truths: &[[f64; TARGETS]]) -> Score {
         TargetScore {
             rmse: mean_square.sqrt(),
             bias: errors.iter().sum::<f64>() / count,
-            median_ratio_error: ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN),
+            median_ratio_error: median(errors.iter().map(|&e| (libm::exp(e) - 1.0).abs())),
             r_squared: 1.0 - mean_square / truth_variance,
             interval_coverage: [
                 share(&|truth, m| inside(truth, m.interval_68)),

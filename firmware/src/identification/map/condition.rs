@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 
 use super::super::singular_values::singular_values;
-use super::problem::{Fit, Problem, unit};
+use super::problem::{Fit, Problem};
 use super::unknowns::{MODULUS, UNKNOWNS};
 
 /// Parameters that are asked: ln K, φ, ln c.
@@ -16,7 +16,7 @@ pub(super) fn condition_number<S: Scalar, const N: usize>(problem: &Problem<'_, 
     let unknowns = problem.forward.unknowns;
     let mut triangle = fit.of_observations(S::zero(), |_, _| ());
     for place in (0..MODULUS).filter(|place| !unknowns.is_known(*place)) {
-        triangle.insert(&unit(place, S::one()), S::zero());
+        triangle.add_alone(place, S::one(), S::zero());
     }
     // The lower end of the triangle is what the rows say of the last unknowns alone.
     let mut columns = [[S::zero(); ASKED]; ASKED];
@@ -25,7 +25,7 @@ pub(super) fn condition_number<S: Scalar, const N: usize>(problem: &Problem<'_, 
             continue;
         }
         let slope = unknowns.slope(MODULUS + place, &fit.state.point);
-        for (slot, row) in column.iter_mut().zip(triangle.rows.iter().skip(MODULUS)) {
+        for (slot, row) in column.iter_mut().zip(triangle.root.iter().skip(MODULUS)) {
             *slot = row.get(MODULUS + place).copied().unwrap_or(S::zero()) / slope;
         }
     }

@@ -8,7 +8,7 @@ use crate::terramechanics::{Soil, Wheel, sinkage_for_load};
 use super::CAPACITY;
 use super::by_seed::BySeed;
 use super::prediction::{Forward, Latents};
-use super::problem::{Problem, State, conditional, unit};
+use super::problem::{Problem, State};
 use super::unknowns::{COHESION, FRICTION, MODULUS, UNKNOWNS, Unknowns};
 
 /// How well observations of a design would tell the soil, to first order about it.
@@ -66,10 +66,10 @@ pub fn information<S: Scalar>(
     let mut triangle = fit.of_observations(S::zero(), |_, _| ());
     for (place, belief) in unknowns.beliefs.iter().enumerate() {
         if belief.std.is_some() {
-            triangle.insert(&unit(place, S::one()), S::zero());
+            triangle.add_alone(place, S::one(), S::zero());
         }
     }
-    let triangle = conditional(&triangle, &core::array::from_fn(|place| unknowns.is_known(place)));
+    let triangle = triangle.held(&core::array::from_fn(|place| unknowns.is_known(place)));
     let entry = |a: usize, b: usize| {
         let scale = |place: usize| unknowns.slope(place, &fit.state.point);
         triangle.covariances(a).get(b).map_or(S::zero(), |entry| *entry * scale(a) * scale(b))

@@ -14,7 +14,7 @@
 //! Flat beliefs of sinkage and slip are beliefs in slip and load, which do not depend on the soil. η is held at the mean of
 //! its belief; a rear contact that is to be fitted is an effect. Braking wheels are welcome.
 //!
-//! From the ground up: `triangle` (least squares by rotations), `unknowns` and their beliefs, `prediction` of the readings
+//! From the ground up: `unknowns` and their beliefs, `prediction` of the readings
 //! (`by_seed`, `with_effects`), `rows` of one observation, the `problem` as a whole, `descent` to the `mode`, the `normal`
 //! distribution about a fit, `mixture` of these about the mode, `estimate`.
 
@@ -30,7 +30,6 @@ mod normal;
 mod prediction;
 mod problem;
 mod rows;
-mod triangle;
 mod unknowns;
 mod with_effects;
 

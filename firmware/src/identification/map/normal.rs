@@ -1,9 +1,9 @@
 //! The normal distribution about a fit.
 
+use crate::identification::least_squares::Triangle;
 use crate::scalar::Scalar;
 
-use super::problem::{Fit, Held, conditional};
-use super::triangle::Triangle;
+use super::problem::{Fit, Held};
 use super::unknowns::{Point, UNKNOWNS};
 
 /// The shared unknowns about a fit where some are held, to second order.
@@ -23,7 +23,7 @@ impl<S: Scalar> Normal<S> {
         let all = fit.of_everything(S::zero(), |rows, latent| {
             ln_evidence += rows.ln_load_slope() - latent.ln_determinant();
         });
-        let triangle = conditional(&all, held);
+        let triangle = all.held(held);
         ln_evidence -= triangle.ln_determinant();
         Self { triangle, held: *held, ln_evidence }
     }
@@ -35,7 +35,7 @@ impl<S: Scalar> Normal<S> {
 
     /// Variances; zero where an unknown is held.
     pub fn variances(&self) -> Point<S> {
-        let mut variances = self.triangle.variances();
+        let mut variances = self.triangle.told_variances();
         for (variance, held) in variances.iter_mut().zip(&self.held) {
             if *held {
                 *variance = S::zero();

@@ -3,13 +3,13 @@
 use heapless::Vec;
 
 use crate::identification::Observation;
+use crate::identification::least_squares::Triangle;
 use crate::scalar::Scalar;
 use crate::terramechanics::effects::Conditions;
 use crate::terramechanics::{deepest_sinkage, sinkage_for_load};
 
 use super::prediction::{Forward, LATENTS, Latents};
 use super::rows::{LatentRows, Rows};
-use super::triangle::Triangle;
 use super::unknowns::{Point, UNKNOWNS};
 
 /// What is to be explained, and by what.
@@ -127,7 +127,7 @@ impl<S: Scalar> Problem<'_, S> {
 impl<S: Scalar, const N: usize> Fit<S, N> {
     /// The shared unknowns' triangle, the latents taken out, without beliefs. The rows that tell the latents go by.
     pub fn of_observations(&self, damping: S, mut pass: impl FnMut(&Rows<S>, LatentRows<S>)) -> Triangle<S, UNKNOWNS> {
-        let mut triangle = Triangle::empty();
+        let mut triangle = Triangle::new();
         for rows in &self.rows {
             pass(rows, rows.eliminate(damping, &mut triangle));
         }
@@ -138,7 +138,7 @@ impl<S: Scalar, const N: usize> Fit<S, N> {
     pub fn of_everything(&self, damping: S, pass: impl FnMut(&Rows<S>, LatentRows<S>)) -> Triangle<S, UNKNOWNS> {
         let mut triangle = self.of_observations(damping, pass);
         for (place, coordinate) in self.state.point.iter().enumerate() {
-            triangle.insert(&unit(place, S::one()), *coordinate);
+            triangle.add_alone(place, S::one(), -*coordinate);
         }
         triangle
     }
@@ -160,69 +160,28 @@ impl<S: Scalar, const N: usize> Fit<S, N> {
             // As many as observations.
             let _ = latents.push(own);
         });
-        let gradient = triangle.gradient();
+        let descent: Point<S> = core::array::from_fn(|place| triangle.descent(place));
         let stays: Held = core::array::from_fn(|place| {
             let (low, high) = problem.forward.unknowns.bounds(place);
             let at = self.state.point.get(place).copied().unwrap_or(S::zero());
-            let downhill = gradient.get(place).map_or(S::zero(), |slope| -*slope);
+            let downhill = descent.get(place).copied().unwrap_or(S::zero());
             let blocked = (at <= low && downhill <= S::zero()) || (at >= high && downhill >= S::zero());
             blocked || held.get(place).copied().unwrap_or(true)
         });
-        let mut damped = Triangle::<S, UNKNOWNS>::empty();
+        let mut damped = Triangle::new();
         for (place, stays) in stays.iter().enumerate() {
-            let length = column_length(&triangle, place).max(S::one());
-            damped.insert(&unit(place, if *stays { S::one() } else { damping * length }), S::zero());
+            let length = triangle.length(place).max(S::one());
+            damped.add_alone(place, if *stays { S::one() } else { damping * length }, S::zero());
         }
-        for (row, right) in triangle.rows.iter().zip(triangle.right) {
-            let mut row = *row;
-            for (entry, stays) in row.iter_mut().zip(&stays) {
-                if *stays {
-                    *entry = S::zero();
-                }
-            }
-            damped.insert(&row, right);
-        }
-        let shared = damped.solve();
+        damped.add_all_but(&triangle, &stays);
+        let shared = damped.told_solution();
         let mut gain = S::zero();
-        for (slope, step) in gradient.iter().zip(&shared) {
-            gain -= *slope * *step;
+        for (slope, step) in descent.iter().zip(&shared) {
+            gain += *slope * *step;
         }
         for own in &latents {
             gain += own.square();
         }
         Step { shared, latents: latents.iter().map(|own| own.step(&shared)).collect(), gain }
     }
-}
-
-/// A triangle without the columns of unknowns that are held.
-pub(super) fn conditional<S: Scalar>(triangle: &Triangle<S, UNKNOWNS>, held: &Held) -> Triangle<S, UNKNOWNS> {
-    let mut kept = Triangle::empty();
-    for (place, held) in held.iter().enumerate() {
-        if *held {
-            kept.insert(&unit(place, S::one()), S::zero());
-        }
-    }
-    for (row, right) in triangle.rows.iter().zip(triangle.right) {
-        let mut row = *row;
-        for (entry, held) in row.iter_mut().zip(held) {
-            if *held {
-                *entry = S::zero();
-            }
-        }
-        kept.insert(&row, right);
-    }
-    kept
-}
-
-/// A row that knows of one unknown alone.
-pub(super) fn unit<S: Scalar>(place: usize, entry: S) -> [S; UNKNOWNS] {
-    core::array::from_fn(|column| if column == place { entry } else { S::zero() })
-}
-
-fn column_length<S: Scalar>(triangle: &Triangle<S, UNKNOWNS>, place: usize) -> S {
-    let mut square = S::zero();
-    for entry in triangle.rows.iter().filter_map(|row| row.get(place)) {
-        square += *entry * *entry;
-    }
-    square.sqrt()
 }

@@ -3,9 +3,9 @@
 use crate::scalar::Scalar;
 
 use super::prediction::{CHANNELS, COLUMNS, LATENTS, Prediction};
-use super::triangle::{Rotation, Triangle};
 use super::unknowns::{Point, UNKNOWNS};
 use crate::identification::Observation;
+use crate::identification::least_squares::{Triangle, take_in};
 
 /// Residuals of an observation over their standard deviations, and their slopes.
 #[derive(Debug, Clone, Copy)]
@@ -69,15 +69,9 @@ impl<S: Scalar> Rows<S> {
         }
         for (slopes, residual) in self.slopes.iter().zip(self.residuals) {
             let (mut row, mut right) = (*slopes, residual);
-            for (place, (own, own_right)) in latent.rows.iter_mut().zip(&mut latent.right).enumerate() {
-                let Some(rotation) = Rotation::new(own.get(place), row.get(place)) else { continue };
-                for (a, b) in own.iter_mut().zip(&mut row).skip(place) {
-                    rotation.apply(a, b);
-                }
-                rotation.apply(own_right, &mut right);
-            }
+            take_in(&mut latent.rows, &mut latent.right, &mut row, &mut right);
             let [_, _, rest @ ..] = row;
-            shared.insert(&rest, right);
+            shared.add(rest, -right);
         }
         latent
     }
@@ -103,19 +97,19 @@ impl<S: Scalar> Rows<S> {
 impl<S: Scalar> LatentRows<S> {
     /// The step of the latents that goes with a step of the shared unknowns.
     pub fn step(&self, shared: &Point<S>) -> [S; LATENTS] {
-        let mut small = Triangle::<S, LATENTS>::empty();
+        let mut small = Triangle::<S, LATENTS>::new();
         for (place, (row, right)) in self.rows.iter().zip(self.right).enumerate() {
             let [first, second, rest @ ..] = row;
             let mut moved = right;
             for (slope, step) in rest.iter().zip(shared) {
                 moved += *slope * *step;
             }
-            if let (Some(slot), Some(slot_right)) = (small.rows.get_mut(place), small.right.get_mut(place)) {
+            if let (Some(slot), Some(slot_right)) = (small.root.get_mut(place), small.right.get_mut(place)) {
                 *slot = [*first, *second];
-                *slot_right = moved;
+                *slot_right = -moved;
             }
         }
-        small.solve()
+        small.told_solution()
     }
 
     /// Sum of squares that the latents alone would take away.

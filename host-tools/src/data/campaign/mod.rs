@@ -5,6 +5,7 @@ mod about;
 mod carried;
 mod channel;
 mod declared;
+mod gross_error;
 mod ground;
 mod noise;
 
@@ -18,6 +19,8 @@ use super::table::{Column, Table};
 use super::text::TextFile;
 use super::toml_file::TomlFile;
 use super::wheel_file::Grousers;
+
+use gross_error::Plausible;
 
 pub use about::Provenance;
 pub use carried::Carried;
@@ -54,6 +57,7 @@ pub struct Campaign {
     header: Vec<String>,
     rows: Vec<RowId>,
     columns: Vec<Measured>,
+    plausible: Plausible,
 }
 
 /// Which wheel state a row is.
@@ -107,7 +111,7 @@ impl Campaign {
         let rows = row_ids(table)?;
         let columns = numeric_columns(table)?;
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-        let campaign = Self {
+        let mut campaign = Self {
             path: path.to_path_buf(),
             wheel: about.wheel.wheel(),
             grousers: about.wheel.grousers(),
@@ -122,10 +126,13 @@ impl Campaign {
             header: table.header().to_vec(),
             rows,
             columns,
+            plausible: Plausible::unknown(),
         };
         if campaign.rows.is_empty() {
             return Err(table.error_in_header("no rows below the header: expected one for each wheel and time"));
         }
+        campaign.plausible = Plausible::of(&campaign);
+        campaign.check_units()?;
         Ok(campaign)
     }
 

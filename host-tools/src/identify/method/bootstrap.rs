@@ -4,9 +4,12 @@
 //! method makes of noise shows; a bias that noise gives a method does not.
 
 use kapvik_firmware::identification::Observation;
+use kapvik_firmware::wheel_state::WheelState;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+
+use crate::statistics::{quantile, sorted};
 
 use super::{Evidence, Finding};
 
@@ -32,29 +35,21 @@ pub fn complete(finding: &mut Finding, evidence: &Evidence, answer: impl Fn(&Evi
     }
     for (parameter, statement) in finding.statements_mut().into_iter().enumerate() {
         if !statement.std.is_finite() {
-            *statement = statement.with_std(half_spread(answers.iter().map(|answer| answer[parameter]).collect()));
+            *statement = statement.with_std(half_spread(answers.iter().map(|answer| answer[parameter])));
         }
     }
 }
 
 /// Half the distance between the 16th and the 84th percentile: the standard deviation of a normal distribution, and a
 /// sober figure for one with outliers.
-fn half_spread(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let at = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
-    0.5 * (at(0.841) - at(0.159))
+fn half_spread(values: impl Iterator<Item = f64>) -> f64 {
+    let values = sorted(values);
+    0.5 * (quantile(&values, 0.841) - quantile(&values, 0.159))
 }
 
+/// Blurred within what a slip and a sinkage can be.
 fn blurred(seen: &Observation<f64>, random: &mut ChaCha8Rng) -> Observation<f64> {
-    let mut blur = |value: f64, std: f64| {
-        let normal: f64 = StandardNormal.sample(random);
-        value + std * normal
-    };
-    let Observation { mut state, noise } = *seen;
-    state.drawbar_pull_n = blur(state.drawbar_pull_n, noise.drawbar_pull_n);
-    state.load_n = blur(state.load_n, noise.load_n);
-    state.torque_nm = blur(state.torque_nm, noise.torque_nm);
-    state.slip = blur(state.slip, noise.slip).clamp(-1.0, 1.0);
-    state.sinkage_m = state.sinkage_m.map(|sinkage_m| blur(sinkage_m, noise.sinkage_m).max(0.0));
-    Observation { state, noise }
+    let state = seen.state.blurred(&seen.noise, || StandardNormal.sample(random));
+    let (slip, sinkage_m) = (state.slip.clamp(-1.0, 1.0), state.sinkage_m.map(|sinkage_m| sinkage_m.max(0.0)));
+    Observation { state: WheelState { slip, sinkage_m, ..state }, noise: seen.noise }
 }

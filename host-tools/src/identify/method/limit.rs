@@ -7,6 +7,7 @@ use crate::limit::coordinates::Targets;
 use crate::limit::sampler::Effort;
 use crate::limit::summary::{EFFORT, Summary, draws};
 use crate::limit::wheel_likelihood::LoadPrior;
+use crate::statistics::{quantile, sorted};
 
 use super::networks::query;
 use super::{Evidence, Finding, Statement};
@@ -30,9 +31,8 @@ pub fn posterior_mean(evidence: &Evidence) -> Result<Finding, String> {
 fn statement(summary: &Summary, target: usize) -> Statement {
     let logarithmic = target != 1;
     let unit = |value: f64| if logarithmic { value.exp() } else { value };
-    let mut values: Vec<f64> = summary.draws.iter().map(|draw: &Targets| draw[target]).collect();
-    values.sort_by(f64::total_cmp);
-    let at = |share: f64| values.get((share * (values.len() - 1) as f64).round() as usize).copied().unwrap_or(f64::NAN);
+    let values = sorted(summary.draws.iter().map(|draw: &Targets| draw[target]));
+    let at = |share: f64| quantile(&values, share);
     let (mean, std) = (summary.targets[target].mean, summary.targets[target].std);
     let prior = f64::from(crate::train::dataset::prior_scale().std[target]);
     Statement {

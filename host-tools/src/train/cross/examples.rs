@@ -1,23 +1,25 @@
 //! Drawn soils and what theory says of a wheel on them.
 
-use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
 use kapvik_firmware::wheel_state::WheelState;
 use rand::RngExt;
 use rayon::prelude::*;
 
 use super::super::dataset::stream;
 use super::super::example::soil_targets;
-use super::super::prior::{DEEPEST, Range};
+use super::super::prior::{self, DEEPEST, Range, SOIL_PARAMETERS};
 use super::{INPUTS, Scope, TARGETS};
 
 // Wide enough for most soils of the literature; recommended by our review of it, not the paper's.
-const COHESION_PA: Range = Range { low: 50.0, high: 5000.0, logarithmic: true };
-const FRICTION_ANGLE_RAD: Range = Range { low: 20.0_f64.to_radians(), high: 45.0_f64.to_radians(), logarithmic: false };
-const SHEAR_MODULUS_M: Range = Range { low: 0.004, high: 0.040, logarithmic: true };
-const SINKAGE_EXPONENT: Range = Range { low: 0.6, high: 1.5, logarithmic: false };
-const STIFFNESS: Range = Range { low: 2e5, high: 6e6, logarithmic: true };
-const PEAK_STRESS_C1: Range = Range { low: 0.15, high: 0.5, logarithmic: false };
-const PEAK_STRESS_C2: Range = Range { low: 0.0, high: 0.35, logarithmic: false };
+// The order is that of [`prior::SOIL_RANGES`].
+const SOIL_RANGES: [Range; SOIL_PARAMETERS] = [
+    Range { low: 50.0, high: 5000.0, logarithmic: true },
+    Range { low: 20.0_f64.to_radians(), high: 45.0_f64.to_radians(), logarithmic: false },
+    Range { low: 0.004, high: 0.040, logarithmic: true },
+    Range { low: 0.6, high: 1.5, logarithmic: false },
+    Range { low: 2e5, high: 6e6, logarithmic: true },
+    Range { low: 0.15, high: 0.5, logarithmic: false },
+    Range { low: 0.0, high: 0.35, logarithmic: false },
+];
 const SLIP: Range = Range { low: 0.02, high: 0.7, logarithmic: false };
 
 /// A wheel's state and the soil under it, in the units of inputs and targets.
@@ -53,28 +55,10 @@ pub(super) fn draw(scope: &Scope, count: usize, seed: u64) -> Vec<Example> {
 fn draw_one(scope: &Scope, seed: u64, index: usize) -> Option<Example> {
     let mut random = stream(seed, index);
     let mut at = |range: Range| range.at(random.random());
-    let soil = Soil {
-        cohesion_pa: at(COHESION_PA),
-        friction_angle_rad: at(FRICTION_ANGLE_RAD),
-        shear_modulus_m: at(SHEAR_MODULUS_M),
-        sinkage_exponent: at(SINKAGE_EXPONENT),
-        frictional_modulus: at(STIFFNESS),
-        cohesive_modulus: 0.0,
-        peak_stress_c1: at(PEAK_STRESS_C1),
-        peak_stress_c2: at(PEAK_STRESS_C2),
-        rebound_ratio: 0.0,
-    };
+    let soil = prior::soil(SOIL_RANGES.map(&mut at));
     let (slip, load_n) = (at(SLIP), at(scope.load_n));
-    let sinkage_m = sinkage_for_load(&scope.wheel, &soil, slip, load_n).ok()?;
-    let forces = wheel_forces(&scope.wheel, &soil, slip, sinkage_m).ok()?;
-    let state = WheelState {
-        drawbar_pull_n: forces.drawbar_pull_n,
-        load_n,
-        torque_nm: forces.torque_nm,
-        slip,
-        sinkage_m: Some(sinkage_m),
-    };
-    let carried = sinkage_m <= DEEPEST * scope.wheel.radius_m;
+    let state = WheelState::under_load(&scope.wheel, &soil, slip, load_n).ok()?;
+    let carried = state.sinkage_m? <= DEEPEST * scope.wheel.radius_m;
     carried.then_some(Example { input: input(&state)?, target: soil_targets(&soil) })
 }
 
@@ -85,7 +69,8 @@ pub(super) fn input(state: &WheelState<f64>) -> Option<[f64; INPUTS]> {
 
 /// The scale of the targets: their ranges.
 pub(super) fn target_scale() -> Scale<TARGETS> {
-    let ends = |end: fn(&Range) -> f64| [end(&COHESION_PA).ln(), end(&FRICTION_ANGLE_RAD), end(&SHEAR_MODULUS_M).ln()];
+    let [cohesion, friction_angle, shear_modulus, ..] = &SOIL_RANGES;
+    let ends = |end: fn(&Range) -> f64| [end(cohesion).ln(), end(friction_angle), end(shear_modulus).ln()];
     Scale { low: ends(|range| range.low), high: ends(|range| range.high) }
 }
 

@@ -1,12 +1,13 @@
-//! Least squares by rotations, row by row: no matrix is stored and no product of columns is formed, so that single
-//! precision keeps the digits that normal equations lose.
+//! The triangular root of a least-squares problem, into which rows go one by one.
 
 use crate::scalar::Scalar;
+
+use super::rotation::take_in;
 
 /// The triangular root of a linear least-squares problem in N unknowns: R and q with ‖Rx − q‖² + `rest` the sum of squared
 /// residuals at x, for all rows so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Triangle<S, const N: usize> {
+pub(in crate::identification) struct Triangle<S, const N: usize> {
     /// R, row by row; zero below the diagonal.
     pub root: [[S; N]; N],
     /// q.
@@ -23,18 +24,34 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
 
     /// Adds the equation `row` · x = `value` by Givens' rotations.
     pub fn add(&mut self, mut row: [S; N], mut value: S) {
-        for (place, (known, right)) in self.root.iter_mut().zip(&mut self.right).enumerate() {
-            let (Some(&pivot), Some(&entry)) = (known.get(place), row.get(place)) else { continue };
-            let length = (pivot * pivot + entry * entry).sqrt();
-            if length > S::zero() {
-                let (cos, sin) = (pivot / length, entry / length);
-                for (above, below) in known.iter_mut().zip(&mut row) {
-                    (*above, *below) = (cos * *above + sin * *below, cos * *below - sin * *above);
-                }
-                (*right, value) = (cos * *right + sin * value, cos * value - sin * *right);
-            }
-        }
+        take_in(&mut self.root, &mut self.right, &mut row, &mut value);
         self.rest += value * value;
+    }
+
+    /// Adds the equation `factor` · xᵢ = `value` of one unknown alone.
+    pub fn add_alone(&mut self, place: usize, factor: S, value: S) {
+        self.add(core::array::from_fn(|column| if column == place { factor } else { S::zero() }), value);
+    }
+
+    /// The same equations without the columns of some unknowns, which are held to zero instead.
+    pub fn held(&self, held: &[bool; N]) -> Self {
+        let mut kept = Self::new();
+        for (place, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+            kept.add_alone(place, S::one(), S::zero());
+        }
+        kept.add_all_but(self, held);
+        kept
+    }
+
+    /// Adds the equations of another triangle without the columns of some unknowns.
+    pub fn add_all_but(&mut self, other: &Self, held: &[bool; N]) {
+        for (row, value) in other.root.iter().zip(other.right) {
+            let mut row = *row;
+            for (entry, _) in row.iter_mut().zip(held).filter(|(_, held)| **held) {
+                *entry = S::zero();
+            }
+            self.add(row, value);
+        }
     }
 
     /// Lets every row so far count for `share` (0 … 1) of what it did.
@@ -92,13 +109,65 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
 
     /// The variances of x, over that of a row's noise; none as for [`Self::solution`].
     pub fn variances(&self) -> Option<[S; N]> {
-        let mut variances = [S::zero(); N];
-        for (place, variance) in variances.iter_mut().enumerate() {
-            let mut unit = [S::zero(); N];
-            *unit.get_mut(place)? = S::one();
-            *variance = *self.normal_solve(unit)?.get(place)?;
+        (0..N).all(|place| self.sound_pivot(place).is_some()).then(|| self.told_variances())
+    }
+
+    /// The best x; zero in the unknowns that no row tells.
+    pub fn told_solution(&self) -> [S; N] {
+        let mut x = [S::zero(); N];
+        for (place, (row, right)) in self.root.iter().zip(&self.right).enumerate().rev() {
+            let mut sum = *right;
+            for (entry, known) in row.iter().zip(&x).skip(place + 1) {
+                sum -= *entry * *known;
+            }
+            let pivot = self.pivot(place);
+            if let (Some(slot), true) = (x.get_mut(place), pivot > S::zero()) {
+                *slot = sum / pivot;
+            }
         }
-        Some(variances)
+        x
+    }
+
+    /// [`Self::variances`]; zero in the unknowns that no row tells.
+    pub fn told_variances(&self) -> [S; N] {
+        core::array::from_fn(|place| {
+            let row = self.inverse_row(place);
+            product(&row, &row)
+        })
+    }
+
+    /// A column of (RᵀR)⁻¹: products of the rows of R⁻¹.
+    pub fn covariances(&self, place: usize) -> [S; N] {
+        let own = self.inverse_row(place);
+        core::array::from_fn(|other| product(&own, &self.inverse_row(other)))
+    }
+
+    /// A row of R⁻¹: y with yᵀ R = eᵀ.
+    fn inverse_row(&self, place: usize) -> [S; N] {
+        let mut y = [S::zero(); N];
+        for column in place..N {
+            let mut sum = if column == place { S::one() } else { S::zero() };
+            for (known, row) in y.iter().zip(&self.root).take(column).skip(place) {
+                sum -= *known * row.get(column).copied().unwrap_or(S::zero());
+            }
+            let pivot = self.pivot(column);
+            if let (Some(slot), true) = (y.get_mut(column), pivot > S::zero()) {
+                *slot = sum / pivot;
+            }
+        }
+        y
+    }
+
+    /// ln |det R| over the unknowns that some row tells.
+    pub fn ln_determinant(&self) -> S {
+        let mut sum = S::zero();
+        for place in 0..N {
+            let pivot = self.pivot(place);
+            if pivot > S::zero() {
+                sum += pivot.ln();
+            }
+        }
+        sum
     }
 
     /// R⁻¹ v.
@@ -122,70 +191,10 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
     }
 }
 
-impl<S: Scalar> Triangle<S, 2> {
-    /// Greatest over least singular value with both columns brought to the same length: so it has no units, and depends on
-    /// nothing but the angle between the columns. Infinite where they are parallel.
-    pub fn condition_number(&self) -> S {
-        let length = self.length(1);
-        let [[_, along], _] = self.root;
-        (S::one() + along.abs() / length) * length / self.pivot(1)
+fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
+    let mut sum = S::zero();
+    for (x, y) in a.iter().zip(b) {
+        sum += *x * *y;
     }
-
-    /// The sum of squared residuals at x.
-    pub fn cost(&self, [x, y]: [S; 2]) -> S {
-        let [[a, b], [_, d]] = self.root;
-        let [p, q] = self.right;
-        let (first, second) = (a * x + b * y - p, d * y - q);
-        first * first + second * second + self.rest
-    }
-
-    /// The best x within bounds. Where the best of all lies outside, it is on an edge: the best of each is tried.
-    pub fn solution_within(&self, [xs, ys]: [Bounds<S>; 2]) -> [S; 2] {
-        if let Some([x, y]) = self.solution()
-            && xs.hold(x) == x
-            && ys.hold(y) == y
-        {
-            return [x, y];
-        }
-        let [[a, b], [_, d]] = self.root;
-        let [p, q] = self.right;
-        let ratio = |above: S, below: S| if below > S::zero() { above / below } else { S::zero() };
-        let x_at = |y: S| [xs.hold(ratio(a * (p - b * y), a * a)), y];
-        let y_at = |x: S| [x, ys.hold(ratio(b * (p - a * x) + d * q, b * b + d * d))];
-        let edges = [y_at(xs.low), y_at(xs.high), x_at(ys.low), x_at(ys.high)];
-        let best = edges.into_iter().filter(|[x, y]| x.is_finite() && y.is_finite());
-        let start = [xs.hold(S::zero()), ys.hold(S::zero())];
-        best.fold(start, |best, edge| if self.cost(edge) < self.cost(best) { edge } else { best })
-    }
-}
-
-/// The least and the greatest value that a parameter may take; infinite where there is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds<S> {
-    /// The least.
-    pub low: S,
-    /// The greatest.
-    pub high: S,
-}
-
-impl<S: Scalar> Bounds<S> {
-    /// From `low` to `high`.
-    pub fn new(low: f64, high: f64) -> Self {
-        Self { low: S::constant(low), high: S::constant(high) }
-    }
-
-    /// Any number.
-    pub fn none() -> Self {
-        Self::new(f64::NEG_INFINITY, f64::INFINITY)
-    }
-
-    /// The nearest value within.
-    pub(super) fn hold(&self, value: S) -> S {
-        value.max(self.low).min(self.high)
-    }
-
-    /// Whether a value lies within and not at an end.
-    pub(super) fn contains_inside(&self, value: S) -> bool {
-        value > self.low && value < self.high
-    }
+    sum
 }

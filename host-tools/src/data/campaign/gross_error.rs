@@ -1,0 +1,93 @@
+//! Numbers that no wheel on a soil can have felt: single ones are gross errors of a sensor, many are in other units.
+
+use crate::error::HostError;
+use crate::statistics::median;
+
+use super::{Campaign, Channel};
+
+/// Greatest force at the rim over the load, or over the campaign's typical load where that is greater. A soil's shear
+/// strength is of the order of the pressure that it carries; a dragged, locked wheel in sand feels twice its load.
+const GREATEST_FORCE: f64 = 5.0;
+/// Greatest load over the campaign's typical one.
+const GREATEST_LOAD: f64 = 20.0;
+
+/// What a campaign's numbers are held against.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plausible {
+    /// Median of the loads, N; none where the campaign has none.
+    load_n: Option<f64>,
+}
+
+impl Plausible {
+    /// Before a campaign has been looked at.
+    pub const fn unknown() -> Self {
+        Self { load_n: None }
+    }
+
+    /// From a campaign's own loads.
+    pub fn of(campaign: &Campaign) -> Self {
+        let loads = campaign.column(Channel::Load.name()).unwrap_or(&[]).iter().flatten();
+        Self { load_n: Some(median(loads.map(|load| load.abs()))).filter(|load| *load > 0.0) }
+    }
+
+    /// A number that cannot be what a wheel felt, and the greatest size that could.
+    fn beyond(self, campaign: &Campaign, row: usize, channel: Channel) -> Option<(f64, f64)> {
+        let value = campaign.value(row, channel)?;
+        let radius_m = campaign.wheel.radius_m;
+        let typical = self.load_n.unwrap_or(f64::INFINITY);
+        let load_n = campaign.value(row, Channel::Load).map_or(typical, |load| load.abs().max(typical));
+        let limit = match channel {
+            Channel::Sinkage => radius_m,
+            Channel::Load => GREATEST_LOAD * typical,
+            Channel::Torque => GREATEST_FORCE * load_n * radius_m,
+            _ => GREATEST_FORCE * load_n,
+        };
+        (value.abs() > limit).then_some((value, limit))
+    }
+}
+
+/// What is looked at.
+const JUDGED: [Channel; 5] =
+    [Channel::Sinkage, Channel::Load, Channel::DrawbarPull, Channel::SideForce, Channel::Torque];
+
+impl Campaign {
+    /// Why a row's numbers cannot be what a wheel felt; such a row is of no use.
+    pub fn gross_error(&self, row: usize) -> Option<String> {
+        JUDGED.into_iter().find_map(|channel| {
+            let (value, limit) = self.plausible.beyond(self, row, channel)?;
+            let (name, unit) = (channel.name(), unit(channel));
+            Some(format!("{name} of {value} {unit} is a gross error: at most {limit:.3} {unit} can be"))
+        })
+    }
+
+    /// Checks that not most of a channel cannot be what a wheel felt: then it is in other units than the format's.
+    pub(super) fn check_units(&self) -> Result<(), HostError> {
+        for channel in JUDGED {
+            let all = self.column(channel.name()).unwrap_or(&[]).iter().flatten().count();
+            let mut beyond =
+                (0..self.rows().len()).filter_map(|row| Some((row, self.plausible.beyond(self, row, channel)?)));
+            let Some((row, (value, limit))) = beyond.next() else { continue };
+            let bad = 1 + beyond.count();
+            if 2 * bad > all {
+                let (name, unit) = (channel.name(), unit(channel));
+                return Err(self.error_at_row(
+                    row,
+                    channel,
+                    format!(
+                        "{name} of {value} {unit}, and in {bad} of {all} rows more than can be (here {limit:.3} {unit}): \
+                         expected newtons, newton-metres and metres",
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn unit(channel: Channel) -> &'static str {
+    match channel {
+        Channel::Sinkage => "m",
+        Channel::Torque => "N·m",
+        _ => "N",
+    }
+}

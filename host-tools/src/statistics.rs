@@ -1,0 +1,35 @@
+//! Order statistics of samples.
+
+/// The values in rising order.
+pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// The value below which a share 0 … 1 of sorted values lies, between neighbours in proportion; not a number of none.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share * sorted.len().saturating_sub(1) as f64;
+    let at = |place: f64| sorted.get(place as usize).copied().unwrap_or(f64::NAN);
+    let (low, high) = (at(place.floor()), at(place.ceil()));
+    low + (high - low) * place.fract()
+}
+
+/// The middle one of some values, or the mean of the two middle ones; not a number of none.
+pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+    quantile(&sorted(values), 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{median, quantile, sorted};
+
+    #[test]
+    fn quantiles_lie_between_neighbours() {
+        let values = sorted([3.0, 1.0, 2.0, 5.0]);
+        assert_eq!(values, [1.0, 2.0, 3.0, 5.0]);
+        assert_eq!([0.0, 0.5, 0.75, 1.0].map(|share| quantile(&values, share)), [1.0, 2.5, 3.5, 5.0]);
+        assert_eq!(median([4.0, 1.0, 9.0]), 4.0);
+        assert!(median([]).is_nan());
+    }
+}
