@@ -63,7 +63,7 @@ pub struct Drive {
     pub innovations: [NormalisedSquares; 3],
     /// Normalised innovations of each measurement, a series each: filter 1 of one wheel, then both halves of filter 2 of one
     /// side.
-    pub series: [Vec<f64>; 11],
+    pub series: [Vec<f64>; 12],
     /// The soil, frame by frame, from the first estimate on.
     pub soils: Vec<SoilPoint>,
     /// The bound on what any estimator could say of the soil at [`SOIL_LOOK_S`].
