@@ -4,8 +4,8 @@
 //! links' pitches change as the hubs roll along their contacts ([`RollingSide`]), the body's as the gyro says; κ and γ drift
 //! with travel. Measured are the velocity of the differential axis, the joints' angles, and the body's pitch by the
 //! accelerometer. The body's pitch is a state because its error lasts: taken as it is from a filter of its own, it would be
-//! the same error in many frames of the rocker's angle, which this filter would take for what the rocker does. So the contact angles come from where the hubs go, never
-//! from a quotient of noisy rates.
+//! the same error in many frames of the rocker's angle, which this filter would take for what the rocker does. So the
+//! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
 use super::runs::Runs;
