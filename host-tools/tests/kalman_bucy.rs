@@ -91,6 +91,9 @@ struct Readings {
     /// Of the side's end of the differential axis, forward and up.
     velocity: [f64; 2],
     rocker: f64,
+    /// Of the body, by the accelerometer and its rate by the gyro, nose-up.
+    pitch: f64,
+    pitch_rate: f64,
     bogie: f64,
     specific_force: Axes<f64>,
 }
@@ -101,6 +104,7 @@ impl Readings {
         let wheels = frame.wheels.left.into_array();
         let velocity = frame.velocity_m_s.map(given);
         let turn = frame.gyro_rad_s.map(given);
+        let specific_force = frame.accel_m_s2.map(given);
         let left = rover.suspension.half_track_m;
         Self {
             rates: wheels.map(|wheel| given(wheel.rate_rad_s)),
@@ -109,7 +113,9 @@ impl Readings {
             velocity: [velocity.x - turn.z * left, velocity.z + turn.x * left],
             rocker: given(frame.rocker_angle_rad),
             bogie: given(frame.bogie_angle_rad.left),
-            specific_force: frame.accel_m_s2.map(given),
+            pitch: specific_force.x.atan2(specific_force.z),
+            pitch_rate: -turn.y,
+            specific_force,
         }
     }
 }
@@ -134,10 +140,10 @@ impl Side {
             rover,
             wheels: [wheel(), wheel(), wheel()],
             angles: Pair::new(
-                [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-                [0.3, 0.2, 0.2, 0.2, 0.2, 0.2],
-                [ratio, angle, angle, angle, pitch, pitch],
-                [speed, speed, noise.angle_rad, noise.angle_rad],
+                [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                [0.3, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2],
+                [ratio, angle, angle, angle, pitch, pitch, STEP_S * noise.gyro_rad_s],
+                [speed, speed, noise.angle_rad, noise.angle_rad, noise.accel_m_s2 / rover.gravity_m_s2],
             ),
             forces: Pair::new(
                 [load, load, load, 0.0, 0.0],
@@ -161,10 +167,10 @@ impl Side {
             side: RollingSide::new(rover),
             rim_speed_m_s: radius_m * readings.rates.iter().sum::<f64>() / 3.0,
             body_pitch: truth.pitch_rad.sin_cos(),
-            body_pitch_rad: truth.pitch_rad,
+            body_rate_rad_s: readings.pitch_rate,
         };
         let [forward, up] = readings.velocity;
-        self.angles.tick(&model, [forward, up, readings.rocker, readings.bogie]);
+        self.angles.tick(&model, [forward, up, readings.rocker, readings.bogie, readings.pitch]);
         let model = HubForceModel::new(&rover.suspension, readings.bogie.sin_cos());
         let body = body_moment_nm(rover, &readings.specific_force);
         let ([front, middle, rear], [on_front, on_middle, on_rear]) = (readings.cells, readings.torques);

@@ -12,6 +12,11 @@ pub(super) struct Attitude<S> {
     contradictions: u8,
     /// The last specific force of which all axes were known, m/s².
     specific_force: Axes<S>,
+    /// Rate of the pitch that the gyro tells, rad/s, with its standard deviation.
+    rate_rad_s: (S, S),
+    /// The pitch that the accelerometer alone felt in the last frame, rad, and its standard deviation.
+    felt_rad: Option<S>,
+    felt_std_rad: S,
 }
 
 /// How far the accelerometer may be from what the gyro says, in variances, before it is thought to feel something else
@@ -25,7 +30,14 @@ impl<S: Scalar> Attitude<S> {
     /// Nothing is known: level, within some radians.
     pub fn new(gravity_m_s2: S) -> Self {
         let specific_force = Axes { x: S::zero(), y: S::zero(), z: gravity_m_s2 };
-        Self { pitch: ScalarFilter { mean: S::zero(), variance: S::one() }, contradictions: 0, specific_force }
+        Self {
+            pitch: ScalarFilter { mean: S::zero(), variance: S::one() },
+            contradictions: 0,
+            specific_force,
+            rate_rad_s: (S::zero(), S::one()),
+            felt_rad: None,
+            felt_std_rad: S::one(),
+        }
     }
 
     /// Pitch of the body in the plane of its sides against the level line of that plane, rad.
@@ -38,6 +50,21 @@ impl<S: Scalar> Attitude<S> {
         self.pitch.variance
     }
 
+    /// Rate of the pitch that the gyro tells, rad/s, nose-up, and its standard deviation.
+    pub fn rate_rad_s(&self) -> (S, S) {
+        self.rate_rad_s
+    }
+
+    /// The pitch that the accelerometer alone felt in the last frame, rad; none where it could not be used.
+    pub fn felt_rad(&self) -> Option<S> {
+        self.felt_rad
+    }
+
+    /// Its standard deviation, rad.
+    pub fn felt_std_rad(&self) -> S {
+        self.felt_std_rad
+    }
+
     /// The last specific force that was felt, m/s².
     pub fn specific_force_m_s2(&self) -> &Axes<S> {
         &self.specific_force
@@ -45,6 +72,7 @@ impl<S: Scalar> Attitude<S> {
 
     /// Takes the inertial sensors' readings. Gives whether the accelerometer was surprising.
     pub fn tick(&mut self, accel: Axes<Option<S>>, gyro: Axes<Option<S>>, step_s: S, noise: &SensorNoise<S>) -> bool {
+        self.felt_rad = None;
         self.turn(gyro, step_s, noise.gyro_rad_s);
         let Some(force) = accel.all() else { return false };
         let in_plane = (force.x * force.x + force.z * force.z).sqrt();
@@ -65,6 +93,7 @@ impl<S: Scalar> Attitude<S> {
         }
         self.contradictions = 0;
         self.specific_force = force;
+        (self.felt_rad, self.felt_std_rad) = (Some(angle), noise);
         let _ = self.pitch.update(angle, noise * noise);
         surprising
     }
@@ -77,8 +106,9 @@ impl<S: Scalar> Attitude<S> {
         let in_plane_squared = x * x + z * z;
         let coupling =
             if in_plane_squared > S::zero() { y * (turn.z * z + turn.x * x) / in_plane_squared } else { S::zero() };
-        self.pitch.mean += step_s * (coupling - turn.y);
         let rate_std = if known { noise_rad_s } else { S::constant(UNSEEN_TURN) };
+        self.rate_rad_s = (coupling - turn.y, rate_std);
+        self.pitch.mean += step_s * self.rate_rad_s.0;
         let drift = step_s * rate_std;
         self.pitch.variance = (self.pitch.variance + drift * drift).min(S::one());
     }

@@ -1,20 +1,24 @@
 //! Filter 2, first half: the contact angles of a side, from how the side moves.
 //!
-//! State: travel ratio κ, contact angles γ of front, middle and rear wheel, pitch of the rocker and of the bogie. The
-//! links' pitches change as the hubs roll along their contacts ([`RollingSide`]); κ and γ drift with travel. Measured are
-//! the velocity of the differential axis and the joints' angles. So the contact angles come from where the hubs go, never
-//! from a quotient of noisy rates.
+//! State: travel ratio κ, contact angles γ of front, middle and rear wheel, pitch of the rocker, the bogie and the body. The
+//! links' pitches change as the hubs roll along their contacts ([`RollingSide`]), the body's as the gyro says; κ and γ drift
+//! with travel. Measured are the velocity of the differential axis, the joints' angles, and the body's pitch by the
+//! accelerometer. The body's pitch is a state because its error lasts: taken as it is from a filter of its own, it would be
+//! the same error in many frames of the rocker's angle, which this filter would take for what the rocker does. So the
+//! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
+use super::attitude::Attitude;
+use super::runs::Runs;
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
 use crate::scalar::Scalar;
 
-/// States: κ, γ front, γ middle, γ rear, rocker pitch, bogie pitch.
-pub const STATES: usize = 6;
-/// Measurements: velocity of the axis forward and up, rocker against body, bogie against rocker.
-pub const MEASUREMENTS: usize = 4;
+/// States: κ, γ front, γ middle, γ rear, pitch of rocker, bogie and body.
+pub const STATES: usize = 7;
+/// Measurements: velocity of the axis forward and up, rocker against body, bogie against rocker, pitch of the body.
+pub const MEASUREMENTS: usize = 5;
 
 /// The process model: how the state changes by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,14 +29,14 @@ pub struct ContactAngleModel<S> {
     pub rim_speed_m_s: S,
     /// Sine and cosine of the body's pitch in the plane of the side.
     pub body_pitch: (S, S),
-    /// The body's pitch, rad.
-    pub body_pitch_rad: S,
+    /// Rate of the body's pitch that the gyro tells, rad/s, nose-up.
+    pub body_rate_rad_s: S,
 }
 
 impl<S: Scalar> ContactAngleModel<S> {
     /// The motion that a state stands for.
     pub fn motion(&self, state: &[S; STATES]) -> RollingMotion<S> {
-        let [ratio, front, middle, rear, rocker_pitch_rad, bogie_pitch_rad] = *state;
+        let [ratio, front, middle, rear, rocker_pitch_rad, bogie_pitch_rad, _] = *state;
         self.side.motion(&RollingState {
             speed_m_s: ratio * self.rim_speed_m_s,
             contact_angles_rad: PerAxle { front, middle, rear },
@@ -45,14 +49,14 @@ impl<S: Scalar> ContactAngleModel<S> {
     pub fn rates(&self, state: &[S; STATES]) -> [S; STATES] {
         let motion = self.motion(state);
         let zero = S::zero();
-        [zero, zero, zero, zero, motion.rocker_rate_rad_s, motion.bogie_rate_rad_s]
+        [zero, zero, zero, zero, motion.rocker_rate_rad_s, motion.bogie_rate_rad_s, self.body_rate_rad_s]
     }
 
-    /// What the sensors see of a state: velocity of the axis in the body's axes, and the joints' angles.
+    /// What the sensors see of a state: velocity of the axis in the body's axes, the joints' angles, and the body's pitch.
     pub fn measure(&self, state: &[S; STATES]) -> [S; MEASUREMENTS] {
         let velocity = self.motion(state).axis_velocity_m_s.turned_back(self.body_pitch);
-        let [_, _, _, _, rocker, bogie] = *state;
-        [velocity.x, velocity.z, rocker - self.body_pitch_rad, bogie - rocker]
+        let [_, _, _, _, rocker, bogie, body] = *state;
+        [velocity.x, velocity.z, rocker - body, bogie - rocker, body]
     }
 }
 
@@ -83,8 +87,14 @@ const ANGLE_DRIFT: f64 = 0.32;
 /// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
 const LINK_DRIFT: f64 = 0.032;
 /// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
-const ANGLE_FROM_VELOCITY: f64 = 0.1;
-const ANGLE_FROM_ROUGHNESS: f64 = 0.1;
+const ANGLE_FROM_WANDERING: f64 = 0.12;
+/// What is added to that for each unit by which runs of innovations are above [`RUN`].
+const ANGLE_FROM_RUNS: f64 = 0.1;
+/// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
+const RUN: f64 = 4.0;
+/// Runs are looked for from this measurement on: of the velocity up, the rocker and the bogie. What is forward tells nothing of
+/// the angles, and the body's pitch is no ground's doing.
+const FIRST_IN_RUNS: usize = 1;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
 /// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
@@ -101,6 +111,7 @@ pub(super) struct ContactAngleFilter<S> {
     bogie_rate: WalkRate<S>,
     watch: Watch,
     begun: bool,
+    runs: Runs<S, { MEASUREMENTS - 1 - FIRST_IN_RUNS }>,
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
     speed_slopes: PerAxle<[S; STATES]>,
 }
@@ -110,8 +121,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
     pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
         let side = RollingSide::new(rover);
         let (zero, one) = (S::zero(), S::one());
-        let model = ContactAngleModel { side, rim_speed_m_s: zero, body_pitch: (zero, one), body_pitch_rad: zero };
-        let level = Gaussian::independent([one, zero, zero, zero, zero, zero], Self::unknown_std())?;
+        let model = ContactAngleModel { side, rim_speed_m_s: zero, body_pitch: (zero, one), body_rate_rad_s: zero };
+        let level = Gaussian::independent([one, zero, zero, zero, zero, zero, zero], Self::unknown_std())?;
         Ok(Self {
             filter: SigmaPointFilter::new(level, Self::unknown_std())?,
             model,
@@ -121,14 +132,15 @@ impl<S: Scalar> ContactAngleFilter<S> {
             bogie_rate: WalkRate::new(phase + 3),
             watch: Watch::default(),
             begun: false,
+            runs: Runs::new(),
             speed_slopes: hub_speed_slopes(rover)
-                .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero]),
+                .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero, zero]),
         })
     }
 
     fn unknown_std() -> [S; STATES] {
         let angle = S::constant(UNKNOWN_ANGLE);
-        [S::constant(UNKNOWN_RATIO), angle, angle, angle, angle, angle]
+        [S::constant(UNKNOWN_RATIO), angle, angle, angle, angle, angle, angle]
     }
 
     /// Starts from the pitches that the first joint angles tell: the terrain is about as steep as the links.
@@ -136,7 +148,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let (Some(rocker), Some(bogie)) = (readings.rocker_angle_rad, readings.bogie_angle_rad) else { return };
         let rocker = body_pitch_rad + rocker;
         let bogie = rocker + bogie;
-        if let Ok(start) = Gaussian::independent([S::one(), rocker, bogie, bogie, rocker, bogie], Self::unknown_std()) {
+        if let Ok(start) =
+            Gaussian::independent([S::one(), rocker, bogie, bogie, rocker, bogie, body_pitch_rad], Self::unknown_std())
+        {
             self.filter.restart(start);
             self.begun = true;
         }
@@ -144,7 +158,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     /// Gives up contact angles that no wheel on the ground has.
     fn give_up_impossible(&mut self) {
-        let [_, front, middle, rear, rocker, bogie] = *self.filter.estimate().mean();
+        let [_, front, middle, rear, rocker, bogie, _] = *self.filter.estimate().mean();
         let places = [(1, front, rocker), (2, middle, bogie), (3, rear, bogie)];
         for (index, angle, link) in places {
             if (angle - link).abs() > S::constant(IMPOSSIBLE_ANGLE) {
@@ -189,28 +203,30 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &mut self,
         step_s: S,
         rim_speed_m_s: S,
-        body_pitch: (S, S),
+        attitude: &Attitude<S>,
         readings: &SideReadings<S>,
         noise: &SensorNoise<S>,
     ) -> Innovation<S, MEASUREMENTS> {
-        let (body_pitch_rad, pitch_variance) = body_pitch;
+        let body_pitch_rad = attitude.pitch_rad();
+        let (rate, rate_std) = attitude.rate_rad_s();
+        self.model.body_rate_rad_s = rate;
         let stands = rim_speed_m_s.abs() < S::constant(STANDING);
         self.model.rim_speed_m_s = if stands { S::zero() } else { rim_speed_m_s };
         if !self.begun {
-            self.begin(body_pitch.0, readings);
+            self.begin(body_pitch_rad, readings);
         }
-        self.predict(step_s);
-        self.model.body_pitch_rad = body_pitch_rad;
+        self.predict(step_s, rate_std);
         self.model.body_pitch = body_pitch_rad.sin_cos();
-        self.learn_rates(step_s, readings, noise);
+        self.learn_rates(step_s, body_pitch_rad, readings, noise);
         let angle = noise.angle_rad;
         let noise_std =
-            [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, (angle * angle + pitch_variance).sqrt(), angle];
+            [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, angle, angle, attitude.felt_std_rad()];
         let measured = [
             readings.axis_velocity_m_s.x,
             readings.axis_velocity_m_s.z,
             readings.rocker_angle_rad,
             readings.bogie_angle_rad,
+            attitude.felt_rad(),
         ];
         let model = self.model;
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
@@ -223,6 +239,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             let _ = self.filter.random_walk(&stds);
         }
         self.give_up_impossible();
+        self.runs.take(&told, FIRST_IN_RUNS);
         told
     }
 
@@ -235,8 +252,10 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// How fast the contact angles wander. The links feel the ground a wheelbase long, and thirty times more precisely than
     /// the velocity does; a wheel feels more of it than its link.
     fn angle_factor(&self) -> S {
-        S::constant(ANGLE_FROM_VELOCITY) * self.direction_rate.factor()
-            + S::constant(ANGLE_FROM_ROUGHNESS) * self.roughness()
+        let wandering = S::constant(ANGLE_FROM_WANDERING) * (self.direction_rate.factor() + self.roughness());
+        // Where links and velocity wander fast, so do the angles, and a little more than in proportion.
+        let steeper = wandering * wandering.sqrt().sqrt();
+        steeper + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
     }
 
     /// How far the hubs go in a step: wheels that spin on the spot meet no other ground.
@@ -245,7 +264,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         (ratio * self.model.rim_speed_m_s).abs() * step_s
     }
 
-    fn predict(&mut self, step_s: S) {
+    fn predict(&mut self, step_s: S, rate_std_rad_s: S) {
         let model = self.model;
         let process = |state: &[S; STATES]| {
             let mut next = *state;
@@ -257,18 +276,18 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let ratio = S::constant(RATIO_DRIFT) * self.ratio_rate.factor().sqrt() * rim_travel.sqrt();
         let angle = S::constant(ANGLE_DRIFT) * self.angle_factor().sqrt() * root_travel;
         let pitch = S::constant(PITCH_DRIFT) * root_travel;
-        let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch]);
+        let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch, step_s * rate_std_rad_s]);
     }
 
     /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.
-    fn learn_rates(&mut self, step_s: S, readings: &SideReadings<S>, noise: &SensorNoise<S>) {
+    fn learn_rates(&mut self, step_s: S, body_pitch_rad: S, readings: &SideReadings<S>, noise: &SensorNoise<S>) {
         let speed = self.model.rim_speed_m_s;
         if speed == S::zero() {
             return;
         }
         let travel = speed.abs() * step_s;
         let nominal = |drift: f64| S::constant(drift * drift) * travel;
-        let pitch = readings.rocker_angle_rad.map(|rocker| self.model.body_pitch_rad + rocker);
+        let pitch = readings.rocker_angle_rad.map(|rocker| body_pitch_rad + rocker);
         let variance = noise.angle_rad * noise.angle_rad;
         match pitch {
             Some(pitch) => self.rocker_rate.see(pitch, variance + variance, nominal(LINK_DRIFT)),

@@ -88,8 +88,10 @@ pub(super) struct ForceReadings<S> {
 
 /// One standard deviation of a force that is not known at all, over the rover's weight.
 const UNKNOWN_SHARE: f64 = 0.3;
-/// Nominal drift over a metre of travel, N: 6 N over a wheel radius.
-const FORCE_DRIFT_N: f64 = 21.0;
+/// Nominal drift of a cell's force over a metre of travel, N: 6 N over a wheel radius.
+const CELL_DRIFT_N: f64 = 21.0;
+/// The same of the forces along rocker and bogie, N.
+const ALONG_DRIFT_N: f64 = 15.0;
 /// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
 const UNSETTLED_N: f64 = 3.0;
 
@@ -182,10 +184,7 @@ impl<S: Scalar> HubForceFilter<S> {
             self.give_up_moments();
         }
         self.learn_rates(travel_m, readings, along_bogie.filter(|_| !held));
-        let drift = S::constant(FORCE_DRIFT_N) * travel_m.sqrt();
-        let PerAxle { front, middle, rear } = self.cell_rates.as_ref();
-        let rates = [front, middle, rear, &self.rocker_rate, &self.bogie_rate];
-        let _ = self.filter.random_walk(&rates.map(|rate| drift * rate.factor().sqrt()));
+        let _ = self.filter.random_walk(&self.drifts_n(travel_m));
         let model = self.model;
         let told = self.filter.update(
             |state| model.measure(state),
@@ -211,6 +210,14 @@ impl<S: Scalar> HubForceFilter<S> {
             Contradiction::Wrong => self.loosen(self.unknown_n),
         }
         told
+    }
+
+    /// One standard deviation of how far each force drifts over some travel, N.
+    fn drifts_n(&self, travel_m: S) -> [S; STATES] {
+        let root_travel = travel_m.sqrt();
+        let drift = |nominal: f64, rate: &WalkRate<S>| S::constant(nominal) * root_travel * rate.factor().sqrt();
+        let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, rate));
+        [front, middle, rear, drift(ALONG_DRIFT_N, &self.rocker_rate), drift(ALONG_DRIFT_N, &self.bogie_rate)]
     }
 
     /// The force along the bogie on its two hubs together that the moment on it and its cells make necessary, N, and its
@@ -243,13 +250,13 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// Learns how fast the forces wander, from the cells, and from the moments with the forces that the cells tell.
     fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, along_bogie: Option<(S, S)>) {
-        let nominal = S::constant(FORCE_DRIFT_N * FORCE_DRIFT_N) * travel_m;
+        let [of_cell, nominal] = [CELL_DRIFT_N, ALONG_DRIFT_N].map(|drift| S::constant(drift * drift) * travel_m);
         let variance = readings.cell_std_n * readings.cell_std_n;
         let cells = self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array());
         for (rate, cell) in cells {
             match cell {
-                Some(force) => rate.see(*force, variance, nominal),
-                None => rate.miss(nominal),
+                Some(force) => rate.see(*force, variance, of_cell),
+                None => rate.miss(of_cell),
             }
         }
         match along_bogie {

@@ -22,6 +22,7 @@ mod estimate;
 mod health;
 pub mod hub_force;
 mod rover_estimator;
+mod runs;
 mod scalar_filter;
 mod sensor;
 mod sensor_gate;

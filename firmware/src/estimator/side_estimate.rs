@@ -89,7 +89,7 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// The contacts, with the split of the bogie's pull that the torques tell now.
     fn contacts(&self) -> PerAxle<ContactForces<S>> {
-        let [_, front, middle, rear, rocker_pitch, bogie_pitch] = *self.angles.estimate().mean();
+        let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         let forces = self.forces.forces_n();
         let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch);
         let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
@@ -156,9 +156,9 @@ fn contact_forces<S: Scalar>(axle: Axle, contact: S, pitch: S, force: Planar<S>,
     let (load_n, pull_n) = along_contact(force, (sine, cosine));
     // A contact that is steeper by dγ sees W + DP dγ·(−1) as load and DP + W dγ as pull.
     let (angle, against_link) = match axle {
-        Axle::Front => ([zero, one, zero, zero, zero, zero], [zero, one, zero, zero, -one, zero]),
-        Axle::Middle => ([zero, zero, one, zero, zero, zero], [zero, zero, one, zero, zero, -one]),
-        Axle::Rear => ([zero, zero, zero, one, zero, zero], [zero, zero, zero, one, zero, -one]),
+        Axle::Front => ([zero, one, zero, zero, zero, zero, zero], [zero, one, zero, zero, -one, zero, zero]),
+        Axle::Middle => ([zero, zero, one, zero, zero, zero, zero], [zero, zero, one, zero, zero, -one, zero]),
+        Axle::Rear => ([zero, zero, zero, one, zero, zero, zero], [zero, zero, zero, one, zero, -one, zero]),
     };
     let by_hub = |across: S, along: S| match axle {
         Axle::Front => [across, zero, zero, along, zero],

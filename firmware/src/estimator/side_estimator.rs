@@ -132,8 +132,7 @@ impl<S: Scalar> SideEstimator<S> {
         let mut surprises = Surprises::default();
         let readings = self.side_readings(frame);
         self.follow_rims(&frame.wheel_rate_rad_s);
-        let pitch = (attitude.pitch_rad(), attitude.pitch_variance());
-        let told = self.angles.tick(step_s, self.rim_speed_m_s, pitch, &readings, &self.rover.noise);
+        let told = self.angles.tick(step_s, self.rim_speed_m_s, attitude, &readings, &self.rover.noise);
         surprises.of_side(&told);
         self.told.angles = told;
         self.motion = self.angles.motion();
@@ -286,7 +285,7 @@ impl<S: Scalar> SideEstimator<S> {
                 (torques.front.1 + body_std * body_std * arm_squared).sqrt(),
             ),
         };
-        let [.., rocker_pitch, bogie_pitch] = *self.angles.estimate().mean();
+        let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         self.forces.split(self.split_along_bogie_n(bogie_pitch));
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
         self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, &readings);
@@ -316,7 +315,7 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// The wheels of the bogie along their contacts, with the split that was taken last.
     pub(super) fn bogie_wheels(&self, bogie_pitch: S) -> (BogieHub<S>, BogieHub<S>) {
-        let [_, _, middle, rear, _, _] = *self.angles.estimate().mean();
+        let [_, _, middle, rear, ..] = *self.angles.estimate().mean();
         let forces = self.forces.forces_n();
         let hub = |force: Planar<S>, contact: S, filter: &SlipTorqueFilter<S>| {
             let angle = (contact - bogie_pitch).sin_cos();

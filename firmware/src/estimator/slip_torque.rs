@@ -73,7 +73,7 @@ const TORQUE_DRIFT_NM: f64 = 1.1;
 const SLIP_DRIFT: f64 = 0.37;
 /// How much of the ground's roughness the slip feels: rough ground drives it steadily one way for long, which a single
 /// measurement of speed hardly shows.
-const SLIP_FROM_ROUGHNESS: f64 = 0.03;
+const SLIP_FROM_ROUGHNESS: f64 = 0.06;
 /// What the torque of a drive may be off by when its sensor is silent, N·m.
 const UNSEEN_TORQUE_NM: f64 = 2.0;
 /// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose

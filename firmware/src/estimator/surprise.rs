@@ -41,7 +41,7 @@ impl WheelSurprises {
 impl Surprises {
     /// Takes what the first half of filter 2 was told.
     pub fn of_side<S>(&mut self, told: &Innovation<S, { contact_angle::MEASUREMENTS }>) {
-        let [x, z, rocker, bogie] = told.residuals.each_ref().map(|residual| residual.fate == Fate::Rejected);
+        let [x, z, rocker, bogie, _] = told.residuals.each_ref().map(|residual| residual.fate == Fate::Rejected);
         (self.velocity_x, self.velocity_z, self.rocker_angle, self.bogie_angle) = (x, z, rocker, bogie);
     }
 

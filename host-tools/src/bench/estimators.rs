@@ -53,7 +53,7 @@ fn print(trial: &Trial) {
         );
     }
     let white = trial.share_white().map(|share| format!("{:.0}", 100.0 * share)).join(" ");
-    println!("  white at 5 %: share of drives, % (rate hub | vx vz rocker bogie | cells moments): {white}");
+    println!("  white at 5 %: share of drives, % (rate hub | vx vz rocker bogie pitch | cells moments): {white}");
 }
 
 fn print_tally(quantity: Quantity, tally: &Tally) {

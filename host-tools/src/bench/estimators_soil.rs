@@ -1,17 +1,18 @@
 //! How good the soil estimate is on simulated drives, and how soon it notices that the soil changed.
 
-use crate::trial::{Drive, SoilPoint, Trial};
+use crate::identifiability::bound::Bound;
+use crate::identifiability::target::Target;
+use crate::trial::{Drive, SOIL_LOOK_S, SoilPoint, Trial};
 
-/// Seconds after the first frame at which the soil is looked at: the rovers start at 1 s.
-const LOOK_S: f64 = 31.0;
-
-/// Errors of one drive's estimate, with what it stated.
+/// Errors of one drive's estimate, with what it stated and the bound on what any could reach.
 #[derive(Debug, Clone, Copy)]
 struct Errors {
     friction_angle_deg: f64,
     friction_angle_std_deg: f64,
+    friction_angle_bound_deg: f64,
     ln_shear_modulus: f64,
     ln_shear_modulus_std: f64,
+    ln_shear_modulus_bound: f64,
 }
 
 /// Errors of the soil estimate thirty seconds after the start, drive by drive.
@@ -23,13 +24,34 @@ pub struct SoilErrors {
 impl SoilErrors {
     /// The errors of a trial's drives.
     pub fn after_30_s(trial: &Trial) -> Self {
-        Self { drives: trial.drives.iter().filter_map(|drive| errors(after_30_s(drive)?)).collect() }
+        Self {
+            drives: trial.drives.iter().filter_map(|drive| errors(after_30_s(drive)?, &drive.soil_bound?)).collect(),
+        }
     }
 
     /// Share of the drives in which the friction angle is within two of its stated standard deviations.
     pub fn within_two_std(&self) -> f64 {
         let within = |row: &&Errors| row.friction_angle_deg.abs() <= 2.0 * row.friction_angle_std_deg;
         self.drives.iter().filter(within).count() as f64 / self.drives.len().max(1) as f64
+    }
+
+    /// Root mean square, over the drives, of the friction angle's errors, their stated standard deviations and the bounds on
+    /// them, °.
+    pub fn friction_angle_deg(&self) -> [f64; 3] {
+        [
+            self.root_mean_square(|row| row.friction_angle_deg),
+            self.root_mean_square(|row| row.friction_angle_std_deg),
+            self.root_mean_square(|row| row.friction_angle_bound_deg),
+        ]
+    }
+
+    /// The same of ln K.
+    pub fn ln_shear_modulus(&self) -> [f64; 3] {
+        [
+            self.root_mean_square(|row| row.ln_shear_modulus),
+            self.root_mean_square(|row| row.ln_shear_modulus_std),
+            self.root_mean_square(|row| row.ln_shear_modulus_bound),
+        ]
     }
 
     fn root_mean_square(&self, pick: fn(&Errors) -> f64) -> f64 {
@@ -67,14 +89,14 @@ impl SoilChanges {
 /// Prints both.
 pub(super) fn print(trial: &Trial) {
     let errors = SoilErrors::after_30_s(trial);
+    let [phi, phi_stated, phi_bound] = errors.friction_angle_deg();
+    let [modulus, modulus_stated, modulus_bound] = errors.ln_shear_modulus();
+    println!("  soil after 30 s       RMSE    stated  Cramér–Rao bound");
     println!(
-        "  soil after 30 s: φ RMSE {:.2}°, stated {:.2}°, within 2 σ in {:.0} % of the drives; ln K RMSE {:.3}, stated {:.3}",
-        errors.root_mean_square(|row| row.friction_angle_deg),
-        errors.root_mean_square(|row| row.friction_angle_std_deg),
+        "  φ, °            {phi:10.2}{phi_stated:10.2}{phi_bound:10.2}   within 2 σ in {:.0} % of the drives",
         100.0 * errors.within_two_std(),
-        errors.root_mean_square(|row| row.ln_shear_modulus),
-        errors.root_mean_square(|row| row.ln_shear_modulus_std),
     );
+    println!("  ln K            {modulus:10.3}{modulus_stated:10.3}{modulus_bound:10.3}");
     let SoilChanges { real, noticed, latest_m, claimed_beside } = SoilChanges::of(trial);
     println!(
         "  soil changes: {real} real, {noticed} noticed, the latest after {latest_m:.2} m; {claimed_beside} claimed beside"
@@ -82,17 +104,19 @@ pub(super) fn print(trial: &Trial) {
 }
 
 fn after_30_s(drive: &Drive) -> Option<&SoilPoint> {
-    drive.soils.iter().find(|point| point.truth.time_us as f64 * 1.0e-6 >= LOOK_S)
+    drive.soils.iter().find(|point| point.truth.time_us as f64 * 1.0e-6 >= SOIL_LOOK_S)
 }
 
-fn errors(point: &SoilPoint) -> Option<Errors> {
+fn errors(point: &SoilPoint, bound: &Bound) -> Option<Errors> {
     let (said, truth) = (&point.said.estimate, &point.truth.soil);
     let (phi, modulus) = (said.friction_angle_rad, said.shear_modulus_m);
     (modulus.value > 0.0).then(|| Errors {
         friction_angle_deg: (f64::from(phi.value) - truth.friction_angle_rad).to_degrees(),
         friction_angle_std_deg: f64::from(phi.std).to_degrees(),
+        friction_angle_bound_deg: bound.std(Target::FrictionAngle).to_degrees(),
         ln_shear_modulus: (f64::from(modulus.value) / truth.shear_modulus_m).ln(),
         ln_shear_modulus_std: f64::from(modulus.std / modulus.value),
+        ln_shear_modulus_bound: bound.std(Target::ShearModulus),
     })
 }
 

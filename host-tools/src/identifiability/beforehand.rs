@@ -8,6 +8,10 @@ use serde::Serialize;
 
 use crate::identify::method::Assumed;
 use crate::limit::coordinates::DIMENSION;
+use crate::train::prior::{
+    COHESION_PA, FRICTION_ANGLE_RAD, PEAK_STRESS_C1, PEAK_STRESS_C2, Range, SHEAR_MODULUS_M, SINKAGE_EXPONENT,
+    STIFFNESS,
+};
 
 /// Parameters of a soil in a bound: ln c, φ, ln K, n, ln(k_c/b + k_φ), c₁, c₂, in this order.
 pub const PARAMETERS: usize = DIMENSION;
@@ -20,6 +24,9 @@ pub enum Knowledge {
     Known,
     /// As well as the usual prior has it ([`SoilPrior::usual`]): its standard deviations, about the stated soil.
     Prior,
+    /// As well as the prior that the networks are trained with has it: the standard deviations of its ranges, about the
+    /// stated soil.
+    Training,
     /// Not at all.
     Free,
 }
@@ -50,6 +57,7 @@ impl Knowledge {
         match self {
             Self::Known => "exactly",
             Self::Prior => "as the usual prior has them",
+            Self::Training => "as the networks' training prior has them",
             Self::Free => "not at all",
         }
     }
@@ -66,10 +74,11 @@ impl Beforehand {
     pub fn standardised(&self) -> [Standardised; PARAMETERS] {
         let Self { targets, pressure, peak } = *self;
         let knowledge = [targets, targets, targets, pressure, pressure, peak, peak];
-        let stds = prior_stds();
+        let (usual, trained_with) = (prior_stds(), training_stds());
         std::array::from_fn(|place| match knowledge[place] {
             Knowledge::Known => Standardised { scale: 0.0, precision: 1.0 },
-            Knowledge::Prior => Standardised { scale: stds[place], precision: 1.0 },
+            Knowledge::Prior => Standardised { scale: usual[place], precision: 1.0 },
+            Knowledge::Training => Standardised { scale: trained_with[place], precision: 1.0 },
             Knowledge::Free => Standardised { scale: 1.0, precision: 0.0 },
         })
     }
@@ -88,6 +97,16 @@ pub fn prior_stds() -> [f64; PARAMETERS] {
         prior.peak_stress_c2,
     ]
     .map(|belief| belief.std.unwrap_or(f64::INFINITY))
+}
+
+/// Standard deviations of the prior that the networks are trained with: uniform in each range.
+pub fn training_stds() -> [f64; PARAMETERS] {
+    let ranges =
+        [COHESION_PA, FRICTION_ANGLE_RAD, SHEAR_MODULUS_M, SINKAGE_EXPONENT, STIFFNESS, PEAK_STRESS_C1, PEAK_STRESS_C2];
+    ranges.map(|Range { low, high, logarithmic }| {
+        let width = if logarithmic { libm::log(high / low) } else { high - low };
+        width / libm::sqrt(12.0)
+    })
 }
 
 /// The soil in the middle of the usual prior.

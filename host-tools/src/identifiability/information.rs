@@ -42,6 +42,24 @@ impl Information {
         Some(Self(slopes.transpose() * slopes))
     }
 
+    /// Of one instant that several sets of sensors saw, whose errors in the velocimeter's scale and in the pitch, known to
+    /// their unit beforehand, are this instant's own: what is left on the soil once they are integrated out.
+    pub fn of_instant(seen: &[Self]) -> Option<Self> {
+        const ERRORS: usize = SHARED - PARAMETERS;
+        let mut whole = SharedInformation::zeros();
+        for information in seen {
+            whole += information.on_shared()?;
+        }
+        let errors =
+            whole.fixed_view::<ERRORS, ERRORS>(PARAMETERS, PARAMETERS) + SMatrix::<f64, ERRORS, ERRORS>::identity();
+        let cross = whole.fixed_view::<ERRORS, PARAMETERS>(PARAMETERS, 0).into_owned();
+        let solved = errors.cholesky()?.solve(&cross);
+        let mut soil = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+        soil.fixed_view_mut::<PARAMETERS, PARAMETERS>(0, 0)
+            .copy_from(&(whole.fixed_view::<PARAMETERS, PARAMETERS>(0, 0) - cross.transpose() * solved));
+        Some(Self(soil))
+    }
+
     /// What is left on the shared unknowns once the own ones, known to their unit beforehand, are integrated out.
     pub fn on_shared(&self) -> Option<SharedInformation> {
         let whole = &self.0;
@@ -74,4 +92,43 @@ pub fn covariance<const C: usize, const E: usize>(errors: &SMatrix<f64, C, E>) -
 /// A unit vector.
 pub fn unit<const C: usize>(place: usize) -> SVector<f64, C> {
     SVector::from_fn(|row, _| if row == place { 1.0 } else { 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::SMatrix;
+
+    use super::{Information, PARAMETERS, PITCH, SPEED_SCALE, Slopes};
+
+    const CHANNELS: usize = 5;
+
+    fn slopes(phase: f64) -> Slopes<CHANNELS> {
+        let mut slopes =
+            Slopes::from_fn(|row, column| libm::sin(phase + 2.3 * row as f64 + 0.7 * (column * column) as f64));
+        // Own unknowns would be integrated out beside those of the instant.
+        slopes.columns_mut(super::SHARED, super::OWN).fill(0.0);
+        slopes
+    }
+
+    /// An error that two sets of sensors share, integrated out, is the same as noise that their channels share.
+    #[test]
+    fn an_error_of_an_instant_is_noise_common_to_its_sensors() {
+        let (one, other) = (slopes(0.4), slopes(1.9));
+        let identity = SMatrix::<f64, CHANNELS, CHANNELS>::identity();
+        let information = |slopes| Information::new(slopes, &identity, CHANNELS).unwrap();
+        let found = Information::of_instant(&[information(one), information(other)]).unwrap();
+        let all = |columns: usize, from: usize| {
+            let mut rows = nalgebra::DMatrix::zeros(2 * CHANNELS, columns);
+            rows.rows_mut(0, CHANNELS).copy_from(&one.columns(from, columns));
+            rows.rows_mut(CHANNELS, CHANNELS).copy_from(&other.columns(from, columns));
+            rows
+        };
+        assert_eq!((SPEED_SCALE, PITCH), (PARAMETERS, PARAMETERS + 1));
+        let errors = all(2, SPEED_SCALE);
+        let covariance = nalgebra::DMatrix::identity(2 * CHANNELS, 2 * CHANNELS) + &errors * errors.transpose();
+        let soil = all(PARAMETERS, 0);
+        let expected = soil.transpose() * covariance.cholesky().unwrap().solve(&soil);
+        let found = found.on_shared().unwrap().view((0, 0), (PARAMETERS, PARAMETERS)).into_owned();
+        assert!((&found - &expected).amax() < 1e-12 * expected.amax(), "{found} {expected}");
+    }
 }

@@ -70,20 +70,25 @@ const SETTLED: f64 = 1e-5;
 const LEAST_LOAD: f64 = 0.1;
 
 impl SideBalance {
-    /// On a slope, rad, uphill.
+    /// On a slope, rad, uphill: the rover lies along the ground.
     pub fn new(rover: &Rover<f64>, slope_rad: f64) -> Self {
         let layout = SideLayout::new(rover, Side::Left, &LinkAngles::default());
+        Self::at(rover, &layout, &PerAxle::all(Contact::at(0.0)), slope_rad)
+    }
+
+    /// Of a side with its hubs where the layout has them, on these contacts in the body's axes, and the body at a pitch, rad.
+    pub fn at(rover: &Rover<f64>, layout: &SideLayout<f64>, contacts: &PerAxle<Contact<f64>>, pitch_rad: f64) -> Self {
         let weight = |along: f64, across: f64| {
             let specific_force = Axes { x: rover.gravity_m_s2 * along, y: 0.0, z: rover.gravity_m_s2 * across };
             let half_n = -0.5 * rover.mass_kg;
             let rocker_nm = 0.5 * body_moment_nm(rover, &specific_force);
             Balances::new(half_n * specific_force.x, half_n * specific_force.z, 0.0, rocker_nm)
         };
-        let (sine, cosine) = libm::sincos(slope_rad);
+        let (sine, cosine) = libm::sincos(pitch_rad);
         let mut by_wheels = BalanceSlopes::zeros();
         for (place, mut column) in by_wheels.column_iter_mut().enumerate() {
             let one = |kind: usize| PerAxle::from_array([0, 1, 2].map(|axle| f64::from(3 * kind + axle == place)));
-            column.copy_from(&balances(&layout, &one(0), &one(1), &one(2)));
+            column.copy_from(&balances(layout, contacts, &one(0), &one(1), &one(2)));
         }
         Self { weight: weight(sine, cosine), weight_by_pitch: weight(cosine, -sine), by_wheels }
     }
@@ -96,16 +101,15 @@ impl SideBalance {
     }
 }
 
-/// What pulls, loads and torques put into the balances. The rover lies along the ground: every contact angle is zero in its
-/// axes.
+/// What pulls, loads and torques put into the balances.
 fn balances(
     layout: &SideLayout<f64>,
+    contacts: &PerAxle<Contact<f64>>,
     pulls_n: &PerAxle<f64>,
     loads_n: &PerAxle<f64>,
     torques_nm: &PerAxle<f64>,
 ) -> Balances {
-    let contact = Contact::at(0.0);
-    let forces = loads_n.zip(*pulls_n).map(|(load_n, pull_n)| contact.hub_force_n(load_n, pull_n));
+    let forces = contacts.zip(loads_n.zip(*pulls_n)).map(|(contact, (load, pull))| contact.hub_force_n(load, pull));
     let sum = forces.front + forces.middle + forces.rear;
     Balances::new(
         sum.x,

@@ -8,8 +8,10 @@ use kapvik_firmware::rover::Rover;
 
 use super::consistency::{NormalisedSquares, normalised_square};
 use super::errors::Errors;
+use super::soil_seen::SoilSeen;
 use crate::data::truth_file::{Truth, WheelTruth};
 use crate::error::HostError;
+use crate::identifiability::bound::Bound;
 use crate::replay::naive::{TrailingMean, naive};
 use crate::simulate::{Options, Scenario, Traverse};
 
@@ -61,9 +63,11 @@ pub struct Drive {
     pub innovations: [NormalisedSquares; 3],
     /// Normalised innovations of each measurement, a series each: filter 1 of one wheel, then both halves of filter 2 of one
     /// side.
-    pub series: [Vec<f64>; 11],
+    pub series: [Vec<f64>; 12],
     /// The soil, frame by frame, from the first estimate on.
     pub soils: Vec<SoilPoint>,
+    /// The bound on what any estimator could say of the soil at [`SOIL_LOOK_S`].
+    pub soil_bound: Option<Bound>,
 }
 
 /// What was said of the soil at a frame, and what it was.
@@ -78,6 +82,11 @@ pub struct SoilPoint {
 /// Seconds at the start that are not counted: the estimators know nothing yet, and the rover stands.
 const WARM_UP_S: f64 = 5.0;
 
+/// Seconds after the first frame at which the soil is looked at: the rovers start at 1 s.
+pub const SOIL_LOOK_S: f64 = 31.0;
+/// Frames that count as alike for the bound on the soil: those of a second.
+const ALIKE: usize = 10;
+
 impl Drive {
     /// Drives a scenario.
     ///
@@ -85,21 +94,28 @@ impl Drive {
     /// Where the simulation fails.
     pub fn run(scenario: Scenario, seed: u64, rover: &Rover<f64>, options: &Options) -> Result<Self, HostError> {
         let failed = |what: String| HostError::Failed(format!("{scenario:?}, seed {seed}: {what}"));
-        let traverse = Traverse::new(scenario, seed, rover, options).map_err(|error| failed(error.to_string()))?;
+        let mut traverse = Traverse::new(scenario, seed, rover, options).map_err(|error| failed(error.to_string()))?;
         let flight = rover.map(|value| value as f32);
         let mut pipeline = Pipeline::new(&flight).map_err(|error| failed(format!("{error:?}")))?;
         let (mut drive, mut trailing) = (Self::default(), TrailingMean::default());
-        for (index, step) in traverse.enumerate() {
+        let mut seen = SoilSeen::default();
+        for index in 0.. {
+            let Some(step) = traverse.next() else { break };
             let (frame, truth) = step.map_err(|error| failed(error.to_string()))?;
             let estimate = pipeline.tick(&frame);
             let now = naive(rover, &frame);
             let second = trailing.push(frame.time_us, now);
             drive.soils.extend(estimate.soil.ok().map(|said| SoilPoint { said, truth }));
-            if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
+            let time_s = frame.time_us as f64 * 1.0e-6;
+            if time_s < SOIL_LOOK_S && index % ALIKE == ALIKE / 2 {
+                seen.take(traverse.world(), traverse.instant(), &truth, ALIKE as f64);
+            }
+            if time_s >= WARM_UP_S {
                 drive.errors.take(&estimate, &now, &second, &truth);
                 drive.take_squares(index, &pipeline, &estimate, &truth);
             }
         }
+        drive.soil_bound = seen.bound();
         Ok(drive)
     }
 

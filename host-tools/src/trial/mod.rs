@@ -6,8 +6,9 @@ mod drive;
 pub mod errors;
 pub mod faults;
 mod report;
+pub mod soil_seen;
 pub mod tally;
 pub mod whiteness;
 
-pub use drive::{Drive, Quantity, SoilPoint};
+pub use drive::{Drive, Quantity, SOIL_LOOK_S, SoilPoint};
 pub use report::{Trial, trial};

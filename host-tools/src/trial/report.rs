@@ -60,8 +60,8 @@ impl Trial {
     }
 
     /// For each series of innovations the share of the drives in which it passes as white at 5 %.
-    pub fn share_white(&self) -> [f64; 11] {
-        let mut shares = [0.0; 11];
+    pub fn share_white(&self) -> [f64; 12] {
+        let mut shares = [0.0; 12];
         for (place, share) in shares.iter_mut().enumerate() {
             let chances: Vec<f64> = self.drives.iter().filter_map(|drive| ljung_box(&drive.series[place])).collect();
             *share = chances.iter().filter(|chance| **chance > 0.05).count() as f64 / chances.len().max(1) as f64;
