@@ -104,7 +104,6 @@ pub fn mean_loss<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> f64 {
 /// Mean of any loss over a set.
 pub fn mean_of<N: Trainable>(network: &N, set: &[Example<N::Input>], loss: Loss) -> f64 {
     // Parts short enough that their sums keep their digits.
-    let parts: Vec<f64> =
-        set.par_chunks(256).map(|part| f64::from(sum_of_losses(network, part, loss, None))).collect();
+    let parts: Vec<f64> = set.par_chunks(256).map(|part| f64::from(sum_of_losses(network, part, loss, None))).collect();
     parts.iter().sum::<f64>() / set.len() as f64
 }

@@ -101,14 +101,7 @@ impl Layer {
     }
 
     fn change(&mut self, slope: &[f32], step: i32) -> Vec<f32> {
-        let bias = [FIRST, SECOND].map(|decay| 1.0 - decay.powi(step));
-        let mut change = self.turned(slope);
-        for ((x, m), v) in change.iter_mut().zip(&mut self.first).zip(&mut self.second) {
-            *m = FIRST * *m + (1.0 - FIRST) * *x;
-            *v = SECOND * *v + (1.0 - SECOND) * *x * *x;
-            *x = (*m / bias[0]) / ((*v / bias[1]).sqrt() + 1e-8);
-        }
-        let change = self.turned_back(&change);
+        let change = self.normalised(slope, step);
         let matrix = Operand::new(slope, self.columns.size);
         self.rows.remember(&product(matrix, matrix.transposed()));
         self.columns.remember(&product(matrix.transposed(), matrix));
@@ -120,6 +113,18 @@ impl Layer {
             self.first = self.turned(&first);
         }
         change
+    }
+
+    /// Adam's step in the turned basis, turned back.
+    fn normalised(&mut self, slope: &[f32], step: i32) -> Vec<f32> {
+        let bias = [FIRST, SECOND].map(|decay| 1.0 - decay.powi(step));
+        let mut change = self.turned(slope);
+        for ((x, m), v) in change.iter_mut().zip(&mut self.first).zip(&mut self.second) {
+            *m = FIRST * *m + (1.0 - FIRST) * *x;
+            *v = SECOND * *v + (1.0 - SECOND) * *x * *x;
+            *x = (*m / bias[0]) / ((*v / bias[1]).sqrt() + 1e-8);
+        }
+        self.turned_back(&change)
     }
 
     fn turned(&self, matrix: &[f32]) -> Vec<f32> {
@@ -173,5 +178,93 @@ impl Axis {
             self.basis.iter_mut().skip(place).step_by(size).zip(new).for_each(|(b, x)| *b = sign * x);
         }
         order
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, SymmetricEigen};
+
+    use super::*;
+
+    const SIZE: usize = 8;
+
+    /// Rotated, its eigenvalues between one and `condition`.
+    fn ill_conditioned(condition: f32, seed: u32) -> DMatrix<f32> {
+        let wave = DMatrix::from_fn(SIZE, SIZE, |row, column| ((row * SIZE + column) as f32 * 1.7 + seed as f32).sin());
+        let axes = wave.qr().q();
+        let eigenvalues = (0..SIZE).map(|k| condition.powf(k as f32 / (SIZE - 1) as f32));
+        &axes * DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(SIZE, eigenvalues)) * axes.transpose()
+    }
+
+    /// Row by row.
+    fn listed(matrix: &DMatrix<f32>) -> Vec<f32> {
+        matrix.transpose().as_slice().to_vec()
+    }
+
+    /// What is left of ½ tr(Wᵀ A W B), whose curvature is the Kronecker product of A and B, after steps of `change`.
+    fn descend(mut change: impl FnMut(&[f32]) -> Vec<f32>) -> f32 {
+        const STEPS: usize = 1500;
+        let (a, b) = (ill_conditioned(100.0, 1), ill_conditioned(100.0, 2));
+        let mut weights = DMatrix::from_element(SIZE, SIZE, 1.0_f32);
+        let value = |weights: &DMatrix<f32>| 0.5 * (weights.transpose() * &a * weights * &b).trace();
+        let before = value(&weights);
+        for step in 0..STEPS {
+            let rate = 0.02 * (1.0 - step as f32 / STEPS as f32);
+            let step = change(&listed(&(&a * &weights * &b)));
+            weights -= rate * DMatrix::from_row_slice(SIZE, SIZE, &step);
+        }
+        value(&weights) / before
+    }
+
+    fn soap() -> Soap {
+        Soap { layers: vec![Layer::new(SIZE, SIZE)], step: 0, loss: gaussian }
+    }
+
+    #[test]
+    fn a_rotated_narrow_valley_is_no_obstacle() {
+        let mut turning = soap();
+        let mut adam = Layer::new(SIZE, SIZE);
+        let mut step = 0;
+        let in_eigenbasis = descend(|slope| turning.change(slope));
+        // The same without ever turning the basis is Adam.
+        let along_weights = descend(|slope| {
+            step += 1;
+            adam.normalised(slope, step)
+        });
+        assert!(in_eigenbasis < 0.1 * along_weights, "{in_eigenbasis:e} of the start, Adam {along_weights:e}");
+    }
+
+    #[test]
+    fn the_basis_becomes_that_of_the_eigenvectors() {
+        let matrix = ill_conditioned(1000.0, 3);
+        let mut axis = Axis::new(SIZE);
+        for _ in 0..200 {
+            axis.remember(&listed(&matrix));
+            axis.turn();
+        }
+        let basis = DMatrix::from_row_slice(SIZE, SIZE, &axis.basis);
+        let error = (basis.transpose() * &basis - DMatrix::identity(SIZE, SIZE)).amax();
+        assert!(error < 1e-5, "not orthogonal: {error}");
+        let turned = basis.transpose() * &matrix * &basis;
+        let mut eigenvalues = SymmetricEigen::new(matrix).eigenvalues.as_slice().to_vec();
+        eigenvalues.sort_by(|x, y| y.total_cmp(x));
+        for (k, eigenvalue) in eigenvalues.iter().enumerate() {
+            assert!((turned[(k, k)] / eigenvalue - 1.0).abs() < 1e-2, "{k}: {}, {eigenvalue}", turned[(k, k)]);
+        }
+    }
+
+    #[test]
+    fn the_same_slopes_give_the_same_bits() {
+        let run = || {
+            let mut method = soap();
+            let change = |step: usize| {
+                let slope: Vec<f32> = (0..SIZE * SIZE).map(|k| ((step * 31 + k * 7) as f32).sin()).collect();
+                method.change(&slope)
+            };
+            (0..50).map(change).collect::<Vec<_>>().concat()
+        };
+        let first: Vec<u32> = run().into_iter().map(f32::to_bits).collect();
+        assert!(first.into_iter().eq(run().into_iter().map(f32::to_bits)));
     }
 }

@@ -158,3 +158,102 @@ pub fn initial<N: Trainable>(seed: u64) -> N {
     });
     network
 }
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::network::{RoverNetwork, TARGETS, WheelNetwork};
+
+    use super::*;
+    use crate::train::example::RoverInput;
+    use crate::train::loss::gaussian;
+
+    /// Numbers without a pattern, −1 … 1.
+    fn wave(seed: usize) -> f32 {
+        (seed as f32 * 2.399).sin()
+    }
+
+    fn target(seed: usize) -> [f32; TARGETS] {
+        std::array::from_fn(|k| wave(seed * 5 + k))
+    }
+
+    /// More than fill a block, with one wheel to six.
+    fn rovers() -> Vec<Example<RoverInput>> {
+        let rover = |seed: usize| RoverInput {
+            context: std::array::from_fn(|k| wave(seed * 100 + k)),
+            wheels: (0..1 + seed % 6).map(|w| std::array::from_fn(|k| wave(seed * 200 + w * 10 + k))).collect(),
+        };
+        (0..LANES + 5).map(|seed| Example { input: rover(seed), target: target(seed) }).collect()
+    }
+
+    fn wheels() -> Vec<Example<<WheelNetwork as Trainable>::Input>> {
+        let wheel = |seed: usize| std::array::from_fn(|k| wave(seed * 100 + k));
+        (0..LANES + 5).map(|seed| Example { input: wheel(seed), target: target(seed) }).collect()
+    }
+
+    struct Outputs<'a, N: Trainable>(&'a N, &'a [Example<N::Input>]);
+
+    impl<N: Trainable> WithSimd for Outputs<'_, N> {
+        type Output = Vec<[f32; OUTPUTS]>;
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+            let blocks = self.1.chunks(LANES).flat_map(|examples| {
+                let block = self.0.run_block(simd, examples);
+                (0..examples.len()).map(|lane| N::outputs(&block).map(|output| output[lane])).collect::<Vec<_>>()
+            });
+            blocks.collect()
+        }
+    }
+
+    fn check_bits<N: Trainable>(examples: &[Example<N::Input>]) {
+        let network: N = initial(3);
+        let flown: Vec<_> = examples.iter().map(|example| network.run(&example.input).map(f32::to_bits)).collect();
+        let bits = |outputs: Vec<[f32; OUTPUTS]>| outputs.into_iter().map(|o| o.map(f32::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(Arch::new().dispatch(Outputs(&network, examples))), flown);
+        assert_eq!(bits(Outputs(&network, examples).with_simd(pulp::Scalar::new())), flown);
+    }
+
+    #[test]
+    fn blocks_have_the_bits_of_the_flight_code_whatever_the_machine() {
+        check_bits::<RoverNetwork>(&rovers());
+        check_bits::<WheelNetwork>(&wheels());
+    }
+
+    fn check_gradient<N: Trainable>(examples: &[Example<N::Input>]) {
+        const STEP: f32 = 2e-2;
+        let mut network: N = initial(3);
+        let mut gradient = N::zero();
+        sum_of_losses(&network, examples, gaussian, Some(&mut gradient));
+        let (mut scalar, pass) = (N::zero(), &network);
+        Pass { network: pass, examples, loss: gaussian, gradient: Some(&mut scalar) }.with_simd(pulp::Scalar::new());
+        let gradient = flatten(&gradient);
+        assert_eq!(gradient, flatten(&scalar), "other registers, other bits");
+        let weights = flatten(&network);
+        for place in (0..weights.len()).step_by(29) {
+            let mut loss_at = |step: f32| {
+                let moved = weights.iter().enumerate().map(|(k, w)| if k == place { w + step } else { *w });
+                change_each(&mut network, moved, |weight, value| *weight = value);
+                sum_of_losses(&network, examples, gaussian, None)
+            };
+            let slope = (loss_at(STEP) - loss_at(-STEP)) / (2.0 * STEP);
+            assert!(
+                (slope - gradient[place]).abs() < 0.01 + 0.01 * slope.abs(),
+                "{place}: {slope}, {}",
+                gradient[place]
+            );
+        }
+    }
+
+    #[test]
+    fn gradients_are_those_of_differences() {
+        check_gradient::<RoverNetwork>(&rovers());
+        check_gradient::<WheelNetwork>(&wheels());
+    }
+
+    #[test]
+    fn matrices_hold_every_number_once() {
+        let numbers = |matrices: Vec<[usize; 2]>| matrices.iter().map(|[rows, columns]| rows * columns).sum::<usize>();
+        assert_eq!(numbers(RoverNetwork::matrices()), parameter_count(&RoverNetwork::ZERO));
+        assert_eq!(numbers(WheelNetwork::matrices()), parameter_count(&WheelNetwork::ZERO));
+    }
+}

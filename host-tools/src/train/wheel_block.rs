@@ -4,9 +4,7 @@ use kapvik_firmware::network::{OUTPUTS, WHEEL_HIDDEN, WHEEL_INPUTS, WheelNetwork
 use pulp::Simd;
 
 use super::example::{Example, WheelInput};
-use super::lanes::{
-    Lane, ZERO, add_input_slope, add_layer_gradient, apply_layer, before_activation, run_layer,
-};
+use super::lanes::{Lane, ZERO, add_input_slope, add_layer_gradient, apply_layer, before_activation, run_layer};
 use super::trainable::{GRADIENT, Trainable, in_lanes, layer_fan_in};
 
 /// What the neurons put out.
