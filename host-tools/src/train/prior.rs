@@ -81,7 +81,7 @@ pub const WIDTH_RATIO: Range = Range::linear(0.5, 1.3);
 /// Mean of W/(rb) of other wheels, Pa.
 pub const PRESSURE_PA: Range = Range::logarithmic(2.2e3, 2.2e4);
 /// Half of the spread of load among the wheels of an instant, as a share of the mean.
-pub const LOAD_SPREAD: Range = Range::logarithmic(0.03, 0.6);
+pub const LOAD_SPREAD: Range = Range::logarithmic(0.02, 0.5);
 /// Slip of a wheel.
 pub const SLIP: Range = Range::linear(0.02, 0.70);
 /// Least slip among wheels that are driven at deliberately different rim speeds.
