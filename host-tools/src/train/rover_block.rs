@@ -139,15 +139,15 @@ fn pool(block: &mut RoverBlock, examples: &[Example<RoverInput>]) {
     for neuron in 0..ROVER_HIDDEN {
         let (mut mean, mut variance) = (ZERO, ZERO);
         for wheel in wheels.iter() {
-            for lane in 0..LANES {
-                mean[lane] += wheel.there[lane] * wheel.hidden[neuron][lane];
+            for ((mean, there), hidden) in mean.iter_mut().zip(&wheel.there).zip(&wheel.hidden[neuron]) {
+                *mean += there * hidden;
             }
         }
         mean.iter_mut().zip(share.iter()).for_each(|(mean, share)| *mean *= share);
         for wheel in wheels.iter() {
-            for lane in 0..LANES {
-                let deviation = wheel.hidden[neuron][lane] - mean[lane];
-                variance[lane] += wheel.there[lane] * (share[lane] * deviation * deviation);
+            let lanes = wheel.hidden[neuron].iter().zip(&mean).zip(share.iter()).zip(&wheel.there);
+            for (variance, (((hidden, mean), share), there)) in variance.iter_mut().zip(lanes) {
+                *variance += there * (share * (hidden - mean) * (hidden - mean));
             }
         }
         pool[neuron] = mean;
@@ -162,12 +162,14 @@ fn pool(block: &mut RoverBlock, examples: &[Example<RoverInput>]) {
 fn wheel_slope(block: &RoverBlock, wheel: &WheelLanes, pool: &[Lane; 2 * ROVER_HIDDEN]) -> [Lane; ROVER_HIDDEN] {
     let mut slope = [ZERO; ROVER_HIDDEN];
     for (neuron, slope) in slope.iter_mut().enumerate() {
-        let (of_mean, of_variance) = (&pool[neuron], &pool[ROVER_HIDDEN + neuron]);
-        for lane in 0..LANES {
+        let of_pool = pool[neuron].iter().zip(&pool[ROVER_HIDDEN + neuron]);
+        let outputs = wheel.hidden[neuron].iter().zip(&block.pool[neuron]);
+        let shares = block.share.iter().zip(&wheel.there);
+        for (((slope, (of_mean, of_variance)), (hidden, mean)), (share, there)) in
+            slope.iter_mut().zip(of_pool).zip(outputs).zip(shares)
+        {
             // The variance's slope by way of the mean vanishes, since deviations add up to zero.
-            let deviation = wheel.hidden[neuron][lane] - block.pool[neuron][lane];
-            let share = block.share[lane] * wheel.there[lane];
-            slope[lane] = share * (of_mean[lane] + 2.0 * of_variance[lane] * deviation);
+            *slope = share * there * (of_mean + 2.0 * of_variance * (hidden - mean));
         }
     }
     before_activation(&mut slope, &wheel.hidden);
