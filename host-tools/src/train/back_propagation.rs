@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::example::Example;
 use super::loss::{Loss, gaussian};
-use super::trainable::{Trainable, change_each, flatten, parameter_count};
+use super::trainable::{Trainable, change_each, flatten, parameter_count, sum_of_losses};
 
 /// Parts of a mini-batch that are summed by themselves, so that the result does not depend on the number of cores.
 const PARTS: usize = 8;
@@ -75,24 +75,6 @@ impl Adam {
     }
 }
 
-impl Adam {
-    /// Examples in a mini-batch of [`Self::pass`].
-    const BATCH: usize = 512;
-    /// Greatest step size of [`Self::pass`].
-    const RATE: f32 = 4e-3;
-
-    /// One of `epochs` passes over the examples in mini-batches; the step size falls along a cosine from the first to the
-    /// last.
-    pub fn pass<N: Trainable>(&mut self, network: &mut N, examples: &[Example<N::Input>], epoch: usize, epochs: usize) {
-        let batches = examples.len().div_ceil(Self::BATCH) as f32;
-        for (index, batch) in examples.chunks(Self::BATCH).enumerate() {
-            let share = (epoch as f32 + index as f32 / batches) / epochs as f32;
-            let rate = Self::RATE * 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share)) + 1e-5;
-            self.step(network, batch, rate);
-        }
-    }
-}
-
 /// Mean loss and mean gradient over a batch.
 pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>], loss: Loss) -> (f32, N) {
     let size = batch.len().div_ceil(PARTS).max(1);
@@ -100,13 +82,7 @@ pub fn mean_gradient<N: Trainable>(network: &N, batch: &[Example<N::Input>], los
         .par_chunks(size)
         .map(|part| {
             let mut gradient = N::zero();
-            let mut total = 0.0;
-            for example in part {
-                let run = network.run(&example.input);
-                let (error, slope) = loss(N::outputs(&run), &example.target);
-                network.backward(&example.input, &run, &slope, &mut gradient);
-                total += error;
-            }
+            let total = sum_of_losses(network, part, loss, Some(&mut gradient));
             (total, gradient)
         })
         .collect();
@@ -127,11 +103,7 @@ pub fn mean_loss<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> f64 {
 
 /// Mean of any loss over a set.
 pub fn mean_of<N: Trainable>(network: &N, set: &[Example<N::Input>], loss: Loss) -> f64 {
-    let loss = |example: &Example<N::Input>| {
-        let run = network.run(&example.input);
-        f64::from(loss(N::outputs(&run), &example.target).0)
-    };
-    let parts: Vec<f64> =
-        set.par_chunks(set.len().div_ceil(PARTS).max(1)).map(|part| part.iter().map(loss).sum()).collect();
+    // Parts short enough that their sums keep their digits.
+    let parts: Vec<f64> = set.par_chunks(256).map(|part| f64::from(sum_of_losses(network, part, loss, None))).collect();
     parts.iter().sum::<f64>() / set.len() as f64
 }

@@ -15,6 +15,7 @@ use super::levenberg_marquardt::LevenbergMarquardt;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
 use super::score::{Score, score_network};
+use super::soap::Soap;
 use super::trainable::initial;
 
 /// A trainer of the comparison.
@@ -24,6 +25,8 @@ pub enum Trainer {
     BackPropagation,
     /// Back-propagation with Adam's step sizes.
     Adam,
+    /// Adam in the eigenbasis of Shampoo's preconditioner.
+    Soap,
     /// Levenberg–Marquardt.
     LevenbergMarquardt,
     /// Extended Kalman filter over the weights.
@@ -32,13 +35,15 @@ pub enum Trainer {
 
 impl Trainer {
     /// All of them, in the order of the table.
-    pub const ALL: [Self; 4] = [Self::BackPropagation, Self::Adam, Self::LevenbergMarquardt, Self::ExtendedKalman];
+    pub const ALL: [Self; 5] =
+        [Self::BackPropagation, Self::Adam, Self::Soap, Self::LevenbergMarquardt, Self::ExtendedKalman];
 
     /// Its name in the table.
     pub fn name(self) -> &'static str {
         match self {
             Self::BackPropagation => "back-propagation, momentum",
             Self::Adam => "back-propagation, Adam",
+            Self::Soap => "back-propagation, SOAP",
             Self::LevenbergMarquardt => "Levenberg–Marquardt",
             Self::ExtendedKalman => "extended Kalman filter",
         }
@@ -118,6 +123,12 @@ fn run(plan: &Plan, sets: &Sets, trainer: Trainer, name: &'static str) -> Row {
         Trainer::Adam => {
             let mut method = Adam::new(&network);
             by_batches(plan, &mut course, &mut network, 5e-3, |net, batch, rate| {
+                method.step(net, batch, rate);
+            });
+        }
+        Trainer::Soap => {
+            let mut method = Soap::new::<WheelNetwork>();
+            by_batches(plan, &mut course, &mut network, 1e-2, |net, batch, rate| {
                 method.step(net, batch, rate);
             });
         }

@@ -4,11 +4,12 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 
-use super::back_propagation::{Adam, mean_loss};
+use super::back_propagation::mean_loss;
 use super::curve::Curve;
 use super::dataset::shuffle;
 use super::example::Example;
 use super::plan::{Plan, Purpose};
+use super::soap::Soap;
 use super::trainable::{Trainable, initial};
 
 /// A new network after `epochs` passes, each over what `observe` sees with that pass's seed of noise, and its loss on
@@ -23,12 +24,12 @@ pub fn train_by_epochs<N: Trainable>(
 ) -> (N, Curve) {
     let mut network: N = initial(plan.stream(Purpose::Weights));
     let begin = Instant::now();
-    let mut adam = Adam::new(&network);
+    let mut soap = Soap::new::<N>();
     progress.set_length(epochs as u64);
     for epoch in 0..epochs {
         let mut examples = observe(plan.stream(Purpose::TrainingNoise) + epoch as u64);
         shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
-        adam.pass(&mut network, &examples, epoch, epochs);
+        soap.pass(&mut network, &examples, epoch, epochs);
         curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, watched)));
         progress.set_message(format!("held-out loss {:.4}", curve.last()));
         progress.inc(1);

@@ -29,11 +29,10 @@ impl ExtendedKalman {
 
     /// Presents one example.
     pub fn step<N: Trainable>(&mut self, network: &mut N, example: &Example<N::Input>) {
-        let run = network.run(&example.input);
-        let outputs = N::outputs(&run);
-        let (_, slope) = gaussian(outputs, &example.target);
-        let noise = fisher(outputs).map(|information| 1.0 / f64::from(information));
-        let rows = output_jacobian(network, &example.input, &run);
+        let outputs = network.run(&example.input);
+        let (_, slope) = gaussian(&outputs, &example.target);
+        let noise = fisher(&outputs).map(|information| 1.0 / f64::from(information));
+        let rows = output_jacobian(network, example);
         let count = parameter_count(network);
         let h = DMatrix::from_fn(OUTPUTS, count, |k, i| f64::from(rows[k][i]));
         let gain_base = &self.covariance * h.transpose();

@@ -95,11 +95,10 @@ fn normal_equations<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> (DM
             let mut update = RankUpdate::new(count);
             let mut slope = vec![0.0_f64; count];
             for example in part {
-                let run = network.run(&example.input);
-                let outputs = N::outputs(&run);
-                let (_, loss_slope) = gaussian(outputs, &example.target);
-                let information = fisher(outputs);
-                let jacobian: [Vec<f32>; OUTPUTS] = output_jacobian(network, &example.input, &run);
+                let outputs = network.run(&example.input);
+                let (_, loss_slope) = gaussian(&outputs, &example.target);
+                let information = fisher(&outputs);
+                let jacobian: [Vec<f32>; OUTPUTS] = output_jacobian(network, example);
                 for ((row, s), f) in jacobian.iter().zip(loss_slope).zip(information) {
                     update.add(row, f.sqrt());
                     slope.iter_mut().zip(row).for_each(|(sum, x)| *sum += f64::from(s * x));

@@ -1,4 +1,4 @@
-//! Training of the networks on the ground: stated priors, wheel–soil theory, sensor noise, three trainers, one table.
+//! Training of the networks on the ground: stated priors, wheel–soil theory, sensor noise, five trainers, one table.
 
 pub mod back_propagation;
 pub mod calibration;
@@ -12,16 +12,21 @@ pub mod epochs;
 pub mod example;
 pub mod extended_kalman;
 pub mod fifth_input;
+mod lanes;
 pub mod levenberg_marquardt;
 pub mod loss;
 pub mod observe;
 pub mod plan;
 pub mod prior;
+mod product;
 pub mod progress;
 mod rank_update;
+mod rover_block;
 pub mod rover_training;
 pub mod scene;
 pub mod score;
+pub mod soap;
 pub mod trainable;
+mod wheel_block;
 pub mod wheel_training;
 pub mod world;

@@ -83,7 +83,7 @@ pub fn score_rover(table: &RoverTable, scenes: &[Scene], seed: u32) -> Score {
 
 /// Outputs of a network on a set.
 pub fn outputs<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> Vec<[f32; OUTPUTS]> {
-    set.par_iter().map(|example| *N::outputs(&network.run(&example.input))).collect()
+    set.par_iter().map(|example| network.run(&example.input)).collect()
 }
 
 /// Scores a network on a set.

@@ -1,42 +1,40 @@
 //! What the trainers need of a network: outputs, and a loss's way back to the weights.
 
-use kapvik_firmware::network::{
-    Layer, Numbers, OUTPUTS, ROVER_HEAD_INPUTS, ROVER_HIDDEN, RoverActivations, RoverNetwork, Weights,
-    WheelActivations, WheelNetwork,
-};
-
+use kapvik_firmware::network::{Layer, Numbers, OUTPUTS, Weights};
+use pulp::{Arch, Simd, WithSimd};
 use rand::RngExt;
 
 use super::dataset::stream;
-use super::example::{RoverInput, WheelInput};
+use super::example::Example;
+use super::lanes::{LANES, Lane, ZERO};
+use super::loss::Loss;
 
 /// Coefficient A of the bipolar sigmoid (equation 13): 2 makes it the hyperbolic tangent. Any other value is the same
 /// family of networks with scaled weights.
 pub const GRADIENT: f32 = 2.0;
 
-/// A network that can be trained.
+/// A network that can be trained, a block of examples at a time.
 pub trait Trainable: Numbers + Clone + Send + Sync {
     /// Normalised inputs.
     type Input: Send + Sync + Clone;
-    /// What the neurons put out.
-    type Activations;
+    /// Inputs and what the neurons put out, example by example in lanes.
+    type Block;
 
     /// A network with all weights zero.
     fn zero() -> Self;
     /// Fan-in of each number that is to be drawn at random, 0 for those that start at zero.
     fn fan_in() -> Self;
-    /// Runs the network.
-    fn run(&self, input: &Self::Input) -> Self::Activations;
-    /// The outputs among the activations.
-    fn outputs(activations: &Self::Activations) -> &[f32; OUTPUTS];
-    /// Adds to `gradient` the derivative of `slope` · outputs with respect to every weight.
-    fn backward(
-        &self,
-        input: &Self::Input,
-        activations: &Self::Activations,
-        slope: &[f32; OUTPUTS],
-        gradient: &mut Self,
-    );
+    /// Rows and columns of the matrices of numbers that follow each other in [`Numbers`]: one a layer, an input a row, the
+    /// bias the last.
+    fn matrices() -> Vec<[usize; 2]>;
+    /// Runs the network as it flies.
+    fn run(&self, input: &Self::Input) -> [f32; OUTPUTS];
+    /// Runs it on at most [`LANES`] examples, with the same bits; lanes without an example hold anything finite.
+    fn run_block<S: Simd>(&self, simd: S, examples: &[Example<Self::Input>]) -> Self::Block;
+    /// The outputs in a block.
+    fn outputs(block: &Self::Block) -> &[Lane; OUTPUTS];
+    /// Adds to `gradient` the derivative of the sum over the lanes of `slope` · outputs with respect to every weight.
+    fn backward<S: Simd>(&self, simd: S, block: &Self::Block, slope: &[Lane; OUTPUTS], gradient: &mut Self);
 }
 
 /// Numbers of a network.
@@ -67,142 +65,85 @@ pub fn change_each<N: Numbers, V>(
     });
 }
 
-/// The slope before the activation, from the slope behind it.
-fn through_activation<const N: usize>(mut slope: [f32; N], output: &[f32; N]) -> [f32; N] {
-    for (s, y) in slope.iter_mut().zip(output) {
-        *s *= 0.5 * GRADIENT * (1.0 - y * y);
+/// One list of each example's numbers as lanes; zero where there is no example.
+pub(super) fn in_lanes<'a, const N: usize>(lists: impl Iterator<Item = &'a [f32; N]>) -> [Lane; N] {
+    let mut lanes = [ZERO; N];
+    for (place, list) in lists.enumerate() {
+        lanes.iter_mut().zip(list).for_each(|(lane, number)| lane[place] = *number);
     }
-    slope
+    lanes
 }
 
-fn through_weights<const I: usize, const O: usize>(input: &[f32; I], slope: &[f32; O], gradient: &mut Weights<I, O>) {
-    for (x, row) in input.iter().zip(&mut gradient.0) {
-        for (g, s) in row.iter_mut().zip(slope) {
-            *g += x * s;
-        }
-    }
-}
-
-fn input_slope<const I: usize, const O: usize>(weights: &Weights<I, O>, slope: &[f32; O]) -> [f32; I] {
-    let mut back = [0.0; I];
-    for (b, row) in back.iter_mut().zip(&weights.0) {
-        // Four partial sums, so that the compiler may keep them in one vector register.
-        let mut sums = [0.0_f32; 4];
-        for (ws, ss) in row.chunks(4).zip(slope.chunks(4)) {
-            for ((sum, w), s) in sums.iter_mut().zip(ws).zip(ss) {
-                *sum += w * s;
-            }
-        }
-        *b = (sums[0] + sums[2]) + (sums[1] + sums[3]);
-    }
-    back
-}
-
-fn through_layer<const I: usize, const O: usize>(
-    layer: &Layer<I, O>,
-    input: &[f32; I],
-    slope: &[f32; O],
-    gradient: &mut Layer<I, O>,
-) -> [f32; I] {
-    through_first_layer(input, slope, gradient);
-    input_slope(&layer.weights, slope)
-}
-
-/// The same where nothing lies before the layer but inputs.
-fn through_first_layer<const I: usize, const O: usize>(input: &[f32; I], slope: &[f32; O], gradient: &mut Layer<I, O>) {
-    through_weights(input, slope, &mut gradient.weights);
-    gradient.bias.iter_mut().zip(slope).for_each(|(g, s)| *g += s);
-}
-
-fn layer_fan_in<const I: usize, const O: usize>(fan_in: usize) -> Layer<I, O> {
+pub(super) fn layer_fan_in<const I: usize, const O: usize>(fan_in: usize) -> Layer<I, O> {
     Layer { weights: Weights([[fan_in as f32; O]; I]), bias: [0.0; O] }
 }
 
-impl Trainable for WheelNetwork {
-    type Input = WheelInput;
-    type Activations = WheelActivations;
-
-    fn zero() -> Self {
-        Self::ZERO
-    }
-    fn fan_in() -> Self {
-        use kapvik_firmware::network::{WHEEL_HIDDEN, WHEEL_INPUTS};
-        Self {
-            first: layer_fan_in(WHEEL_INPUTS),
-            second: layer_fan_in(WHEEL_HIDDEN),
-            output: layer_fan_in(WHEEL_HIDDEN),
-        }
-    }
-    fn run(&self, input: &Self::Input) -> Self::Activations {
-        WheelNetwork::run(self, input, GRADIENT)
-    }
-    fn outputs(activations: &Self::Activations) -> &[f32; OUTPUTS] {
-        &activations.output
-    }
-    fn backward(&self, input: &WheelInput, run: &WheelActivations, slope: &[f32; OUTPUTS], gradient: &mut Self) {
-        let slope = through_layer(&self.output, &run.second, slope, &mut gradient.output);
-        let slope = through_activation(slope, &run.second);
-        let slope = through_layer(&self.second, &run.first, &slope, &mut gradient.second);
-        let slope = through_activation(slope, &run.first);
-        through_first_layer(input, &slope, &mut gradient.first);
-    }
+/// Sum of the losses of some examples, and their gradient added to `gradient` where there is one.
+pub fn sum_of_losses<N: Trainable>(
+    network: &N,
+    examples: &[Example<N::Input>],
+    loss: Loss,
+    gradient: Option<&mut N>,
+) -> f32 {
+    Arch::new().dispatch(Pass { network, examples, loss, gradient })
 }
 
-impl Trainable for RoverNetwork {
-    type Input = RoverInput;
-    type Activations = RoverActivations;
+/// Examples to be run with registers as wide as the machine has.
+struct Pass<'a, N: Trainable> {
+    network: &'a N,
+    examples: &'a [Example<N::Input>],
+    loss: Loss,
+    gradient: Option<&'a mut N>,
+}
 
-    fn zero() -> Self {
-        Self::ZERO
-    }
-    fn fan_in() -> Self {
-        use kapvik_firmware::network::{ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_SECOND_HEAD, WHEEL_FEATURES};
-        let wheel = ROVER_CONTEXT + WHEEL_FEATURES;
-        Self {
-            context: layer_fan_in(wheel),
-            wheel: Weights([[wheel as f32; ROVER_HIDDEN]; WHEEL_FEATURES]),
-            first: layer_fan_in(ROVER_HEAD_INPUTS),
-            second: layer_fan_in(ROVER_FIRST_HEAD),
-            output: layer_fan_in(ROVER_SECOND_HEAD),
-        }
-    }
-    fn run(&self, input: &Self::Input) -> Self::Activations {
-        RoverNetwork::run(self, &input.context, input.wheels.iter().copied(), GRADIENT)
-    }
-    fn outputs(activations: &Self::Activations) -> &[f32; OUTPUTS] {
-        &activations.output
-    }
-    fn backward(&self, input: &RoverInput, run: &RoverActivations, slope: &[f32; OUTPUTS], gradient: &mut Self) {
-        let slope = through_layer(&self.output, &run.second, slope, &mut gradient.output);
-        let slope = through_activation(slope, &run.second);
-        let slope = through_layer(&self.second, &run.first, &slope, &mut gradient.second);
-        let slope = through_activation(slope, &run.first);
-        let pool_slope = through_layer(&self.first, &run.pool, &slope, &mut gradient.first);
-        let share = 1.0 / run.wheels.len() as f32;
-        let mut context_slope = [0.0; ROVER_HIDDEN];
-        for (features, hidden) in input.wheels.iter().zip(&run.wheels) {
-            let mut slope = [0.0; ROVER_HIDDEN];
-            for (k, s) in slope.iter_mut().enumerate() {
-                // The variance's slope by way of the mean vanishes, since deviations add up to zero.
-                *s = share * (pool_slope[k] + 2.0 * pool_slope[ROVER_HIDDEN + k] * (hidden[k] - run.pool[k]));
+impl<N: Trainable> WithSimd for Pass<'_, N> {
+    type Output = f32;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f32 {
+        let Self { network, examples, loss, mut gradient } = self;
+        let mut total = 0.0;
+        for examples in examples.chunks(LANES) {
+            let block = network.run_block(simd, examples);
+            let outputs = N::outputs(&block);
+            let mut slopes = [ZERO; OUTPUTS];
+            for (lane, example) in examples.iter().enumerate() {
+                let (error, slope) = loss(&outputs.map(|output| output[lane]), &example.target);
+                slopes.iter_mut().zip(slope).for_each(|(lanes, s)| lanes[lane] = s);
+                total += error;
             }
-            let slope = through_activation(slope, hidden);
-            through_weights(features, &slope, &mut gradient.wheel);
-            context_slope.iter_mut().zip(slope).for_each(|(sum, s)| *sum += s);
+            if let Some(gradient) = gradient.as_deref_mut() {
+                network.backward(simd, &block, &slopes, gradient);
+            }
         }
-        through_first_layer(&input.context, &context_slope, &mut gradient.context);
+        total
     }
 }
 
 /// Derivative of each output with respect to every weight.
-pub fn output_jacobian<N: Trainable>(network: &N, input: &N::Input, run: &N::Activations) -> [Vec<f32>; OUTPUTS] {
-    std::array::from_fn(|k| {
-        let mut slope = [0.0; OUTPUTS];
-        slope[k] = 1.0;
-        let mut gradient = N::zero();
-        network.backward(input, run, &slope, &mut gradient);
-        flatten(&gradient)
-    })
+pub fn output_jacobian<N: Trainable>(network: &N, example: &Example<N::Input>) -> [Vec<f32>; OUTPUTS] {
+    Arch::new().dispatch(Jacobian { network, example })
+}
+
+struct Jacobian<'a, N: Trainable> {
+    network: &'a N,
+    example: &'a Example<N::Input>,
+}
+
+impl<N: Trainable> WithSimd for Jacobian<'_, N> {
+    type Output = [Vec<f32>; OUTPUTS];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let block = self.network.run_block(simd, std::slice::from_ref(self.example));
+        std::array::from_fn(|k| {
+            let mut slope = [ZERO; OUTPUTS];
+            slope[k][0] = 1.0;
+            let mut gradient = N::zero();
+            self.network.backward(simd, &block, &slope, &mut gradient);
+            flatten(&gradient)
+        })
+    }
 }
 
 /// A network with uniform random weights of variance 1 / fan-in and zero biases.
@@ -216,4 +157,103 @@ pub fn initial<N: Trainable>(seed: u64) -> N {
         }
     });
     network
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::network::{RoverNetwork, TARGETS, WheelNetwork};
+
+    use super::*;
+    use crate::train::example::RoverInput;
+    use crate::train::loss::gaussian;
+
+    /// Numbers without a pattern, −1 … 1.
+    fn wave(seed: usize) -> f32 {
+        (seed as f32 * 2.399).sin()
+    }
+
+    fn target(seed: usize) -> [f32; TARGETS] {
+        std::array::from_fn(|k| wave(seed * 5 + k))
+    }
+
+    /// More than fill a block, with one wheel to six.
+    fn rovers() -> Vec<Example<RoverInput>> {
+        let rover = |seed: usize| RoverInput {
+            context: std::array::from_fn(|k| wave(seed * 100 + k)),
+            wheels: (0..1 + seed % 6).map(|w| std::array::from_fn(|k| wave(seed * 200 + w * 10 + k))).collect(),
+        };
+        (0..LANES + 5).map(|seed| Example { input: rover(seed), target: target(seed) }).collect()
+    }
+
+    fn wheels() -> Vec<Example<<WheelNetwork as Trainable>::Input>> {
+        let wheel = |seed: usize| std::array::from_fn(|k| wave(seed * 100 + k));
+        (0..LANES + 5).map(|seed| Example { input: wheel(seed), target: target(seed) }).collect()
+    }
+
+    struct Outputs<'a, N: Trainable>(&'a N, &'a [Example<N::Input>]);
+
+    impl<N: Trainable> WithSimd for Outputs<'_, N> {
+        type Output = Vec<[f32; OUTPUTS]>;
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+            let blocks = self.1.chunks(LANES).flat_map(|examples| {
+                let block = self.0.run_block(simd, examples);
+                (0..examples.len()).map(|lane| N::outputs(&block).map(|output| output[lane])).collect::<Vec<_>>()
+            });
+            blocks.collect()
+        }
+    }
+
+    fn check_bits<N: Trainable>(examples: &[Example<N::Input>]) {
+        let network: N = initial(3);
+        let flown: Vec<_> = examples.iter().map(|example| network.run(&example.input).map(f32::to_bits)).collect();
+        let bits = |outputs: Vec<[f32; OUTPUTS]>| outputs.into_iter().map(|o| o.map(f32::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(Arch::new().dispatch(Outputs(&network, examples))), flown);
+        assert_eq!(bits(Outputs(&network, examples).with_simd(pulp::Scalar::new())), flown);
+    }
+
+    #[test]
+    fn blocks_have_the_bits_of_the_flight_code_whatever_the_machine() {
+        check_bits::<RoverNetwork>(&rovers());
+        check_bits::<WheelNetwork>(&wheels());
+    }
+
+    fn check_gradient<N: Trainable>(examples: &[Example<N::Input>]) {
+        const STEP: f32 = 2e-2;
+        let mut network: N = initial(3);
+        let mut gradient = N::zero();
+        sum_of_losses(&network, examples, gaussian, Some(&mut gradient));
+        let (mut scalar, pass) = (N::zero(), &network);
+        Pass { network: pass, examples, loss: gaussian, gradient: Some(&mut scalar) }.with_simd(pulp::Scalar::new());
+        let gradient = flatten(&gradient);
+        assert_eq!(gradient, flatten(&scalar), "other registers, other bits");
+        let weights = flatten(&network);
+        for place in (0..weights.len()).step_by(29) {
+            let mut loss_at = |step: f32| {
+                let moved = weights.iter().enumerate().map(|(k, w)| if k == place { w + step } else { *w });
+                change_each(&mut network, moved, |weight, value| *weight = value);
+                sum_of_losses(&network, examples, gaussian, None)
+            };
+            let slope = (loss_at(STEP) - loss_at(-STEP)) / (2.0 * STEP);
+            assert!(
+                (slope - gradient[place]).abs() < 0.01 + 0.01 * slope.abs(),
+                "{place}: {slope}, {}",
+                gradient[place]
+            );
+        }
+    }
+
+    #[test]
+    fn gradients_are_those_of_differences() {
+        check_gradient::<RoverNetwork>(&rovers());
+        check_gradient::<WheelNetwork>(&wheels());
+    }
+
+    #[test]
+    fn matrices_hold_every_number_once() {
+        let numbers = |matrices: Vec<[usize; 2]>| matrices.iter().map(|[rows, columns]| rows * columns).sum::<usize>();
+        assert_eq!(numbers(RoverNetwork::matrices()), parameter_count(&RoverNetwork::ZERO));
+        assert_eq!(numbers(WheelNetwork::matrices()), parameter_count(&WheelNetwork::ZERO));
+    }
 }
