@@ -1,4 +1,4 @@
-//! What rover networks say of a campaign's own soil, whose truth nobody knows.
+//! What rover networks say of a campaign's own soil.
 
 use kapvik_firmware::network::RoverTable;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate, answer};

@@ -1,9 +1,12 @@
 //! The tables of before and after.
 
+use std::collections::BTreeMap;
+
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use kapvik_firmware::terramechanics::Soil;
 
-use crate::diagnose::document::Diagnosis;
+use crate::diagnose::document::{Diagnosis, Estimate};
 use crate::train::score::Score;
 
 use super::on_campaign::{CampaignSoil, SoilColumn};
@@ -64,29 +67,85 @@ pub fn errors_of_soil(kinds: &[(&'static str, Vec<Score>)]) -> String {
     aligned(table)
 }
 
-/// Estimates and intervals on the campaign's own soil, before and after.
-pub fn intervals(soils: &[CampaignSoil]) -> String {
-    let mut table = table(&["parameter", "network", "median", "68 % interval", "scatter of runs", "runs", "outside"]);
-    let parameters = [("c / Pa", 1.0, 0), ("φ / °", 180.0 / std::f64::consts::PI, 1), ("K / mm", 1e3, 1)];
-    for (place, (parameter, scale, digits)) in parameters.into_iter().enumerate() {
-        for (name, soil) in ["before", "after"].into_iter().zip(soils) {
-            let SoilColumn { value, interval_68: [low, high], scatter } = soil.parameters[place];
-            let number = |value: f64| match value.is_finite() {
-                true => format!("{:.digits$}", scale * value),
-                false => NOTHING_THERE.to_owned(),
-            };
-            table.add_row([
-                parameter.to_owned(),
-                name.to_owned(),
-                number(value),
-                format!("{} … {}", number(low), number(high)),
-                number(scatter),
-                soil.runs.to_string(),
-                soil.outside.to_string(),
-            ]);
+/// c, φ and K of the campaign's own soil by both networks and by both fits of the diagnosis (keys as in `[soil]`), and how
+/// wrong they are where the truth is known.
+pub fn estimates(
+    networks: &[CampaignSoil],
+    fits: [&BTreeMap<String, Estimate>; 2],
+    truth: Option<&Soil<f64>>,
+) -> String {
+    let mut header = vec!["parameter", "by", "estimate", "68 % interval"];
+    header.extend(truth.map_or(vec![], |_| vec!["truth", "error", "error/σ"]));
+    header.extend(["scatter of runs", "runs", "outside"]);
+    let mut table = table(&header);
+    for (place, shown) in SHOWN.iter().enumerate() {
+        let truth = truth.map(shown.truth);
+        for (name, soil) in ["network before", "network after"].into_iter().zip(networks) {
+            let SoilColumn { value, interval_68, scatter } = soil.parameters[place];
+            let mut row = shown.row(name, value, interval_68, truth);
+            row.extend([shown.number(scatter), soil.runs.to_string(), soil.outside.to_string()]);
+            table.add_row(row);
+        }
+        for (name, fit) in ["fit before", "fit after"].into_iter().zip(fits) {
+            // What the campaign's file fixes was not fitted.
+            if let Some(Estimate { value, std }) = fit.get(shown.key) {
+                let mut row = shown.row(name, *value, [value - std, value + std], truth);
+                row.extend([NOTHING_THERE, NOTHING_THERE, NOTHING_THERE].map(str::to_owned));
+                table.add_row(row);
+            }
         }
     }
     aligned(table)
+}
+
+/// A parameter of the soil in this table.
+struct Shown {
+    name: &'static str,
+    /// Its key in `[soil]`.
+    key: &'static str,
+    truth: fn(&Soil<f64>) -> f64,
+    /// The unit shown, as so many of the parameter's own, and decimals.
+    scale: f64,
+    decimals: usize,
+}
+
+const SHOWN: [Shown; 3] = [
+    Shown { name: "c / Pa", key: "c", truth: |soil| soil.cohesion_pa, scale: 1.0, decimals: 0 },
+    Shown {
+        name: "φ / °",
+        key: "phi",
+        truth: |soil| soil.friction_angle_rad,
+        scale: 180.0 / std::f64::consts::PI,
+        decimals: 1,
+    },
+    Shown { name: "K / mm", key: "K", truth: |soil| soil.shear_modulus_m, scale: 1e3, decimals: 1 },
+];
+
+impl Shown {
+    /// Name, who says so, the estimate with its interval and, where the truth is known, truth and error.
+    fn row(&self, by: &str, value: f64, [low, high]: [f64; 2], truth: Option<f64>) -> Vec<String> {
+        let interval = format!("{} … {}", self.number(low), self.number(high));
+        let mut row = vec![self.name.to_owned(), by.to_owned(), self.number(value), interval];
+        if let Some(truth) = truth {
+            let error = value - truth;
+            let deviations = 2.0 * error / (high - low);
+            let signed = |text: String, number: f64| if number > 0.0 { format!("+{text}") } else { text };
+            row.push(self.number(truth));
+            row.push(signed(self.number(error), error));
+            row.push(match deviations.is_finite() {
+                true => signed(format!("{deviations:.1}"), deviations),
+                false => NOTHING_THERE.to_owned(),
+            });
+        }
+        row
+    }
+
+    fn number(&self, value: f64) -> String {
+        match value.is_finite() {
+            true => format!("{:.*}", self.decimals, self.scale * value),
+            false => NOTHING_THERE.to_owned(),
+        }
+    }
 }
 
 /// The factor and the unit in which a channel is shown.
@@ -112,4 +171,53 @@ fn table(header: &[&str]) -> Table {
 fn aligned(mut table: Table) -> String {
     table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     table.trim_fmt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn soil(friction_angle_deg: f64) -> Soil<f64> {
+        Soil {
+            sinkage_exponent: 1.0,
+            cohesive_modulus: 0.0,
+            frictional_modulus: 1e6,
+            cohesion_pa: 500.0,
+            friction_angle_rad: friction_angle_deg.to_radians(),
+            shear_modulus_m: 0.015,
+            peak_stress_c1: 0.4,
+            peak_stress_c2: 0.2,
+            rebound_ratio: 0.0,
+        }
+    }
+
+    fn network(friction_angle_deg: f64) -> CampaignSoil {
+        let column = |value: f64, std: f64| SoilColumn { value, interval_68: [value - std, value + std], scatter: std };
+        let phi = column(friction_angle_deg.to_radians(), 2_f64.to_radians());
+        CampaignSoil { runs: 3, outside: 0, parameters: [column(400.0, 100.0), phi, column(0.02, 0.01)] }
+    }
+
+    fn cells<'a>(text: &'a str, by: &str, parameter: &str) -> Vec<&'a str> {
+        let line = text.lines().find(|line| line.contains(by) && line.trim_start().starts_with(parameter));
+        line.expect("a row").split_whitespace().collect()
+    }
+
+    /// 36° ± 2° of 30° is 6° too much, three standard deviations; 31° is 1°, half a one.
+    #[test]
+    fn where_the_truth_is_known_the_error_is_shown() {
+        let fit = BTreeMap::from([("phi".to_owned(), Estimate { value: 0.5, std: 0.1 })]);
+        let text = estimates(&[network(36.0), network(31.0)], [&fit, &BTreeMap::new()], Some(&soil(30.0)));
+        let words = cells(&text, "network before", "φ");
+        assert!(words.windows(3).any(|words| words == ["30.0", "+6.0", "+3.0"]), "{text}");
+        assert!(cells(&text, "network after", "φ").windows(3).any(|words| words == ["30.0", "+1.0", "+0.5"]), "{text}");
+        assert!(cells(&text, "network after", "c").contains(&"-100"), "{text}");
+        assert!(cells(&text, "fit before", "φ").contains(&"28.6") && !text.contains("fit after"), "{text}");
+    }
+
+    #[test]
+    fn where_it_is_not_there_is_only_the_interval() {
+        let nothing = BTreeMap::new();
+        let text = estimates(&[network(36.0), network(31.0)], [&nothing, &nothing], None);
+        assert!(text.contains("34.0 … 38.0") && !text.contains("truth") && !text.contains("error"), "{text}");
+    }
 }
