@@ -7,6 +7,7 @@ use comfy_table::{CellAlignment, Table};
 use kapvik_firmware::terramechanics::Soil;
 
 use crate::diagnose::document::{Diagnosis, Estimate};
+use crate::report::diagnosis::Quantity;
 use crate::train::score::Score;
 
 use super::on_campaign::{CampaignSoil, SoilColumn};
@@ -18,10 +19,10 @@ const NOTHING_THERE: &str = "–";
 pub fn errors_of_forces(diagnosis: &Diagnosis) -> String {
     let mut table = table(&["channel", "before", "after", "noise", "runs"]);
     for (channel, errors) in &diagnosis.channels {
-        let (scale, unit) = unit(channel);
-        let number = |value: f64| format!("{:.3}", scale * value);
+        let shown = Quantity::of_column(channel);
+        let number = |value: f64| format!("{:.3}", shown.factor * value);
         table.add_row([
-            format!("{channel} / {unit}"),
+            shown.titled(),
             number(errors.rmse_before),
             number(errors.rmse_after),
             number(errors.noise),
@@ -80,7 +81,9 @@ pub fn estimates(
     let mut table = table(&header);
     for (place, shown) in SHOWN.iter().enumerate() {
         let truth = truth.map(shown.truth);
-        for (name, soil) in ["network before", "network after"].into_iter().zip(networks) {
+        for (name, soil) in
+            ["network before", "network after"].into_iter().zip(networks).filter(|(_, soil)| soil.runs > 0)
+        {
             let SoilColumn { value, interval_68, scatter } = soil.parameters[place];
             let mut row = shown.row(name, value, interval_68, truth);
             row.extend([shown.number(scatter), soil.runs.to_string(), soil.outside.to_string()]);
@@ -95,7 +98,13 @@ pub fn estimates(
             }
         }
     }
-    aligned(table)
+    let refused = networks.iter().find_map(|soil| soil.refused.as_ref());
+    let of_networks = match refused {
+        Some(why) => format!("no estimate by the networks: {why}"),
+        None => "network: medians over the runs; outside: runs unlike anything that it was trained with".to_owned(),
+    };
+    let of_fits = "fit: the diagnosis' own, of all runs at once, with the priors of the campaign's file";
+    format!("{}\n\n{of_networks}\n{of_fits}", aligned(table))
 }
 
 /// A parameter of the soil in this table.
@@ -148,19 +157,6 @@ impl Shown {
     }
 }
 
-/// The factor and the unit in which a channel is shown.
-fn unit(channel: &str) -> (f64, &'static str) {
-    if channel.ends_with("_nm") {
-        (1.0, "N·m")
-    } else if channel.ends_with("_n") {
-        (1.0, "N")
-    } else if channel.ends_with("_m") {
-        (1e3, "mm")
-    } else {
-        (1.0, "–")
-    }
-}
-
 fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_header(header.iter().copied());
@@ -194,7 +190,7 @@ mod tests {
     fn network(friction_angle_deg: f64) -> CampaignSoil {
         let column = |value: f64, std: f64| SoilColumn { value, interval_68: [value - std, value + std], scatter: std };
         let phi = column(friction_angle_deg.to_radians(), 2_f64.to_radians());
-        CampaignSoil { runs: 3, outside: 0, parameters: [column(400.0, 100.0), phi, column(0.02, 0.01)] }
+        CampaignSoil { runs: 3, refused: None, outside: 0, parameters: [column(400.0, 100.0), phi, column(0.02, 0.01)] }
     }
 
     fn cells<'a>(text: &'a str, by: &str, parameter: &str) -> Vec<&'a str> {
@@ -212,6 +208,15 @@ mod tests {
         assert!(cells(&text, "network after", "φ").windows(3).any(|words| words == ["30.0", "+1.0", "+0.5"]), "{text}");
         assert!(cells(&text, "network after", "c").contains(&"-100"), "{text}");
         assert!(cells(&text, "fit before", "φ").contains(&"28.6") && !text.contains("fit after"), "{text}");
+    }
+
+    #[test]
+    fn where_the_networks_say_nothing_it_says_why() {
+        let silent = CampaignSoil { runs: 0, refused: Some("torque_nm is missing".to_owned()), ..network(30.0) };
+        let fit = BTreeMap::from([("phi".to_owned(), Estimate { value: 0.5, std: 0.1 })]);
+        let text = estimates(&[silent.clone(), silent], [&fit, &fit], None);
+        assert!(text.contains("torque_nm is missing") && text.contains("fit after"), "{text}");
+        assert!(!text.contains("network before"), "{text}");
     }
 
     #[test]

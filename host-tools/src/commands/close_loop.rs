@@ -86,8 +86,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         soil.errors
     );
     println!("\n{}\n\n{}", title_of_estimates(&campaign, truth.is_some()), soil.estimates);
-    println!("\nnetwork: medians over the runs; outside: runs unlike anything that it was trained with.");
-    println!("fit: the diagnosis' own, of all runs at once, with the priors of the campaign's file.");
     let table = folder.join("kapvik.table");
     println!("\ntable: {}\nto fly it: kapvik run --weights {0}", table.display());
     Ok(())
