@@ -133,7 +133,8 @@ const SHOWN: [Shown; 3] = [
 impl Shown {
     /// Name, who says so, the estimate with its interval and, where the truth is known, truth and error.
     fn row(&self, by: &str, value: f64, [low, high]: [f64; 2], truth: Option<f64>) -> Vec<String> {
-        let interval = format!("{} … {}", self.number(low), self.number(high));
+        // None of them is negative, whatever the standard deviation says.
+        let interval = format!("{} … {}", self.number(low.max(0.0)), self.number(high));
         let mut row = vec![self.name.to_owned(), by.to_owned(), self.number(value), interval];
         if let Some(truth) = truth {
             let error = value - truth;
