@@ -54,15 +54,17 @@ impl<S: Scalar, const N: usize> PartialOrd for Dual<S, N> {
 
 impl<S: Scalar, const N: usize> Add for Dual<S, N> {
     type Output = Self;
-    fn add(self, other: Self) -> Self {
-        self.of_two(other, self.value + other.value, S::one(), S::one())
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
     }
 }
 
 impl<S: Scalar, const N: usize> Sub for Dual<S, N> {
     type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self.of_two(other, self.value - other.value, S::one(), -S::one())
+    fn sub(mut self, other: Self) -> Self {
+        self -= other;
+        self
     }
 }
 
@@ -90,13 +92,19 @@ impl<S: Scalar, const N: usize> Neg for Dual<S, N> {
 
 impl<S: Scalar, const N: usize> AddAssign for Dual<S, N> {
     fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
+        self.value += other.value;
+        for (slope, other) in self.slopes.iter_mut().zip(&other.slopes) {
+            *slope += *other;
+        }
     }
 }
 
 impl<S: Scalar, const N: usize> SubAssign for Dual<S, N> {
     fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
+        self.value -= other.value;
+        for (slope, other) in self.slopes.iter_mut().zip(&other.slopes) {
+            *slope -= *other;
+        }
     }
 }
 

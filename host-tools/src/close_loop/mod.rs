@@ -7,6 +7,8 @@ mod rover_networks;
 
 use std::path::Path;
 
+use kapvik_firmware::terramechanics::Soil;
+
 use crate::data::atomic_write::write_text;
 use crate::data::campaign::{Campaign, Declared};
 use crate::diagnose::declared_file;
@@ -17,7 +19,7 @@ use crate::train::plan::Plan;
 use crate::train::world::World;
 
 pub use on_campaign::{CampaignSoil, SoilColumn, on_campaign};
-pub use report::{errors_of_forces, errors_of_soil, intervals};
+pub use report::{errors_of_forces, errors_of_soil, estimates};
 pub use rover_networks::{Rovers, SHIPPED_FIFTH, Trained, compare, train};
 
 /// How the loop is closed.
@@ -45,11 +47,12 @@ pub struct ClosedSoil {
     pub effects: [String; 2],
     /// Errors on simulated rovers.
     pub errors: String,
-    /// Intervals on the campaign.
-    pub intervals: String,
+    /// Estimates on the campaign, with their errors where its soil is known.
+    pub estimates: String,
 }
 
-/// Trains before and after, and compares. Writes `declared.toml` and, where an effect was found, the table that flies with
+/// Trains before and after, and compares; `truth` is the campaign's soil, where it is known, and `say` is told what comes next.
+/// Writes `declared.toml` and, where an effect was found, the table that flies with
 /// it (`kapvik.table`) to `folder`.
 ///
 /// # Errors
@@ -57,8 +60,10 @@ pub struct ClosedSoil {
 pub fn close(
     campaign: &Campaign,
     diagnosis: &Diagnosis,
+    truth: Option<&Soil<f64>>,
     folder: &Path,
     options: &Options,
+    say: &dyn Fn(&str),
 ) -> Result<Closed, HostError> {
     let path = folder.join("declared.toml");
     std::fs::create_dir_all(folder).map_err(HostError::file(folder))?;
@@ -71,13 +76,17 @@ pub fn close(
     let worlds = [World::declared(&campaign.declared), World::declared(&Declared::read_from(&path)?)];
     let [_, after] = &worlds;
     let rovers = Rovers::draw(after, options.rovers, options.seed)?;
+    say(&format!("1 of 3: network before, trained for {}", worlds[0]));
     let before = train(&worlds[0], &options.plan, false)?;
+    say(&format!("2 of 3: networks after, trained for {after}"));
     let found = train(after, &options.plan, true)?;
+    say("3 of 3: scores");
     let tables = [&before.rover, &found.rover];
+    let fits = [&diagnosis.soil_before, &diagnosis.soil_after];
     let soil = ClosedSoil {
         effects: [worlds[0].to_string(), after.to_string()],
         errors: errors_of_soil(&compare(&tables, &rovers)),
-        intervals: intervals(&on_campaign(campaign, &tables)?),
+        estimates: estimates(&on_campaign(campaign, &tables)?, fits, truth),
     };
     if let Some((wheel, loss)) = found.wheel {
         let provenance =
@@ -124,14 +133,19 @@ mod tests {
     #[test]
     fn the_loop_is_closed_with_what_was_found() {
         let folder = tempfile::tempdir().expect("a folder");
-        let closed = close(&campaign("effects = []\n"), &diagnosis(), folder.path(), &options()).expect("closed");
+        let closed =
+            close(&campaign("effects = []\n"), &diagnosis(), None, folder.path(), &options(), &|_| ()).expect("closed");
         let soil = closed.soil.expect("an effect was found");
         assert_eq!(soil.effects, ["none: equations 1-11", "slip-sinkage: n1 0.3 +- 0.03 normal"]);
         assert!(closed.forces.contains("4.100") && closed.forces.contains("1.800"), "{}", closed.forces);
         let rows = soil.errors.lines().filter(|line| line.contains("before") || line.contains("after")).count();
         assert_eq!(rows, 6, "{}", soil.errors);
         // Both runs of the campaign have an estimate.
-        assert!(soil.intervals.lines().filter(|line| line.contains("after")).count() == 3, "{}", soil.intervals);
+        assert!(
+            soil.estimates.lines().filter(|line| line.contains("network after")).count() == 3,
+            "{}",
+            soil.estimates
+        );
         let table = std::fs::read(folder.path().join("kapvik.table")).expect("the table that flies");
         let table = kapvik_table_file::TableFile::parse(&table).expect("a whole table");
         assert!(table.notes.contains(&("effects".to_owned(), soil.effects[1].clone())));
@@ -142,7 +156,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut nothing = diagnosis();
         nothing.effects.clear();
-        let closed = close(&campaign("effects = []\n"), &nothing, folder.path(), &options()).expect("closed");
+        let closed =
+            close(&campaign("effects = []\n"), &nothing, None, folder.path(), &options(), &|_| ()).expect("closed");
         assert!(closed.soil.is_none());
         assert!(folder.path().join("declared.toml").exists() && !folder.path().join("kapvik.table").exists());
     }

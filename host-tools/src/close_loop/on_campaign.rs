@@ -1,4 +1,4 @@
-//! What rover networks say of a campaign's own soil, whose truth nobody knows.
+//! What rover networks say of a campaign's own soil.
 
 use kapvik_firmware::network::RoverTable;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate, answer};
@@ -6,7 +6,7 @@ use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
-use crate::identify::identify;
+use crate::identify::{IdentifiedRun, identify};
 use crate::train::score::rover_posterior;
 
 /// What one network says of a campaign.
@@ -14,6 +14,8 @@ use crate::train::score::rover_posterior;
 pub struct CampaignSoil {
     /// Runs with an estimate.
     pub runs: usize,
+    /// Why there is none, where no run has one.
+    pub refused: Option<String>,
     /// Runs whose readings lie outside what the network was trained with.
     pub outside: usize,
     /// Of c (Pa), φ (rad) and K (m).
@@ -31,7 +33,7 @@ pub struct SoilColumn {
     pub scatter: f64,
 }
 
-/// What each network says of the campaign's runs. A campaign that lacks a column that the networks need has no runs.
+/// What each network says of the campaign's runs. Of a campaign that lacks a column that the networks need it says nothing.
 ///
 /// # Errors
 /// Never in practice: nothing is asked but this process.
@@ -48,12 +50,17 @@ fn of_table(campaign: &Campaign, table: &RoverTable) -> Result<CampaignSoil, Hos
         }
         Ok(said)
     });
-    let runs = identified.map(|identification| identification.runs).unwrap_or_default();
+    let (runs, missing) = match identified {
+        Ok(identification) => (identification.runs, None),
+        Err(error) => (Vec::new(), Some(error.to_string())),
+    };
+    let refused = missing.or_else(|| runs.iter().find_map(IdentifiedRun::refused));
     let soils: Vec<SoilEstimate> = runs.iter().filter_map(|run| run.question.as_ref()?.rover().ok().copied()).collect();
     let column =
         |pick: fn(&SoilEstimate) -> ParameterEstimate| SoilColumn::of(&soils.iter().map(pick).collect::<Vec<_>>());
     Ok(CampaignSoil {
         runs: soils.len(),
+        refused: refused.filter(|_| soils.is_empty()),
         outside: soils.iter().filter(|soil| soil.outside_training_range).count(),
         parameters: [
             column(|soil| soil.cohesion_pa),

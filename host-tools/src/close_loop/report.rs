@@ -1,9 +1,13 @@
 //! The tables of before and after.
 
+use std::collections::BTreeMap;
+
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use kapvik_firmware::terramechanics::Soil;
 
-use crate::diagnose::document::Diagnosis;
+use crate::diagnose::document::{Diagnosis, Estimate};
+use crate::report::diagnosis::Quantity;
 use crate::train::score::Score;
 
 use super::on_campaign::{CampaignSoil, SoilColumn};
@@ -15,10 +19,10 @@ const NOTHING_THERE: &str = "–";
 pub fn errors_of_forces(diagnosis: &Diagnosis) -> String {
     let mut table = table(&["channel", "before", "after", "noise", "runs"]);
     for (channel, errors) in &diagnosis.channels {
-        let (scale, unit) = unit(channel);
-        let number = |value: f64| format!("{:.3}", scale * value);
+        let shown = Quantity::of_column(channel);
+        let number = |value: f64| format!("{:.3}", shown.factor * value);
         table.add_row([
-            format!("{channel} / {unit}"),
+            shown.titled(),
             number(errors.rmse_before),
             number(errors.rmse_after),
             number(errors.noise),
@@ -64,41 +68,93 @@ pub fn errors_of_soil(kinds: &[(&'static str, Vec<Score>)]) -> String {
     aligned(table)
 }
 
-/// Estimates and intervals on the campaign's own soil, before and after.
-pub fn intervals(soils: &[CampaignSoil]) -> String {
-    let mut table = table(&["parameter", "network", "median", "68 % interval", "scatter of runs", "runs", "outside"]);
-    let parameters = [("c / Pa", 1.0, 0), ("φ / °", 180.0 / std::f64::consts::PI, 1), ("K / mm", 1e3, 1)];
-    for (place, (parameter, scale, digits)) in parameters.into_iter().enumerate() {
-        for (name, soil) in ["before", "after"].into_iter().zip(soils) {
-            let SoilColumn { value, interval_68: [low, high], scatter } = soil.parameters[place];
-            let number = |value: f64| match value.is_finite() {
-                true => format!("{:.digits$}", scale * value),
-                false => NOTHING_THERE.to_owned(),
-            };
-            table.add_row([
-                parameter.to_owned(),
-                name.to_owned(),
-                number(value),
-                format!("{} … {}", number(low), number(high)),
-                number(scatter),
-                soil.runs.to_string(),
-                soil.outside.to_string(),
-            ]);
+/// c, φ and K of the campaign's own soil by both networks and by both fits of the diagnosis (keys as in `[soil]`), and how
+/// wrong they are where the truth is known.
+pub fn estimates(
+    networks: &[CampaignSoil],
+    fits: [&BTreeMap<String, Estimate>; 2],
+    truth: Option<&Soil<f64>>,
+) -> String {
+    let mut header = vec!["parameter", "by", "estimate", "68 % interval"];
+    header.extend(truth.map_or(vec![], |_| vec!["truth", "error", "error/σ"]));
+    header.extend(["scatter of runs", "runs", "outside"]);
+    let mut table = table(&header);
+    for (place, shown) in SHOWN.iter().enumerate() {
+        let truth = truth.map(shown.truth);
+        for (name, soil) in
+            ["network before", "network after"].into_iter().zip(networks).filter(|(_, soil)| soil.runs > 0)
+        {
+            let SoilColumn { value, interval_68, scatter } = soil.parameters[place];
+            let mut row = shown.row(name, value, interval_68, truth);
+            row.extend([shown.number(scatter), soil.runs.to_string(), soil.outside.to_string()]);
+            table.add_row(row);
+        }
+        for (name, fit) in ["fit before", "fit after"].into_iter().zip(fits) {
+            // What the campaign's file fixes was not fitted.
+            if let Some(Estimate { value, std }) = fit.get(shown.key) {
+                let mut row = shown.row(name, *value, [value - std, value + std], truth);
+                row.extend([NOTHING_THERE, NOTHING_THERE, NOTHING_THERE].map(str::to_owned));
+                table.add_row(row);
+            }
         }
     }
-    aligned(table)
+    let refused = networks.iter().find_map(|soil| soil.refused.as_ref());
+    let of_networks = match refused {
+        Some(why) => format!("no estimate by the networks: {why}"),
+        None => "network: medians over the runs; outside: runs unlike anything that it was trained with".to_owned(),
+    };
+    let of_fits = "fit: the diagnosis' own, of all runs at once, with the priors of the campaign's file";
+    format!("{}\n\n{of_networks}\n{of_fits}", aligned(table))
 }
 
-/// The factor and the unit in which a channel is shown.
-fn unit(channel: &str) -> (f64, &'static str) {
-    if channel.ends_with("_nm") {
-        (1.0, "N·m")
-    } else if channel.ends_with("_n") {
-        (1.0, "N")
-    } else if channel.ends_with("_m") {
-        (1e3, "mm")
-    } else {
-        (1.0, "–")
+/// A parameter of the soil in this table.
+struct Shown {
+    name: &'static str,
+    /// Its key in `[soil]`.
+    key: &'static str,
+    truth: fn(&Soil<f64>) -> f64,
+    /// The unit shown, as so many of the parameter's own, and decimals.
+    scale: f64,
+    decimals: usize,
+}
+
+const SHOWN: [Shown; 3] = [
+    Shown { name: "c / Pa", key: "c", truth: |soil| soil.cohesion_pa, scale: 1.0, decimals: 0 },
+    Shown {
+        name: "φ / °",
+        key: "phi",
+        truth: |soil| soil.friction_angle_rad,
+        scale: 180.0 / std::f64::consts::PI,
+        decimals: 1,
+    },
+    Shown { name: "K / mm", key: "K", truth: |soil| soil.shear_modulus_m, scale: 1e3, decimals: 1 },
+];
+
+impl Shown {
+    /// Name, who says so, the estimate with its interval and, where the truth is known, truth and error.
+    fn row(&self, by: &str, value: f64, [low, high]: [f64; 2], truth: Option<f64>) -> Vec<String> {
+        // None of them is negative, whatever the standard deviation says.
+        let interval = format!("{} … {}", self.number(low.max(0.0)), self.number(high));
+        let mut row = vec![self.name.to_owned(), by.to_owned(), self.number(value), interval];
+        if let Some(truth) = truth {
+            let error = value - truth;
+            let deviations = 2.0 * error / (high - low);
+            let signed = |text: String, number: f64| if number > 0.0 { format!("+{text}") } else { text };
+            row.push(self.number(truth));
+            row.push(signed(self.number(error), error));
+            row.push(match deviations.is_finite() {
+                true => signed(format!("{deviations:.1}"), deviations),
+                false => NOTHING_THERE.to_owned(),
+            });
+        }
+        row
+    }
+
+    fn number(&self, value: f64) -> String {
+        match value.is_finite() {
+            true => format!("{:.*}", self.decimals, self.scale * value),
+            false => NOTHING_THERE.to_owned(),
+        }
     }
 }
 
@@ -112,4 +168,62 @@ fn table(header: &[&str]) -> Table {
 fn aligned(mut table: Table) -> String {
     table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     table.trim_fmt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn soil(friction_angle_deg: f64) -> Soil<f64> {
+        Soil {
+            sinkage_exponent: 1.0,
+            cohesive_modulus: 0.0,
+            frictional_modulus: 1e6,
+            cohesion_pa: 500.0,
+            friction_angle_rad: friction_angle_deg.to_radians(),
+            shear_modulus_m: 0.015,
+            peak_stress_c1: 0.4,
+            peak_stress_c2: 0.2,
+            rebound_ratio: 0.0,
+        }
+    }
+
+    fn network(friction_angle_deg: f64) -> CampaignSoil {
+        let column = |value: f64, std: f64| SoilColumn { value, interval_68: [value - std, value + std], scatter: std };
+        let phi = column(friction_angle_deg.to_radians(), 2_f64.to_radians());
+        CampaignSoil { runs: 3, refused: None, outside: 0, parameters: [column(400.0, 100.0), phi, column(0.02, 0.01)] }
+    }
+
+    fn cells<'a>(text: &'a str, by: &str, parameter: &str) -> Vec<&'a str> {
+        let line = text.lines().find(|line| line.contains(by) && line.trim_start().starts_with(parameter));
+        line.expect("a row").split_whitespace().collect()
+    }
+
+    /// 36° ± 2° of 30° is 6° too much, three standard deviations; 31° is 1°, half a one.
+    #[test]
+    fn where_the_truth_is_known_the_error_is_shown() {
+        let fit = BTreeMap::from([("phi".to_owned(), Estimate { value: 0.5, std: 0.1 })]);
+        let text = estimates(&[network(36.0), network(31.0)], [&fit, &BTreeMap::new()], Some(&soil(30.0)));
+        let words = cells(&text, "network before", "φ");
+        assert!(words.windows(3).any(|words| words == ["30.0", "+6.0", "+3.0"]), "{text}");
+        assert!(cells(&text, "network after", "φ").windows(3).any(|words| words == ["30.0", "+1.0", "+0.5"]), "{text}");
+        assert!(cells(&text, "network after", "c").contains(&"-100"), "{text}");
+        assert!(cells(&text, "fit before", "φ").contains(&"28.6") && !text.contains("fit after"), "{text}");
+    }
+
+    #[test]
+    fn where_the_networks_say_nothing_it_says_why() {
+        let silent = CampaignSoil { runs: 0, refused: Some("torque_nm is missing".to_owned()), ..network(30.0) };
+        let fit = BTreeMap::from([("phi".to_owned(), Estimate { value: 0.5, std: 0.1 })]);
+        let text = estimates(&[silent.clone(), silent], [&fit, &fit], None);
+        assert!(text.contains("torque_nm is missing") && text.contains("fit after"), "{text}");
+        assert!(!text.contains("network before"), "{text}");
+    }
+
+    #[test]
+    fn where_it_is_not_there_is_only_the_interval() {
+        let nothing = BTreeMap::new();
+        let text = estimates(&[network(36.0), network(31.0)], [&nothing, &nothing], None);
+        assert!(text.contains("34.0 … 38.0") && !text.contains("truth") && !text.contains("error"), "{text}");
+    }
 }

@@ -77,7 +77,8 @@ pub fn with_progress(campaign: &Campaign, braking: bool) -> Result<Outcome, Host
     outcome
 }
 
-fn findings(campaign: &Campaign, outcome: &Outcome) -> DiagnosisFindings {
+/// What the report shows.
+pub fn findings(campaign: &Campaign, outcome: &Outcome) -> DiagnosisFindings {
     let traces = outcome.traces(campaign.rows().len());
     DiagnosisFindings::new(campaign, outcome.document.clone(), traces, outcome.guilty.clone())
 }

@@ -13,9 +13,8 @@ use super::measurements::{Measurements, grousers};
 use super::soil_coordinates::{SoilParameter, Treatment, treatments};
 use super::specification::Specification;
 
-/// Derivatives that are carried along: as few as hold the free parameters, slip, load and sinkage.
-const FEW: usize = 13;
-const MANY: usize = 22;
+/// Derivatives that are carried along beside those by the free parameters: by slip, load and sinkage.
+const LATENTS: usize = 3;
 
 /// The sinkage has been found once a step changes its logarithm by less; what is left is corrected to first order.
 const NEAR: f64 = 1e-3;
@@ -113,10 +112,12 @@ impl Model for CampaignModel<'_> {
     }
 
     fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
-        if parameters.len() + 3 <= FEW {
-            self.run::<FEW>(parameters, rows, latents)
-        } else {
-            self.run::<MANY>(parameters, rows, latents)
+        // As few derivatives as there are, for each is carried through every operation.
+        match parameters.len() + LATENTS {
+            ..=10 => self.run::<10>(parameters, rows, latents),
+            ..=12 => self.run::<12>(parameters, rows, latents),
+            ..=16 => self.run::<16>(parameters, rows, latents),
+            _ => self.run::<22>(parameters, rows, latents),
         }
     }
 }
@@ -207,21 +208,27 @@ impl<const N: usize> Place<N> {
         latent: &mut Latent,
         memory: &mut Memory<Dual<f64, N>>,
     ) -> Option<Prediction> {
-        let (truth, sinkage_m) = self.truth(conditions, latent)?;
+        let guess_m = self.sinkage(conditions, latent)?;
+        let conditions = conditions.map(Dual::constant);
+        let (truth, sinkage_m) = self.truth(&conditions, latent, guess_m)?;
         latent.sinkage_m = sinkage_m;
-        let readings = self.by_all.on_soil().readings(&conditions.map(Dual::constant), &truth, memory);
+        let readings = self.by_all.on_soil().readings(&conditions, &truth, memory);
         forget_latents::<N>(memory);
         Some(self.prediction(&readings))
     }
 
-    /// The true state at a slip and a load, with its derivatives by parameters, slip and load; and the sinkage.
-    fn truth(&self, conditions: &Conditions<f64>, latent: &Latent) -> Option<(WheelTruth<Dual<f64, N>>, f64)> {
-        let guess_m = self.sinkage(conditions, latent)?;
+    /// The true state at a slip and a load, with its derivatives by parameters, slip and load; and the sinkage, of which
+    /// there is a near guess.
+    fn truth(
+        &self,
+        conditions: &Conditions<Dual<f64, N>>,
+        latent: &Latent,
+        guess_m: f64,
+    ) -> Option<(WheelTruth<Dual<f64, N>>, f64)> {
         let slip = Dual::variable(latent.slip, Self::SLIP);
         let load_n = Dual::variable(latent.load_n, Self::LOAD);
         let sinkage = Dual::variable(guess_m, Self::SINKAGE);
-        let conditions = conditions.map(Dual::constant);
-        let found = self.by_all.on_soil().forces(&conditions, slip, load_n, sinkage).ok()?;
+        let found = self.by_all.on_soil().forces(conditions, slip, load_n, sinkage).ok()?;
         let by_sinkage = found.load_n.slopes[Self::SINKAGE];
         if by_sinkage.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
             return None;

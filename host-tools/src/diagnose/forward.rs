@@ -48,10 +48,11 @@ impl<'a> Selected<'a> {
 /// Adds effects to a model while they earn their place.
 pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) + Sync)) -> Selected<'a> {
     let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None };
+    let mut known: Option<Left> = None;
     while selected.found.len() < MOST_EFFECTS {
         progress(&format!("effect {}", selected.found.len() + 1));
         let here = step(bench, selected.model());
-        selected.left = search(bench, selected.model(), here.dispersion);
+        selected.left = left(bench, selected.model(), here.dispersion, known.take());
         match selected.found.last_mut() {
             Some(last) => last.winner.trial = here.base.clone(),
             None => selected.base = here.base.clone(),
@@ -60,7 +61,10 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
         match winner(bench, &here, &selected.left) {
-            Some(place) => selected.found.push(found(here, place)),
+            Some((place, structures)) => {
+                known = Some(Left { dispersion: here.dispersion, structures });
+                selected.found.push(found(here, place));
+            }
             None => {
                 selected.last = Some(here);
                 break;
@@ -68,24 +72,39 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         }
     }
     if selected.last.is_none() {
-        selected.left = search(bench, selected.model(), 1.0);
+        selected.left = left(bench, selected.model(), 1.0, known);
     }
     selected.left.retain(Structure::is_significant);
     selected
 }
 
-/// The best candidate that chance does not explain, unless a bare dependence on a column explains what it does and more:
-/// one of those that the model without it shows, or of those that it leaves.
-fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
+/// What the last winner leaves, and the dispersion by which that was judged.
+struct Left {
+    dispersion: f64,
+    structures: Vec<Structure>,
+}
+
+/// What a model leaves: as it was seen when the model won, if that was judged by the same dispersion.
+fn left(bench: &Bench<'_>, model: &Trial<'_>, dispersion: f64, known: Option<Left>) -> Vec<Structure> {
+    let same = known.filter(|known| known.dispersion == dispersion);
+    same.map_or_else(|| search(bench, model, dispersion), |known| known.structures)
+}
+
+/// The best candidate that chance does not explain, and what it leaves; none where a bare dependence on a column explains what
+/// it does and more: one of those that the model without it shows, or of those that it leaves.
+fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<(usize, Vec<Structure>)> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
     let effect = &step.ranking[place].trial;
-    let left = search(bench, effect, step.dispersion);
     // Every effect is a function of the contact, so that a curve in slip, load or sinkage accuses none.
     let is_suspect = |structure: &&Structure| structure.is_significant() && !structure.of_contact;
-    let shown = structures.iter().filter(is_suspect).take(SUSPECTS);
-    let left = left.iter().filter(is_suspect).take(SUSPECTS);
-    let mimic = shown.chain(left).any(|structure| is_mimic(bench, step, effect, structure));
-    (!mimic).then_some(place)
+    let is_mimic_of_one = |structures: &[Structure]| {
+        structures.iter().filter(is_suspect).take(SUSPECTS).any(|structure| is_mimic(bench, step, effect, structure))
+    };
+    if is_mimic_of_one(structures) {
+        return None;
+    }
+    let left = search(bench, effect, step.dispersion);
+    (!is_mimic_of_one(&left)).then_some((place, left))
 }
 
 fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {

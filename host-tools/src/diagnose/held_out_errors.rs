@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use super::fit::{CHANNELS, HeldOut};
 use super::selection::best_of;
-use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 
 /// Groups that many runs are divided into; each is left out in turn.
@@ -32,10 +31,10 @@ impl HeldOutErrors {
 
 /// Leaves out each group of runs in turn: fits the declared model to the others, chooses as many effects as were found among
 /// those that came near on all runs, and predicts the group.
-pub fn held_out_errors(
-    bench: &Bench<'_>,
-    base: &Trial<'_>,
-    shortlists: &[Vec<EffectForm>],
+pub fn held_out_errors<'a>(
+    bench: &Bench<'a>,
+    base: &Trial<'a>,
+    shortlists: &[Vec<Trial<'a>>],
     progress: &(dyn Fn(&str) + Sync),
 ) -> HeldOutErrors {
     let groups = groups(bench.measurements.runs.len(), bench.measurements.rows.len());

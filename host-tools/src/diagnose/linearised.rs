@@ -91,14 +91,15 @@ impl<'a> Linearised<'a> {
         let model = self.with(added);
         let mut parameters = self.parameters.clone();
         parameters.resize(model.coordinates.len(), 0.0);
-        fit(&model, self.rows, &Start { parameters, latents: self.latents.clone() }, &self.options)
+        let start = Start { parameters, latents: self.latents.clone(), scales: None };
+        fit(&model, self.rows, &start, &self.options)
     }
 
     /// Each run predicted without its own help by a fit with added terms.
     pub fn held_out(&self, added: &AddedTerms, found: &Fit, runs: usize) -> Option<Vec<HeldOutRun>> {
         let model = self.with(added);
-        let predict = |run: usize| found.leave_out(&model, &[run]).ok()?.runs.pop();
-        (0..runs).map(predict).collect()
+        let predicted = found.leave_each_out(&model, 0..runs).ok()?;
+        predicted.into_iter().map(|mut of_run| of_run.runs.pop()).collect()
     }
 }
 

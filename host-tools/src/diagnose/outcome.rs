@@ -11,7 +11,7 @@ use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
 use super::measurements::{COLUMNS, Measurements};
-use super::specification::{EffectForm, Specification};
+use super::specification::Specification;
 use super::trial::{Bench, Trial};
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
@@ -134,11 +134,11 @@ fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostError> {
 }
 
 /// For each effect that was found, the candidates that are tried again where runs are held out.
-fn shortlists(selected: &Selected<'_>) -> Vec<Vec<EffectForm>> {
-    let of_step = |found: &super::forward::FoundStep<'_>| {
+fn shortlists<'a>(selected: &Selected<'a>) -> Vec<Vec<Trial<'a>>> {
+    let of_step = |found: &super::forward::FoundStep<'a>| {
         let near = found.step.ranking.iter().enumerate();
         let near = near.filter(|(place, judged)| *place < AGAIN || judged.p_value < NEAR);
-        near.filter_map(|(_, judged)| judged.effect().cloned()).collect()
+        near.map(|(_, judged)| judged.trial.clone()).collect()
     };
     selected.found.iter().map(of_step).collect()
 }

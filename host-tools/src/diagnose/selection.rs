@@ -113,10 +113,16 @@ fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Tr
     best.unwrap_or_else(|| base.clone())
 }
 
-/// The best of a shortlist of candidates, chosen as [`step`] does.
-pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[EffectForm]) -> Option<Trial<'a>> {
-    let new = |form: &&EffectForm| !base.specification.has(form.info.id);
-    let trials: Vec<_> = shortlist.iter().filter(new).filter_map(|form| bench.with_effect(base, form)).collect();
+/// The best of a shortlist of candidates, chosen as [`step`] does. Each as it was fitted to all runs, which is where the
+/// search begins if it stood on the same effects.
+pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[Trial<'a>]) -> Option<Trial<'a>> {
+    let fitted = |known: &Trial<'a>| {
+        let (effect, before) = known.specification.effects.split_last()?;
+        let stands = before.iter().map(EffectForm::name).eq(base.specification.effects.iter().map(EffectForm::name));
+        let new = !base.specification.has(effect.info.id);
+        new.then(|| if stands { bench.refit(known) } else { bench.with_effect(base, effect) })?
+    };
+    let trials: Vec<_> = shortlist.iter().filter_map(fitted).collect();
     if is_misfit(trials.iter()) {
         let before = held_out(bench, base);
         let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;

@@ -97,6 +97,11 @@ impl EffectForm {
         Self { info, form, known: BTreeMap::new() }
     }
 
+    /// Id and form, which no two share.
+    pub fn name(&self) -> (&'static str, &'static str) {
+        (self.info.id, self.form.name)
+    }
+
     /// The value at which a parameter is held, or how a fit sees it.
     fn treatment(&self, parameter: &ParameterInfo, measurements: &Measurements) -> Result<f64, Coordinate> {
         let coordinate =

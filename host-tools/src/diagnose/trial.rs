@@ -111,19 +111,17 @@ impl<'a> Bench<'a> {
 
     /// A model fitted anew from the place where one with more parameters came to: the better of that and the fit it had.
     pub fn polish(&self, base: &Trial<'a>, further: &Trial<'a>) -> Option<Trial<'a>> {
-        let polished = self.fitted_from(base, &further.fit)?;
+        let parameters = further.fit.parameters.get(..base.fit.parameters.len())?.to_vec();
+        let polished = self.fitted_from(base, further.fit.place(parameters))?;
         Some(polished).filter(|polished| polished.log_posterior() > base.log_posterior())
     }
 
     /// A trial fitted anew to this bench's runs.
     pub fn refit(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
-        self.fitted_from(trial, &trial.fit)
+        self.fitted_from(trial, trial.fit.onward())
     }
 
-    /// A model fitted from where a fit of it, or of one with more parameters behind its own, came to.
-    fn fitted_from(&self, trial: &Trial<'a>, place: &Fit) -> Option<Trial<'a>> {
-        let parameters = place.parameters.get(..trial.fit.parameters.len())?.to_vec();
-        let start = Start { parameters, latents: place.latents.clone() };
+    fn fitted_from(&self, trial: &Trial<'a>, start: Start) -> Option<Trial<'a>> {
         let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
         Some(Trial { fit, ..trial.clone() })
     }
@@ -134,7 +132,7 @@ impl Trial<'_> {
     fn start_of(&self, model: &CampaignModel<'_>) -> Start {
         let mut parameters = self.fit.parameters.clone();
         parameters.extend(model.coordinates().iter().skip(parameters.len()).map(|coordinate| coordinate.start));
-        Start { parameters, latents: self.fit.latents.clone() }
+        self.fit.place(parameters)
     }
 
     /// ln of likelihood and of the Gaussian priors, up to a constant that every model of a campaign shares.

@@ -148,10 +148,18 @@ impl fmt::Display for Spread {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Exactly(value) => write!(formatter, "{}", rounded(value)),
-            Self::Normal { mean, std, .. } => write!(formatter, "{} +- {} normal", rounded(mean), rounded(std)),
+            Self::Normal { mean, std, .. } => {
+                write!(formatter, "{} +- {} normal", as_well_as_known(mean, std), as_well_as_known(std, std))
+            }
             Self::Uniform { low, high } => write!(formatter, "{} ... {} uniform", rounded(low), rounded(high)),
         }
     }
+}
+
+/// A number to the second digit of what it is known to, for people.
+fn as_well_as_known(value: f64, std: f64) -> f64 {
+    let decimals = (1.0 - libm::floor(libm::log10(std))).clamp(0.0, 17.0) as usize;
+    format!("{value:.decimals$}").parse().unwrap_or(value)
 }
 
 /// Six significant digits, for people.
@@ -180,6 +188,18 @@ mod tests {
         let text = "[declared]\neffects = [\"slip-sinkage\"]\n[declared.slip-sinkage]\nn1 = 0.3\n";
         assert_eq!(drawn(text, "slip-sinkage", "n1"), [Some(0.3); 3]);
         assert_eq!(drawn(text, "slip-sinkage", "stretch"), [Some(0.0); 3], "what the form does not have is neutral");
+    }
+
+    #[test]
+    fn a_spread_is_written_as_well_as_it_is_known() {
+        let world = |value, std| {
+            let text = format!(
+                "[declared]\neffects = [\"slip-sinkage\"]\n[declared.slip-sinkage]\nn1 = {{ value = {value}, std = {std} }}\n"
+            );
+            world(&text).to_string()
+        };
+        assert_eq!(world(0.314_159_26, 0.028_311), "slip-sinkage: n1 0.314 +- 0.028 normal");
+        assert_eq!(world(0.3, 0.1), "slip-sinkage: n1 0.3 +- 0.1 normal");
     }
 
     #[test]

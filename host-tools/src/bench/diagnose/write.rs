@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use kapvik_firmware::terramechanics::Soil;
+
 use super::chance::Chance;
 use super::instruments::Instruments;
 use super::knowledge::Knowledge;
@@ -59,6 +61,8 @@ pub struct Written {
     pub csv: String,
     /// `NAME.toml`
     pub toml: String,
+    /// `NAME.truth.toml`, the soil as it is: for `close-loop`, which says how wrong its estimates are.
+    pub truth: String,
 }
 
 impl Written {
@@ -73,7 +77,7 @@ impl Written {
         (readings, fields): (&[State], &[[Option<f64>; 6]]),
     ) -> Self {
         let csv = csv(chance, site, layout, instruments, columns, readings, fields);
-        Self { csv, toml: toml(site, instruments, knowledge) }
+        Self { csv, toml: toml(site, instruments, knowledge), truth: truth(&site.soil) }
     }
 
     /// The campaign as a tool reads it.
@@ -84,14 +88,15 @@ impl Written {
         Campaign::parse(Path::new(&format!("{name}.csv")), &self.csv, &self.toml)
     }
 
-    /// Writes `NAME.csv`, `NAME.toml` and, for a person who wants to know, `NAME.truth.txt`.
+    /// Writes `NAME.csv`, `NAME.toml`, `NAME.truth.toml` and, for a person who wants to know, `NAME.truth.txt`.
     ///
     /// # Errors
     /// Where the file system refuses.
-    pub fn save(&self, folder: &Path, name: &str, truth: &str) -> Result<(), HostError> {
+    pub fn save(&self, folder: &Path, name: &str, laws: &str) -> Result<(), HostError> {
         write_text(&folder.join(format!("{name}.csv")), &self.csv)?;
         write_text(&folder.join(format!("{name}.toml")), &self.toml)?;
-        write_text(&folder.join(format!("{name}.truth.txt")), truth)
+        write_text(&folder.join(format!("{name}.truth.toml")), &self.truth)?;
+        write_text(&folder.join(format!("{name}.truth.txt")), laws)
     }
 }
 
@@ -178,6 +183,20 @@ fn toml(site: &Site, instruments: &Instruments, knowledge: &Knowledge) -> String
         }
     }
     text + "[declared]\neffects = []\n"
+}
+
+/// The soil as a file that [`crate::data::soil_file::SoilTable`] reads.
+fn truth(soil: &Soil<f64>) -> String {
+    format!(
+        "[soil]\nn = {:?}\nk_eff = {:?}\nc = {:?}\nphi = {:?}\nK = {:?}\nc1 = {:?}\nc2 = {:?}\n",
+        soil.sinkage_exponent,
+        soil.frictional_modulus,
+        soil.cohesion_pa,
+        soil.friction_angle_rad,
+        soil.shear_modulus_m,
+        soil.peak_stress_c1,
+        soil.peak_stress_c2
+    )
 }
 
 #[cfg(test)]

@@ -60,11 +60,16 @@ pub struct DeclaredEffect {
 
 impl Declared {
     /// # Errors
-    /// At an id, a form or a parameter that there is not, or parameters of an effect that is not in the list.
+    /// At an id, a form or a parameter that there is not, an id that stands twice, or parameters of an effect that is not in the list.
     pub(super) fn read(table: DeclaredTable, file: &TomlFile) -> Result<Self, HostError> {
         let mut declared = Self::default();
         for id in table.effects {
-            declared.effects.push(DeclaredEffect { info: effect(&id, file)?, form: None, known: BTreeMap::new() });
+            let info = effect(&id, file)?;
+            if declared.effects.iter().any(|listed| listed.info.id == info.id) {
+                let message = format!("{} for the second time: expected each effect once in `effects`", info.id);
+                return Err(file.error_at(&id, message));
+            }
+            declared.effects.push(DeclaredEffect { info, form: None, known: BTreeMap::new() });
         }
         for (id, entries) in table.parameters {
             let info = effect(&id, file)?;
@@ -182,5 +187,20 @@ impl<'de> Visitor<'de> for TableVisitor {
             }
         }
         Ok(table)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effect_that_stands_twice_is_an_error_at_its_second_place() {
+        let text = "[declared]\neffects = [\"rate\", \"force-bias\", \"rate\"]\n[declared.rate]\nstiffness = 0.1\n";
+        let error = Declared::parse(Path::new("declared.toml"), text).expect_err("twice").to_string();
+        assert!(
+            error.contains("declared.toml:2:34") && error.contains("rate") && error.contains("expected"),
+            "{error}"
+        );
     }
 }

@@ -28,7 +28,23 @@ impl Fit {
     /// # Errors
     /// [`FitError::NoRows`] if there are no such runs in the fit, or no others; [`FitError::UnfitStart`] for another model.
     pub fn leave_out(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
+        self.left_out(&self.problem_of(model)?, runs)
+    }
+
+    /// The same for each of some runs in turn.
+    ///
+    /// # Errors
+    /// As [`Fit::leave_out`].
+    pub fn leave_each_out(
+        &self,
+        model: &dyn Model,
+        runs: impl Iterator<Item = usize>,
+    ) -> Result<Vec<HeldOut>, FitError> {
         let problem = self.problem_of(model)?;
+        runs.map(|run| self.left_out(&problem, &[run])).collect()
+    }
+
+    fn left_out(&self, problem: &Problem<'_>, runs: &[usize]) -> Result<HeldOut, FitError> {
         if self.shares.iter().all(|share| runs.contains(&share.run)) {
             return Err(FitError::NoRows);
         }
@@ -42,18 +58,18 @@ impl Fit {
         }
         let here = DVector::from_column_slice(&self.parameters);
         let (low, high) = problem.room(&here);
-        let step = bounded_step(&with_floor(&problem, &information), &pull, &low, &high)
+        let step = bounded_step(&with_floor(problem, &information), &pull, &low, &high)
             .unwrap_or_else(|| DVector::zeros(here.len()));
-        let covariance = bounded_covariance(&problem, &information).unwrap_or_else(|| self.covariance.clone());
-        let scales = better(&problem, &self.scales(), &variances);
+        let covariance = bounded_covariance(problem, &information).unwrap_or_else(|| self.covariance.clone());
+        let scales = better(problem, &self.scales(), &variances);
         let predicted = |halvings: usize| {
             let parameters = &here + &step * 0.5_f64.powi(halvings as i32);
-            let found = predict(&problem, &scales, &parameters, &covariance, runs);
+            let found = predict(problem, &scales, &parameters, &covariance, runs);
             found.iter().all(|run| run.log_score.is_some()).then_some((parameters, found))
         };
         let found = (0..=HALVINGS).find_map(predicted);
         let (parameters, found) = found.unwrap_or_else(|| {
-            let found = predict(&problem, &scales, &here, &covariance, runs);
+            let found = predict(problem, &scales, &here, &covariance, runs);
             (here.clone(), found)
         });
         Ok(HeldOut { parameters: parameters.as_slice().to_vec(), runs: found })
@@ -64,8 +80,7 @@ impl Fit {
     /// # Errors
     /// See [`FitError`].
     pub fn leave_out_exact(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
-        let start = Start { parameters: self.parameters.clone(), latents: self.latents.clone() };
-        fit_without(model, &self.rows, runs, &start, &self.options)?.predict_unseen(model, runs)
+        fit_without(model, &self.rows, runs, &self.onward(), &self.options)?.predict_unseen(model, runs)
     }
 
     /// Predictions of runs that this fit was made without. `model` and its rows are those of the fit.
@@ -86,10 +101,6 @@ impl Fit {
     fn problem_of<'a>(&'a self, model: &'a dyn Model) -> Result<Problem<'a>, FitError> {
         let start = Start::at(self.parameters.clone(), &self.rows);
         Problem::new(model, &self.rows, &[], &start, &self.options)
-    }
-
-    fn scales(&self) -> Scales {
-        Scales { noise: self.noise_scale, offset: self.offset_std }
     }
 }
 

@@ -46,3 +46,4 @@ pub use observation::{CHANNELS, Reading, Row};
 pub use options::{FitError, OffsetStd, Options, VarianceCriterion};
 pub use outcome::{Fit, RunOffset, fit, fit_without};
 pub use start::Start;
+pub use state::Scales;

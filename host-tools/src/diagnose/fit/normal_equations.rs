@@ -25,6 +25,23 @@ impl NormalEquations {
     /// At a state. `damping` lengthens the diagonals of all that is eliminated.
     pub(super) fn new(problem: &Problem<'_>, state: &State, scales: &Scales, damping: f64) -> Self {
         let runs = problem.by_run(|run, _| RunTerms::new(problem, state, scales, run, damping));
+        Self::of_runs(problem, state, runs)
+    }
+
+    /// The same undamped with other standard deviations.
+    pub(super) fn at_scales(self, problem: &Problem<'_>, state: &State, scales: &Scales) -> Self {
+        if problem.options.estimate_noise.contains(&true) {
+            return Self::new(problem, state, scales, 0.0);
+        }
+        // The rows know nothing of the offsets.
+        let mut runs = self.runs;
+        for (run, offsets) in runs.iter_mut().zip(&state.offsets) {
+            run.eliminate_offsets(offsets, scales, 0.0);
+        }
+        Self::of_runs(problem, state, runs)
+    }
+
+    fn of_runs(problem: &Problem<'_>, state: &State, runs: Vec<RunTerms>) -> Self {
         let count = state.parameters.len();
         let mut information = DMatrix::zeros(count, count);
         let mut pull = DVector::zeros(count);

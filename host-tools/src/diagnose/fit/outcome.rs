@@ -81,6 +81,24 @@ pub(super) struct RunShare {
     pub variances: VarianceShares,
 }
 
+impl Fit {
+    /// Its latents with other parameters, as a start for another model. Of the standard deviations nothing: what the other
+    /// model explains is no offset any more.
+    pub fn place(&self, parameters: Vec<f64>) -> Start {
+        Start { parameters, latents: self.latents.clone(), scales: None }
+    }
+
+    /// Where it ended, as a start for the same model on other rows.
+    pub fn onward(&self) -> Start {
+        Start { scales: Some(self.scales()), ..self.place(self.parameters.clone()) }
+    }
+
+    /// Its standard deviations.
+    pub(super) fn scales(&self) -> Scales {
+        Scales { noise: self.noise_scale, offset: self.offset_std }
+    }
+}
+
 /// Fits a model to rows.
 ///
 /// # Errors

@@ -8,6 +8,7 @@ use super::model::{Coordinate, Latent, Model, Prediction};
 use super::observation::{CHANNELS, Row};
 use super::options::{FitError, Options};
 use super::start::Start;
+use super::state::Scales;
 
 /// The rows of one run.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +28,8 @@ pub(super) struct Problem<'a> {
     pub huber: Huber,
     /// Of all rows: the middle of the latents' prior.
     pub latent_start: Vec<Latent>,
+    /// Standard deviations to begin with.
+    pub scales_start: Option<Scales>,
 }
 
 impl<'a> Problem<'a> {
@@ -54,7 +57,15 @@ impl<'a> Problem<'a> {
             return Err(FitError::NoRows);
         }
         let latent_start = start.latents.iter().map(|latent| within(options, *latent)).collect();
-        Ok(Self { model, rows, runs, options, huber: Huber::new(options.huber), latent_start })
+        Ok(Self {
+            model,
+            rows,
+            runs,
+            options,
+            huber: Huber::new(options.huber),
+            latent_start,
+            scales_start: start.scales,
+        })
     }
 
     pub(super) fn coordinates(&self) -> &[Coordinate] {

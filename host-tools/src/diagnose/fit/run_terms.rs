@@ -25,6 +25,7 @@ pub(super) struct RunTerms {
     pub pull: DVector<f64>,
     /// ln det of all that was eliminated.
     pub ln_det: f64,
+    sums: Sums,
 }
 
 impl RunTerms {
@@ -35,11 +36,7 @@ impl RunTerms {
             places.map(|place| RowTerms::new(problem, state, scales, (run, place), damping)).collect();
         let active = active_offsets(problem, scales, run, &rows);
         let count = state.parameters.len();
-        let mut sums = Sums {
-            information: DMatrix::zeros(count, count),
-            cross: ParameterByChannel::zeros(count),
-            pull: DVector::zeros(count),
-        };
+        let mut sums = Sums::new(count);
         for (row, prediction) in rows.iter().zip(&state.predictions[run]) {
             sums.add(row, prediction);
         }
@@ -47,28 +44,36 @@ impl RunTerms {
             active,
             offset_covariance: ChannelMatrix::zeros(),
             offset_pull: Channels::zeros(),
-            cross: sums.cross,
-            information: sums.information,
-            pull: sums.pull,
-            ln_det: rows.iter().map(|row| row.ln_det).sum(),
+            cross: ParameterByChannel::zeros(count),
+            information: DMatrix::zeros(count, count),
+            pull: DVector::zeros(count),
+            ln_det: 0.0,
             rows,
+            sums,
         };
         terms.eliminate_offsets(&state.offsets[run], scales, damping);
         terms
     }
 
-    fn eliminate_offsets(&mut self, offsets: &Channels, scales: &Scales, damping: f64) {
+    /// Lets the offsets, of these standard deviations, follow the parameters.
+    pub(super) fn eliminate_offsets(&mut self, offsets: &Channels, scales: &Scales, damping: f64) {
+        self.sums.whole(&mut self.information);
+        self.pull.copy_from(&self.sums.pull);
+        self.ln_det = self.rows.iter().map(|row| row.ln_det).sum();
+        if !self.active.contains(&true) {
+            return;
+        }
         let precision =
             Channels::from_fn(|c, _| if self.active[c] { 1.0 / (scales.offset[c] * scales.offset[c]) } else { 0.0 });
         let mut curvature = self.rows.iter().map(|row| row.information).sum::<ChannelMatrix>();
         for c in 0..CHANNELS {
             if self.active[c] {
                 curvature[(c, c)] = (curvature[(c, c)] + precision[c]) * (1.0 + damping);
+                self.cross.column_mut(c).copy_from(&self.sums.cross.column(c));
             } else {
                 curvature.row_mut(c).fill(0.0);
                 curvature.column_mut(c).fill(0.0);
                 curvature[(c, c)] = 1.0;
-                self.cross.column_mut(c).fill(0.0);
             }
         }
         // The prior of the offsets keeps this positive definite.
@@ -79,7 +84,9 @@ impl RunTerms {
         self.offset_pull = Channels::component_mul(&mask, &(pull - precision.component_mul(offsets)));
         self.offset_covariance = ChannelMatrix::component_mul(&factor.inverse(), &(mask * mask.transpose()));
         let gain = &self.cross * self.offset_covariance;
-        self.information -= &gain * self.cross.transpose();
+        for c in (0..CHANNELS).filter(|&c| self.active[c]) {
+            self.information.ger(-1.0, &gain.column(c), &self.cross.column(c), 1.0);
+        }
         self.pull -= gain * self.offset_pull;
     }
 
@@ -100,32 +107,46 @@ fn active_offsets(problem: &Problem<'_>, scales: &Scales, run: usize, rows: &[Ro
     std::array::from_fn(|c| large && scales.offset[c] > 0.0 && rows.iter().any(|row| row.weight[c] > 0.0))
 }
 
-/// Sums over the rows of a run.
+/// Sums over the rows of a run, offsets where they are.
 struct Sums {
+    /// Curvature along the parameters: its upper triangle.
     information: DMatrix<f64>,
+    /// Mixed curvature of parameters and the channels' offsets.
     cross: ParameterByChannel,
     pull: DVector<f64>,
+    /// Of the row at hand, the derivatives by each parameter.
+    derivatives: Vec<Channels>,
 }
 
 impl Sums {
+    fn new(count: usize) -> Self {
+        Self {
+            information: DMatrix::zeros(count, count),
+            cross: ParameterByChannel::zeros(count),
+            pull: DVector::zeros(count),
+            derivatives: Vec::with_capacity(count),
+        }
+    }
+
     fn add(&mut self, row: &RowTerms, prediction: &Prediction) {
-        let count = self.pull.len();
-        let derivative =
-            |p: usize| Channels::from_fn(|c, _| if row.weight[c] > 0.0 { prediction.by_parameter[p][c] } else { 0.0 });
-        let derivatives: Vec<Channels> = (0..count).map(derivative).collect();
-        for (p, by_p) in derivatives.iter().enumerate() {
+        let measured = |by: &[f64; CHANNELS]| Channels::from_fn(|c, _| if row.weight[c] > 0.0 { by[c] } else { 0.0 });
+        self.derivatives.clear();
+        self.derivatives.extend(prediction.by_parameter.iter().map(measured));
+        for (p, by_p) in self.derivatives.iter().enumerate() {
             let informed = row.information * by_p;
             self.pull[p] += by_p.dot(&row.pull);
             for c in 0..CHANNELS {
                 self.cross[(p, c)] += informed[c];
             }
-            for (q, by_q) in derivatives.iter().enumerate().take(p + 1) {
-                let product = informed.dot(by_q);
-                self.information[(p, q)] += product;
-                if q < p {
-                    self.information[(q, p)] += product;
-                }
+            for (sum, by_q) in self.information.column_mut(p).iter_mut().zip(&self.derivatives[..=p]) {
+                *sum += informed.dot(by_q);
             }
         }
+    }
+
+    /// The curvature along the parameters, both triangles.
+    fn whole(&self, information: &mut DMatrix<f64>) {
+        information.copy_from(&self.information);
+        information.fill_lower_triangle_with_upper_triangle();
     }
 }

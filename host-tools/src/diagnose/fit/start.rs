@@ -2,6 +2,7 @@
 
 use super::model::{Latent, Model};
 use super::observation::{Reading, Row};
+use super::state::Scales;
 
 /// A true slip when no row of a campaign measures one.
 const SLIP: f64 = 0.2;
@@ -17,6 +18,8 @@ pub struct Start {
     pub parameters: Vec<f64>,
     /// One per row of the campaign.
     pub latents: Vec<Latent>,
+    /// Standard deviations of offsets and noise where there is a guess of them. Of those that are estimated.
+    pub scales: Option<Scales>,
 }
 
 impl Start {
@@ -39,6 +42,6 @@ impl Start {
             load_n: row.readings[Reading::Load.index()].unwrap_or(load_n),
             sinkage_m: row.readings[Reading::Sinkage.index()].unwrap_or(sinkage_m),
         };
-        Self { parameters, latents: rows.iter().map(latent).collect() }
+        Self { parameters, latents: rows.iter().map(latent).collect(), scales: None }
     }
 }

@@ -8,7 +8,7 @@ use super::problem::{Problem, within};
 
 /// Standard deviations that are estimated or given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scales {
+pub struct Scales {
     /// Factor on the noise of each channel.
     pub noise: [f64; CHANNELS],
     /// τ of the run offsets in the channel's unit; 0 where there are none.

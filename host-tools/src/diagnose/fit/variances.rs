@@ -32,12 +32,15 @@ const LEAST_FREEDOM: f64 = 0.5;
 
 /// What to begin with.
 pub(super) fn first_scales(problem: &Problem<'_>) -> Scales {
+    let start = problem.scales_start.unwrap_or(Scales { noise: [1.0; CHANNELS], offset: [0.0; CHANNELS] });
     let offset = std::array::from_fn(|c| match problem.options.offsets[c] {
         OffsetStd::None => 0.0,
         OffsetStd::Known(std) => std,
-        OffsetStd::Estimated => FIRST_OFFSET * offset_unit(problem, c),
+        // Not less: the likelihood hardly changes with an offset that is nearly none, and a search would stay there.
+        OffsetStd::Estimated => start.offset[c].max(FIRST_OFFSET * offset_unit(problem, c)),
     });
-    Scales { noise: [1.0; CHANNELS], offset }
+    let noise = std::array::from_fn(|c| if problem.options.estimate_noise[c] { start.noise[c] } else { 1.0 });
+    Scales { noise, offset }
 }
 
 /// Whether anything is estimated here.
@@ -59,8 +62,12 @@ fn offset_unit(problem: &Problem<'_>, channel: usize) -> f64 {
 pub(super) fn reestimate(problem: &Problem<'_>, state: &State, scales: &Scales) -> (Scales, f64) {
     let mut scales = *scales;
     let mut first_slope = None;
-    for _ in 0..ROUNDS {
-        let Some(shares) = shares(problem, state, &scales) else { break };
+    let mut equations = NormalEquations::new(problem, state, &scales, 0.0);
+    for round in 0..ROUNDS {
+        if round > 0 {
+            equations = equations.at_scales(problem, state, &scales);
+        }
+        let Some(shares) = shares(problem, state, &scales, &equations) else { break };
         let next = better(problem, &scales, &shares);
         let slope = largest_slope(problem, &scales, &next, &shares);
         first_slope.get_or_insert(slope);
@@ -106,10 +113,14 @@ fn largest_slope(problem: &Problem<'_>, scales: &Scales, next: &Scales, shares: 
 }
 
 /// What all runs say of the variances, after the step to the minimum of the linear model about a state.
-fn shares(problem: &Problem<'_>, state: &State, scales: &Scales) -> Option<VarianceShares> {
-    let equations = NormalEquations::new(problem, state, scales, 0.0);
+fn shares(
+    problem: &Problem<'_>,
+    state: &State,
+    scales: &Scales,
+    equations: &NormalEquations,
+) -> Option<VarianceShares> {
     let step = equations.step(problem, state, 0.0)?;
-    let runs = shares_by_run(problem, state, scales, &equations, &step)?;
+    let runs = shares_by_run(problem, state, scales, equations, &step)?;
     Some(runs.iter().fold(VarianceShares::default(), |sum, run| sum + *run))
 }
 
@@ -125,16 +136,18 @@ pub(super) fn shares_by_run(
         VarianceCriterion::Restricted => free_covariance(problem, &(&state.parameters + &step.parameters), equations)?,
         VarianceCriterion::MaximumLikelihood => DMatrix::zeros(step.parameters.len(), step.parameters.len()),
     };
-    let leverages = leverages(problem, state, equations, &covariance);
+    let estimated = problem.options.estimate_noise;
+    let leverages =
+        estimated.contains(&true).then(|| leverages(problem, state, equations, &covariance)).unwrap_or_default();
     let of_run = |index: usize| {
         let run = &equations.runs[index];
         let offset = state.offsets[index] + step.offsets[index];
         let mut shares =
             VarianceShares { offset: offset_shares(run, &offset, scales, &covariance), ..Default::default() };
-        for (place, row) in run.rows.iter().enumerate() {
+        for (place, row) in run.rows.iter().enumerate().filter(|_| !leverages.is_empty()) {
             let shift = shift_by(&state.predictions[index][place], &row.weight, step.parameters.as_slice());
             let residual: Channels = row.residual_after(&(shift + step.offsets[index]), &step.latents[index][place]);
-            for c in (0..CHANNELS).filter(|&c| row.weight[c] > 0.0) {
+            for c in (0..CHANNELS).filter(|&c| row.weight[c] > 0.0 && estimated[c]) {
                 shares.noise[c].squares += row.weight[c] * residual[c] * residual[c];
                 shares.noise[c].freedom += 1.0 - leverages[index][place][c];
             }

@@ -18,6 +18,7 @@ mod terminal;
 
 pub use findings::{DiagnosisFindings, Trace, Traced};
 pub use page::page;
+pub use quantity::Quantity;
 pub use terminal::terminal;
 
 /// How the charts of a diagnosis look: before is rust, after is blue.

@@ -117,3 +117,12 @@ fn half_of_the_residuals_lie_within_their_probable_error() {
     let share = inside as f64 / all as f64;
     assert!((share - 0.5).abs() < 4.0 * 0.5 / 480.0_f64.sqrt(), "{share}");
 }
+
+#[test]
+fn each_run_in_turn_is_each_run_by_itself() {
+    let (model, rows) = campaign(&[3, 4, 1, 2, 5], 3, 1);
+    let fit = fit(&model, &rows, &Start::of(&model, &rows), &options()).unwrap();
+    let each = fit.leave_each_out(&model, 0..5).unwrap();
+    let alone: Vec<HeldOut> = (0..5).map(|run| fit.leave_out(&model, &[run]).unwrap()).collect();
+    assert_eq!(each, alone);
+}

@@ -105,3 +105,17 @@ fn offsets_that_are_not_there_are_estimated_small() {
         assert!(fit.offset_std[c] < 0.6 * rows[0].noise[c], "{c}: {} of {}", fit.offset_std[c], rows[0].noise[c]);
     }
 }
+
+/// From where a fit ended, standard deviations included, the same answer is a step or two away.
+#[test]
+fn a_fit_goes_on_from_where_one_ended() {
+    let (model, rows) = campaign(&[3, 4, 2, 3, 5, 2, 4], 3, 10);
+    let options = options(|c| if c < 4 { OffsetStd::Estimated } else { OffsetStd::None });
+    let first = fitted(&model, &rows, &options);
+    let again = fit(&model, &rows, &first.onward(), &options).unwrap();
+    assert!(again.converged && again.iterations < first.iterations, "{} {}", again.iterations, first.iterations);
+    assert!((again.log_likelihood - first.log_likelihood).abs() < 1e-3);
+    for c in 0..4 {
+        assert!((again.offset_std[c] / first.offset_std[c]).ln().abs() < 0.05);
+    }
+}
