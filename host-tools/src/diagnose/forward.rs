@@ -1,8 +1,9 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
-use super::mimicry::is_mimic;
+use super::mimicry::{is_mimic, is_own_law};
+use super::pairs::{Known, Pair, from_ahead, from_known};
 use super::residual_search::{Structure, search};
-use super::selection::{Judged, Step, TELLS_APART, step};
+use super::selection::{Judged, Step, TELLS_APART, look_ahead, step};
 use super::trial::{Bench, Trial};
 
 /// Most effects that are looked for.
@@ -59,7 +60,14 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         if selected.found.is_empty() {
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
-        match winner(bench, &here, &selected.left) {
+        let place = winner(bench, &here, &selected.left);
+        if let Some(both) = together(bench, &selected, &here, place) {
+            // What was tried without any effect is what the first was found among, whichever it became.
+            let step = selected.found.pop().map_or(here, |found| found.step);
+            selected.found.extend([FoundStep { step, ..both.first }, both.second]);
+            continue;
+        }
+        match place {
             Some(place) => selected.found.push(found(here, place)),
             None => {
                 selected.last = Some(here);
@@ -74,23 +82,55 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
     selected
 }
 
+/// Two effects in place of the first, or of none: where a second was found, and where none of the effects alone leads on although
+/// the data ask for more.
+fn together<'a>(bench: &Bench<'a>, selected: &Selected<'a>, here: &Step<'a>, place: Option<usize>) -> Option<Pair<'a>> {
+    let (first, known) = match selected.found.as_slice() {
+        [] if place.is_none() => (here, None),
+        [found_first] => {
+            let companion = place.map(|place| found(here.clone(), place));
+            (&found_first.step, Some(Known { one: here.base.clone(), companion }))
+        }
+        _ => return None,
+    };
+    let tried = known.as_ref().and_then(|known| known.one.specification.effects.last()).map_or("", |one| one.info.id);
+    let best = known.and_then(|known| from_known(bench, known));
+    let asks_for_more = || {
+        let is_of_contact = |structure: &Structure| structure.is_significant() && structure.of_contact;
+        here.ranking.first().is_some_and(Judged::is_beyond_chance) || selected.left.iter().any(is_of_contact)
+    };
+    if best.is_some() && first.ahead.is_empty() || !asks_for_more() {
+        return best;
+    }
+    if !first.ahead.is_empty() {
+        return from_ahead(bench, first, &first.ahead, tried, best);
+    }
+    let trials: Vec<_> = first.ranking.iter().map(|judged| judged.trial.clone()).collect();
+    from_ahead(bench, first, &look_ahead(bench, &trials), tried, None)
+}
+
 /// The best candidate that chance does not explain, unless a bare dependence on a column explains what it does and more:
 /// one of those that the model without it shows, or of those that it leaves.
-fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
+pub fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<usize> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
-    let effect = &step.ranking[place].trial;
+    let (effect, form) = (&step.ranking[place].trial, step.ranking[place].effect()?);
     let left = search(bench, effect, step.dispersion);
     // Every effect is a function of the contact, so that a curve in slip, load or sinkage accuses none.
-    let is_suspect = |structure: &&Structure| structure.is_significant() && !structure.of_contact;
+    let is_other = |structure: &Structure| !structure.of_contact && !is_own_law(form, structure);
+    let is_suspect = |structure: &&Structure| structure.is_significant() && is_other(structure);
     let shown = structures.iter().filter(is_suspect).take(SUSPECTS);
     let left = left.iter().filter(is_suspect).take(SUSPECTS);
     let mimic = shown.chain(left).any(|structure| is_mimic(bench, step, effect, structure));
     (!mimic).then_some(place)
 }
 
-fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
+/// The candidate at a place of a step's ranking, as an effect that was found.
+pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
     let winner = step.ranking[place].clone();
-    let near = |other: &&Judged<'_>| other.id() != winner.id() && other.score > winner.score - TELLS_APART;
+    // Where runs that were not seen speak for another, the likelihood of those that were does not tell them apart.
+    let speaks_for = |other: &Judged<'_>| other.is_significant() && other.gain_per_row > winner.gain_per_row;
+    let is_near = |other: &Judged<'_>| other.score > winner.score - TELLS_APART || speaks_for(other);
+    let near = |other: &&Judged<'_>| other.id() != winner.id() && is_near(other);
     let ambiguous_with = step.ranking.iter().filter(near).take(MOST_ALTERNATIVES).map(Judged::id).collect();
     FoundStep { winner, ambiguous_with, step }
 }

@@ -29,6 +29,7 @@ pub mod measurements;
 mod mimicry;
 mod noise;
 mod outcome;
+mod pairs;
 mod regressors;
 mod residual_search;
 mod selection;
