@@ -97,7 +97,7 @@ fn together<'a>(bench: &Bench<'a>, selected: &Selected<'a>, here: &Step<'a>, pla
     let best = known.and_then(|known| from_known(bench, known));
     let asks_for_more = || {
         let is_of_contact = |structure: &Structure| structure.is_significant() && structure.of_contact;
-        here.ranking.first().is_some_and(Judged::is_beyond_chance) || selected.left.iter().any(is_of_contact)
+        here.ranking.iter().any(Judged::is_beyond_chance) || selected.left.iter().any(is_of_contact)
     };
     if best.is_some() && first.ahead.is_empty() || !asks_for_more() {
         return best;
@@ -127,9 +127,11 @@ pub fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> O
 /// The candidate at a place of a step's ranking, as an effect that was found.
 pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
     let winner = step.ranking[place].clone();
-    // Where runs that were not seen speak for another, the likelihood of those that were does not tell them apart.
-    let speaks_for = |other: &Judged<'_>| other.is_significant() && other.gain_per_row > winner.gain_per_row;
-    let is_near = |other: &Judged<'_>| other.score > winner.score - TELLS_APART || speaks_for(other);
+    // Both must leave it open: the likelihood of the runs that were seen, and the density of those that were not.
+    let is_near = |other: &Judged<'_>| {
+        let errors = winner.gain_std.hypot(other.gain_std);
+        other.score > winner.score - TELLS_APART && other.gain_per_row > winner.gain_per_row - errors
+    };
     let near = |other: &&Judged<'_>| other.id() != winner.id() && is_near(other);
     let ambiguous_with = step.ranking.iter().filter(near).take(MOST_ALTERNATIVES).map(Judged::id).collect();
     FoundStep { winner, ambiguous_with, step }

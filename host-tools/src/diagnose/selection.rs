@@ -102,9 +102,10 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         Judged { score, p_value, gain_per_row, gain_std, trial }
     };
     let mut all: Vec<_> = trials.into_par_iter().map(judge).collect();
-    let misfit = is_misfit(all.iter().map(|judged| &judged.trial));
-    let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
-    all.sort_by(|a, b| key(b).total_cmp(&key(a)));
+    // What a fit can do to the runs that it sees, an effect that frees the right latents can do as well as the true one: runs
+    // that were not seen choose.
+    let key = |judged: &Judged<'_>| (judged.is_significant(), judged.gain_per_row);
+    all.sort_by(|a, b| key(b).0.cmp(&key(a).0).then(key(b).1.total_cmp(&key(a).1)));
     let mut ranking: Vec<Judged<'a>> = Vec::new();
     for judged in all {
         if ranking.iter().all(|other| other.id() != judged.id()) {
@@ -127,17 +128,13 @@ fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Tr
 pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[EffectForm]) -> Option<Trial<'a>> {
     let new = |form: &&EffectForm| !base.specification.has(form.info.id);
     let trials: Vec<_> = shortlist.iter().filter(new).filter_map(|form| bench.with_effect(base, form)).collect();
-    if is_misfit(trials.iter()) {
-        let before = held_out(bench, base);
-        let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
-        let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
-        return judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial);
-    }
-    trials.into_iter().max_by(|a, b| worth(a).total_cmp(&worth(b)))
+    let before = held_out(bench, base);
+    let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
+    let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
+    judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial)
 }
 
-/// Whether more than one effect is missing. The best fit that one of them can have then says little, and what it does on runs
-/// that it has not seen says more.
+/// Whether more than one effect is missing.
 fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
     trials.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min) > MISFIT
 }
@@ -210,7 +207,7 @@ pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
 }
 
 /// Each run (or each row, of a campaign of one run) predicted without its own help.
-fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
     let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok()?.runs.pop();
     runs.filter_map(predict).collect()
