@@ -1,18 +1,35 @@
 //! Which effects could be in a campaign: those whose columns it has.
 
-use kapvik_firmware::terramechanics::effects::{CATALOGUE, Column, Conditions, Form};
+use kapvik_firmware::terramechanics::effects::{CATALOGUE, Column, Conditions, EffectInfo, Form};
 
-use crate::data::campaign::Campaign;
+use crate::data::campaign::{Campaign, Channel};
 
 use super::fit::Reading;
 use super::measurements::Measurements;
 use super::specification::{EffectForm, Specification};
 
+/// Spread of load, as a share, below which it counts as one level.
+const ONE_LOAD: f64 = 0.1;
+
 /// Every form of every effect that a model does not have yet, and that the measurements could show.
 pub fn candidates(campaign: &Campaign, measurements: &Measurements, model: &Specification) -> Vec<EffectForm> {
     let others = CATALOGUE.iter().filter(|info| !model.has(info.id));
+    let others = others.filter(|info| !is_by_load(info) || loads_differ(measurements));
     let forms = others.flat_map(|info| info.forms.iter().map(move |form| EffectForm::new(info, form)));
     forms.filter(|candidate| is_measured(campaign, measurements, candidate.form)).collect()
+}
+
+/// Whether an effect is what a load makes of the soil against another load.
+fn is_by_load(info: &EffectInfo) -> bool {
+    info.parameters.iter().any(|parameter| parameter.name == "reference_load_n")
+}
+
+/// Whether the loads are more than one level, about which they scatter.
+pub fn loads_differ(measurements: &Measurements) -> bool {
+    let known = measurements.rows.iter().filter_map(|row| row.readings[Reading::Load.index()]);
+    let (low, high) =
+        known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), load_n| (load_n.min(low), load_n.max(high)));
+    high - low >= ONE_LOAD * high.abs()
 }
 
 /// Whether a campaign has what a form needs.
@@ -38,6 +55,27 @@ fn has(campaign: &Campaign, measurements: &Measurements, column: Column) -> bool
         Column::Pitch => varies(|row| row.pitch_rad),
         Column::Grousers => campaign.grousers.count > 0,
     }
+}
+
+/// The channel of a campaign that a column is read from; none of what is a property of the wheel.
+pub fn read_from(column: Column) -> Option<Channel> {
+    Some(match column {
+        Column::DrawbarPull => Channel::DrawbarPull,
+        Column::Load => Channel::Load,
+        Column::Torque => Channel::Torque,
+        Column::Sinkage => Channel::Sinkage,
+        Column::SideForce => Channel::SideForce,
+        Column::SlipAngle => Channel::SlipAngle,
+        Column::WheelRate => Channel::WheelRate,
+        Column::Speed => Channel::Speed,
+        Column::WheelAngle => Channel::WheelAngle,
+        Column::Pass => Channel::Pass,
+        Column::Temperature => Channel::Temperature,
+        Column::HoursSinceZero => Channel::HoursSinceZero,
+        Column::Travel => Channel::Travel,
+        Column::Pitch => Channel::Pitch,
+        Column::Grousers => return None,
+    })
 }
 
 fn slides(conditions: &Conditions<f64>) -> bool {

@@ -2,13 +2,12 @@
 
 use crate::data::campaign::Campaign;
 
+use super::candidates::loads_differ;
 use super::fit::Reading;
 use super::forward::Selected;
 use super::measurements::Measurements;
 use super::soil_coordinates::SoilParameter;
 
-/// Spread of load, as a share, below which it counts as one level.
-const ONE_LOAD: f64 = 0.1;
 /// Spread of slip below which it counts as constant.
 const ONE_SLIP: f64 = 0.03;
 /// Share of its prior's standard deviation that a parameter must be known to, to count as told by the data.
@@ -23,7 +22,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     if runs < 5 {
         said.push(format!("Only {runs} runs: what is found rests on few independent observations."));
     }
-    said.extend(spread(measurements, Reading::Load).filter(|(low, high)| high - low < ONE_LOAD * high.abs()).map(|_| {
+    said.extend((measurements.has(Reading::Load) && !loads_differ(measurements)).then(|| {
         "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load; an \
          offset of the drawbar pull, a tilt and a share of the load look alike."
             .to_owned()

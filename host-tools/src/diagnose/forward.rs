@@ -1,8 +1,9 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
-use super::mimicry::is_mimic;
+use super::mimicry::{is_mimic, is_own_law};
+use super::pairs::{Known, Pair, from_ahead, from_known};
 use super::residual_search::{Structure, search};
-use super::selection::{Judged, Step, TELLS_APART, step};
+use super::selection::{Judged, Step, TELLS_APART, look_ahead, step};
 use super::trial::{Bench, Trial};
 
 /// Most effects that are looked for.
@@ -60,7 +61,14 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         if selected.found.is_empty() {
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
-        match winner(bench, &here, &selected.left) {
+        let won = winner(bench, &here, &selected.left);
+        if let Some(both) = together(bench, &selected, &here, won.as_ref().map(|(place, _)| *place)) {
+            // What was tried without any effect is what the first was found among, whichever it became.
+            let step = selected.found.pop().map_or(here, |found| found.step);
+            selected.found.extend([FoundStep { step, ..both.first }, both.second]);
+            continue;
+        }
+        match won {
             Some((place, structures)) => {
                 known = Some(Left { dispersion: here.dispersion, structures });
                 selected.found.push(found(here, place));
@@ -90,13 +98,41 @@ fn left(bench: &Bench<'_>, model: &Trial<'_>, dispersion: f64, known: Option<Lef
     same.map_or_else(|| search(bench, model, dispersion), |known| known.structures)
 }
 
+/// Two effects in place of the first, or of none: where a second was found, and where none of the effects alone leads on although
+/// the data ask for more.
+fn together<'a>(bench: &Bench<'a>, selected: &Selected<'a>, here: &Step<'a>, place: Option<usize>) -> Option<Pair<'a>> {
+    let (first, known) = match selected.found.as_slice() {
+        [] if place.is_none() => (here, None),
+        [found_first] => {
+            let companion = place.map(|place| found(here.clone(), place));
+            (&found_first.step, Some(Known { one: here.base.clone(), companion }))
+        }
+        _ => return None,
+    };
+    let tried = known.as_ref().and_then(|known| known.one.specification.effects.last()).map_or("", |one| one.info.id);
+    let best = known.and_then(|known| from_known(bench, known));
+    let asks_for_more = || {
+        let is_of_contact = |structure: &Structure| structure.is_significant() && structure.of_contact;
+        here.ranking.iter().any(Judged::is_beyond_chance) || selected.left.iter().any(is_of_contact)
+    };
+    if best.is_some() && first.ahead.is_empty() || !asks_for_more() {
+        return best;
+    }
+    if !first.ahead.is_empty() {
+        return from_ahead(bench, first, &first.ahead, tried, best);
+    }
+    let trials: Vec<_> = first.ranking.iter().map(|judged| judged.trial.clone()).collect();
+    from_ahead(bench, first, &look_ahead(bench, &trials), tried, None)
+}
+
 /// The best candidate that chance does not explain, and what it leaves; none where a bare dependence on a column explains what
 /// it does and more: one of those that the model without it shows, or of those that it leaves.
-fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<(usize, Vec<Structure>)> {
+pub fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Option<(usize, Vec<Structure>)> {
     let place = step.ranking.iter().position(Judged::is_significant)?;
-    let effect = &step.ranking[place].trial;
+    let (effect, form) = (&step.ranking[place].trial, step.ranking[place].effect()?);
     // Every effect is a function of the contact, so that a curve in slip, load or sinkage accuses none.
-    let is_suspect = |structure: &&Structure| structure.is_significant() && !structure.of_contact;
+    let is_other = |structure: &Structure| !structure.of_contact && !is_own_law(form, structure);
+    let is_suspect = |structure: &&Structure| structure.is_significant() && is_other(structure);
     let is_mimic_of_one = |structures: &[Structure]| {
         structures.iter().filter(is_suspect).take(SUSPECTS).any(|structure| is_mimic(bench, step, effect, structure))
     };
@@ -107,9 +143,15 @@ fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> Optio
     (!is_mimic_of_one(&left)).then_some((place, left))
 }
 
-fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
+/// The candidate at a place of a step's ranking, as an effect that was found.
+pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
     let winner = step.ranking[place].clone();
-    let near = |other: &&Judged<'_>| other.id() != winner.id() && other.score > winner.score - TELLS_APART;
+    // Both must leave it open: the likelihood of the runs that were seen, and the density of those that were not.
+    let is_near = |other: &Judged<'_>| {
+        let errors = winner.gain_std.hypot(other.gain_std);
+        other.score > winner.score - TELLS_APART && other.gain_per_row > winner.gain_per_row - errors
+    };
+    let near = |other: &&Judged<'_>| other.id() != winner.id() && is_near(other);
     let ambiguous_with = step.ranking.iter().filter(near).take(MOST_ALTERNATIVES).map(Judged::id).collect();
     FoundStep { winner, ambiguous_with, step }
 }

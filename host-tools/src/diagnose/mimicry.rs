@@ -1,41 +1,66 @@
 //! Whether an effect only mimics a dependence that no physics stands behind.
 
-use super::fit::Fit;
+use super::candidates::read_from;
 use super::linearised::{AddedTerms, Linearised};
+use super::measurements::COLUMNS;
 use super::residual_search::Structure;
 use super::selection::{PARAMETER_COST, Step, TELLS_APART};
+use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
+use crate::data::campaign::Channel;
 
 /// What the dependence must still gain in ln likelihood beside the effect to be more than the effect is.
 const MORE: f64 = 6.0;
 /// What the effect must still gain beside the dependence to be more than its mimic.
 const OWN: f64 = 6.0;
 
+/// Times that a model is linearised, each time about where it came to.
+const ROUNDS: usize = 3;
+
 /// Each is added to the model beside the other. An effect that then gains nothing of its own, while the dependence still
 /// gains much, or by itself gains more than the effect by what tells two candidates apart, only mimics it. An effect that is
-/// real carries over to every channel, and its mimics gain nothing beside it.
+/// real carries over to every channel, and its mimics gain nothing beside it. What the dependence has in common with any
+/// other of the contact, an offset of the channel and a trend with slip, load or sinkage, is not counted for it: where a second
+/// effect is missing that gains much, whatever the column is.
 pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structure: &Structure) -> bool {
-    let added = &structure.added;
+    let (added, common) = (&structure.added, &structure.common);
     let gains = || {
-        let (without, with) = (about(bench, &step.base)?, about(bench, effect)?);
-        let dependence = log_posterior(&step.base, &without.fit_with(added).ok()?);
-        let both = log_posterior(effect, &with.fit_with(added).ok()?);
-        let nothing = AddedTerms { terms: Vec::new(), ..*added };
-        let alone = log_posterior(effect, &with.fit_with(&nothing).ok()?);
+        let dependence = log_posterior_with(bench, &step.base, added)?;
+        let both = log_posterior_with(bench, effect, added)?;
+        let alone = log_posterior_with(bench, effect, common)?;
         let beside =
             |less: f64, parameters: usize| (both - less) / step.dispersion - PARAMETER_COST * parameters as f64;
-        Some((beside(alone, added.terms.len()), beside(dependence, effect.added_parameters())))
+        let own_terms = added.terms.len() - common.terms.len();
+        Some((beside(alone, own_terms), beside(dependence, effect.added_parameters())))
     };
     // The difference of the two is that of the dependence alone and the effect alone.
     let is_better = |dependence: f64, effect: f64| dependence > MORE || dependence - effect > TELLS_APART;
     gains().is_some_and(|(dependence, effect)| effect < OWN && is_better(dependence, effect))
 }
 
-fn about<'a>(bench: &'a Bench<'_>, trial: &Trial<'_>) -> Option<Linearised<'a>> {
-    let measurements = bench.measurements;
-    Linearised::about(&trial.model, &trial.fit, &measurements.rows, &measurements.rows_of_run, &bench.options)
+/// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there: then it is the
+/// effect by another law, and no other cause. An angle of the wheel is a column of many laws.
+pub fn is_own_law(effect: &EffectForm, structure: &Structure) -> bool {
+    let needs = |channel: Channel| effect.form.needs.iter().any(|column| read_from(*column) == Some(channel));
+    let follows = Channel::from_name(&structure.regressor);
+    needs(COLUMNS[structure.channel.index()]) && follows.is_some_and(needs) && follows != Some(Channel::WheelAngle)
 }
 
-fn log_posterior(trial: &Trial<'_>, found: &Fit) -> f64 {
-    found.log_likelihood + trial.log_prior(&found.parameters)
+/// ln posterior of a model with added terms. A model that lacks much is bent far by making up for it: linearised once, it would
+/// not come back all the way when the terms take over.
+fn log_posterior_with(bench: &Bench<'_>, trial: &Trial<'_>, added: &AddedTerms) -> Option<f64> {
+    let measurements = bench.measurements;
+    let mut here = trial.fit.clone();
+    let mut found = None;
+    for _ in 0..ROUNDS {
+        let rows = &measurements.rows;
+        let about = Linearised::about(&trial.model, &here, rows, &measurements.rows_of_run, &bench.options);
+        let Some(about) = about else { break };
+        let fit = about.fit_with(added).ok()?;
+        found = Some(fit.log_likelihood + trial.log_prior(&fit.parameters));
+        let own = here.parameters.len();
+        here.parameters.clone_from_slice(fit.parameters.get(..own)?);
+        here.latents = fit.latents;
+    }
+    found
 }

@@ -29,6 +29,7 @@ pub mod measurements;
 mod mimicry;
 mod noise;
 mod outcome;
+mod pairs;
 mod regressors;
 mod residual_search;
 mod selection;
@@ -36,8 +37,10 @@ mod sentence;
 mod settings;
 mod soil_coordinates;
 pub mod specification;
+mod told;
 pub mod trial;
 
 pub use declared_file::declared_file;
 pub use force_channels::force_channels;
 pub use outcome::{DiagnoseOptions, Outcome, diagnose};
+pub use told::{Told, told};

@@ -88,10 +88,8 @@ pub fn diagnose(
     let by_themselves = force_channels::examine(campaign);
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
     let campaign = apart.as_ref().unwrap_or(campaign);
-    let mut measurements = Measurements::of(campaign, options.braking)?;
     progress("declared model");
-    let bends = curvature(&declared_model(&Bench::new(campaign, &measurements))?, &measurements);
-    add_curvature(&mut measurements, &bends);
+    let measurements = measured(campaign, options)?;
     let bench = Bench::new(campaign, &measurements);
     let base = declared_model(&bench)?;
     let selected = select(&bench, base, progress);
@@ -110,8 +108,16 @@ pub fn diagnose(
     Ok(Outcome { document, measurements, errors, guilty })
 }
 
+/// The rows of a campaign; what the bend of the declared model adds counts as noise.
+pub(super) fn measured(campaign: &Campaign, options: &DiagnoseOptions) -> Result<Measurements, HostError> {
+    let mut measurements = Measurements::of(campaign, options.braking)?;
+    let bends = curvature(&declared_model(&Bench::new(campaign, &measurements))?, &measurements);
+    add_curvature(&mut measurements, &bends);
+    Ok(measurements)
+}
+
 /// The declared model at its best: where the campaign leaves open which form a declared effect has, the form that fits best.
-fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostError> {
+pub(super) fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostError> {
     let specifications =
         Specification::declared(bench.campaign, |form| is_measured(bench.campaign, bench.measurements, form));
     let mut best: Option<Trial<'a>> = None;
@@ -136,6 +142,11 @@ fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostError> {
 /// For each effect that was found, the candidates that are tried again where runs are held out.
 fn shortlists<'a>(selected: &Selected<'a>) -> Vec<Vec<Trial<'a>>> {
     let of_step = |found: &super::forward::FoundStep<'a>| {
+        // What won only beside a second effect would not be chosen before that one.
+        let alone = found.step.ranking.iter().find(|judged| judged.is_significant());
+        if alone.is_none_or(|alone| alone.id() != found.winner.id()) {
+            return vec![found.winner.trial.clone()];
+        }
         let near = found.step.ranking.iter().enumerate();
         let near = near.filter(|(place, judged)| *place < AGAIN || judged.p_value < NEAR);
         near.map(|(_, judged)| judged.trial.clone()).collect()

@@ -34,9 +34,17 @@ impl Regressor {
 
     /// Whether it is made of slip, load and sinkage alone.
     pub fn is_of_contact(&self) -> bool {
-        let is_contact = |part: &String| CONTACT.iter().any(|reading| part == COLUMNS[reading.index()].name());
-        self.parts.iter().all(is_contact)
+        self.parts.iter().all(|part| is_contact(part))
     }
+
+    /// Of a product, the values of those factors that are slip, load or sinkage.
+    pub fn contact_factors(&self) -> impl Iterator<Item = &Vec<f64>> {
+        self.factors.iter().zip(&self.parts).filter(|(_, part)| is_contact(part)).map(|(values, _)| values)
+    }
+}
+
+fn is_contact(part: &str) -> bool {
+    CONTACT.iter().any(|reading| part == COLUMNS[reading.index()].name())
 }
 
 /// What the contact itself is made of.

@@ -21,6 +21,8 @@ pub struct Structure {
     pub of_contact: bool,
     /// The terms by which it was fitted.
     pub added: AddedTerms,
+    /// Those of them that say nothing of the column: a constant, and factors that are of the contact.
+    pub common: AddedTerms,
     /// Gain in ln likelihood in units of the dispersion, less the cost of the terms' coefficients.
     pub score: f64,
     /// Share of the channel's residual that follows it.
@@ -86,6 +88,7 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
             share_of_variance: share(&nothing, &fit, channel),
             p_value: 1.0,
             gain_per_row: None,
+            common: AddedTerms { channel, terms: common(regressor) },
             added,
         })
     };
@@ -119,7 +122,7 @@ fn second_look(
     let look = |structure: Structure| {
         let terms = structure.added.terms.len();
         let fit = linearised.fit_with(&structure.added).ok()?;
-        let gain = gain(trial, &nothing, &fit) / dispersion;
+        let gain = gain(trial, &nothing, &fit).min(gain_at_its_scales(bench, trial, &fit)?) / dispersion;
         let after = linearised.held_out(&structure.added, &fit, runs)?;
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
@@ -139,6 +142,15 @@ fn no_terms() -> AddedTerms {
 fn gain(trial: &Trial<'_>, before: &Fit, after: &Fit) -> f64 {
     after.log_likelihood - before.log_likelihood + trial.log_prior(&after.parameters)
         - trial.log_prior(&before.parameters)
+}
+
+/// The same over the model without the terms at the scales of noise and offsets that the fit with them came to: those of the
+/// model without may be at a lesser optimum, which is no merit of the terms.
+fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Option<f64> {
+    let held = bench.held(after);
+    let of_run = &bench.measurements.rows_of_run;
+    let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, of_run, &held.options)?;
+    Some(gain(trial, &linearised.fit_with(&no_terms()).ok()?, after))
 }
 
 /// What a channel's scale is estimated from: its runs, where they have offsets of their own, else its rows.
@@ -167,6 +179,12 @@ fn powers(regressor: &Regressor, degree: usize) -> Vec<Vec<f64>> {
     let constant = vec![1.0; regressor.values.len()];
     let power = |power: i32| regressor.values.iter().map(|value| value.clamp(-4.0, 4.0).powi(power)).collect();
     std::iter::once(constant).chain(regressor.factors.iter().cloned()).chain((1..=degree as i32).map(power)).collect()
+}
+
+/// Those of the terms that a product, or a column, shares with what the contact alone may do.
+fn common(regressor: &Regressor) -> Vec<Vec<f64>> {
+    let constant = vec![1.0; regressor.values.len()];
+    std::iter::once(constant).chain(regressor.contact_factors().cloned()).collect()
 }
 
 /// A constant and a swing once a turn, of an angle of the wheel.

@@ -19,6 +19,8 @@ pub const TELLS_APART: f64 = 3.0;
 const MISFIT: f64 = 1.5;
 /// Candidates on top of which a second effect is tried to see how far the data can be explained.
 const LEADERS: usize = 4;
+/// Second effects that are fitted on top of each of these.
+const SECONDS: usize = 3;
 /// The chance below which any gain on runs that were not seen is enough.
 const BEYOND_DOUBT: f64 = 1e-4;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
@@ -56,6 +58,11 @@ impl Judged<'_> {
         self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
     }
 
+    /// Whether chance does not explain what it gains, whether or not it may be the effect.
+    pub fn is_beyond_chance(&self) -> bool {
+        self.p_value < SIGNIFICANT
+    }
+
     /// A size that the data push out of its range is not one that they support. Of the parameters that only shape an effect
     /// the data may well know only a side.
     fn is_on_bound(&self) -> bool {
@@ -75,6 +82,8 @@ pub struct Step<'a> {
     pub ranking: Vec<Judged<'a>>,
     /// The dispersion that gains are measured in, 1 or more.
     pub dispersion: f64,
+    /// The best models with two more effects, looked for where one leaves the data far from explained.
+    pub ahead: Vec<Trial<'a>>,
 }
 
 /// Fits the candidates on top of a model, and judges the best form of each effect.
@@ -82,7 +91,8 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let all = candidates(bench.campaign, bench.measurements, &base.specification);
     let trials = trials(bench, base, &all);
     let base = polished(bench, base, &trials);
-    let dispersion = dispersion(bench, &base, &trials);
+    let ahead = if is_misfit(trials.iter()) { look_ahead(bench, &trials) } else { Vec::new() };
+    let dispersion = dispersion(&base, &trials, &ahead);
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
     let before = held_out(bench, &base);
     let judge = |trial: Trial<'a>| {
@@ -92,16 +102,17 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         Judged { score, p_value, gain_per_row, gain_std, trial }
     };
     let mut all: Vec<_> = trials.into_par_iter().map(judge).collect();
-    let misfit = is_misfit(all.iter().map(|judged| &judged.trial));
-    let key = |judged: &Judged<'_>| if misfit { judged.gain_per_row } else { judged.score };
-    all.sort_by(|a, b| key(b).total_cmp(&key(a)));
+    // What a fit can do to the runs that it sees, an effect that frees the right latents can do as well as the true one: runs
+    // that were not seen choose.
+    let key = |judged: &Judged<'_>| (judged.is_significant(), judged.gain_per_row);
+    all.sort_by(|a, b| key(b).0.cmp(&key(a).0).then(key(b).1.total_cmp(&key(a).1)));
     let mut ranking: Vec<Judged<'a>> = Vec::new();
     for judged in all {
         if ranking.iter().all(|other| other.id() != judged.id()) {
             ranking.push(judged);
         }
     }
-    Step { base, ranking, dispersion }
+    Step { base, ranking, dispersion, ahead }
 }
 
 /// The base at its best: a candidate that changes nothing may still have found a better place for the others.
@@ -122,18 +133,18 @@ pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[Trial<'a>])
         let new = !base.specification.has(effect.info.id);
         new.then(|| if stands { bench.refit(known) } else { bench.with_effect(base, effect) })?
     };
-    let trials: Vec<_> = shortlist.iter().filter_map(fitted).collect();
-    if is_misfit(trials.iter()) {
-        let before = held_out(bench, base);
-        let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
-        let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
-        return judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial);
-    }
-    trials.into_iter().max_by(|a, b| worth(a).total_cmp(&worth(b)))
+    chosen(bench, base, shortlist.iter().filter_map(fitted).collect())
 }
 
-/// Whether more than one effect is missing. The best fit that one of them can have then says little, and what it does on runs
-/// that it has not seen says more.
+/// The candidate that runs which were not seen choose.
+pub fn chosen<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: Vec<Trial<'a>>) -> Option<Trial<'a>> {
+    let before = held_out(bench, base);
+    let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
+    let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
+    judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial)
+}
+
+/// Whether more than one effect is missing.
 fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
     trials.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min) > MISFIT
 }
@@ -172,23 +183,31 @@ fn best_forms(trials: Vec<Trial<'_>>) -> Vec<Trial<'_>> {
     best
 }
 
-/// The dispersion that gains are measured in, 1 or more: that of the best model with one more effect, or with two where one
-/// leaves the data far from explained.
-fn dispersion<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> f64 {
-    let least =
-        |trials: &[Trial<'_>], start: f64| trials.iter().map(|trial| trial.fit.dispersion).fold(start, f64::min);
-    let one = least(trials, base.fit.dispersion);
-    if one <= MISFIT {
-        return one.max(1.0);
-    }
-    let mut leaders: Vec<_> = trials.iter().collect();
-    leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
-    let second = |first: &&Trial<'a>| {
+/// The best models with two more effects, of those that go on from the best with one.
+pub fn look_ahead<'a>(bench: &Bench<'a>, trials: &[Trial<'a>]) -> Vec<Trial<'a>> {
+    let mut leaders = best_forms(trials.to_vec());
+    leaders.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    let seconds = |first: &Trial<'a>| {
+        let held = bench.held(&first.fit);
         let next = candidates(bench.campaign, bench.measurements, &first.specification);
-        let next: Vec<_> = next.par_iter().filter_map(|candidate| bench.with_effect(first, candidate)).collect();
-        least(&next, one)
+        let glance = |form: &EffectForm| bench.glance(&held, first, form);
+        let mut glances = best_forms(next.par_iter().filter_map(glance).collect());
+        glances.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+        let chosen = glances.iter().take(SECONDS).filter_map(|trial| trial.specification.effects.last());
+        let chosen: Vec<_> = chosen.collect();
+        chosen.into_par_iter().filter_map(|form| bench.with_effect(first, form)).collect::<Vec<_>>()
     };
-    leaders.par_iter().take(LEADERS).map(second).reduce(|| one, f64::min).max(1.0)
+    let mut both: Vec<_> = leaders.par_iter().take(LEADERS).flat_map_iter(seconds).collect();
+    let total = |trial: &Trial<'_>| trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64;
+    both.sort_by(|a, b| total(b).total_cmp(&total(a)));
+    both
+}
+
+/// The dispersion that gains are measured in, 1 or more: that of the best model with one more effect, or with two where that
+/// was looked for.
+fn dispersion<'a>(base: &Trial<'a>, trials: &[Trial<'a>], ahead: &[Trial<'a>]) -> f64 {
+    let all = std::iter::once(base).chain(trials).chain(ahead);
+    all.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min).max(1.0)
 }
 
 /// The chance that the best of `tried` candidates that change nothing gains so much in ln likelihood.
@@ -198,7 +217,7 @@ pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
 }
 
 /// Each run (or each row, of a campaign of one run) predicted without its own help.
-fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
     let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok()?.runs.pop();
     runs.filter_map(predict).collect()

@@ -97,6 +97,20 @@ impl<'a> Bench<'a> {
         Some(Trial { specification, model, fit })
     }
 
+    /// A model without one of its effects, from the fit of that with it.
+    pub fn without_effect(&self, trial: &Trial<'a>, id: &str) -> Option<Trial<'a>> {
+        let mut specification = trial.specification.clone();
+        specification.effects.retain(|effect| effect.info.id != id);
+        let model = CampaignModel::new(self.campaign, self.measurements, &specification);
+        let soil = trial.model.soil_count();
+        let kept = |place: usize| place < soil || trial.model.effect_parameters()[place - soil].0 != id;
+        let all = trial.fit.parameters.iter().enumerate();
+        let parameters = all.filter(|(place, _)| kept(*place)).map(|(_, value)| *value).collect();
+        let start = Start { parameters, latents: trial.fit.latents.clone(), scales: None };
+        let fit = fit_without(&model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
+        Some(Trial { specification, model, fit })
+    }
+
     /// The rows and options with the scales of a fit's noise and offsets held.
     pub fn held(&self, fit: &Fit) -> Held {
         let mut rows = self.measurements.rows.clone();
@@ -146,6 +160,11 @@ impl Trial<'_> {
             coordinate.prior.map_or(0.0, |(mean, std)| -0.5 * ((value - mean) / std).powi(2))
         };
         self.model.coordinates().iter().zip(parameters).map(penalty).sum()
+    }
+
+    /// Parameters that its effects free.
+    pub fn effect_parameters(&self) -> usize {
+        self.model.effect_parameters().len()
     }
 
     /// Parameters that the last effect frees.

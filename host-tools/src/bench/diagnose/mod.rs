@@ -7,6 +7,7 @@ mod chance;
 mod instruments;
 mod knowledge;
 mod layout;
+mod oracle;
 mod overlay;
 mod refit;
 mod score;
@@ -53,6 +54,9 @@ pub struct DiagnoseArguments {
     /// Only campaigns in which this effect is
     #[arg(long, value_name = "ID", value_parser = clap::builder::PossibleValuesParser::new(undeclared::effect_ids()))]
     pub only: Option<String>,
+    /// Also tell of each pair of effects whether one who is told of both could see them
+    #[arg(long)]
+    pub oracle: bool,
     /// Also write the campaigns here, each with NAME.truth.txt
     #[arg(long, value_name = "DIR")]
     pub write: Option<PathBuf>,
@@ -86,7 +90,13 @@ pub fn run(arguments: &DiagnoseArguments, diagnose: Option<&Diagnoser<'_>>) -> R
         save_all(&drawn, folder)?;
     }
     match diagnose {
-        Some(diagnose) => score::print(&diagnose_all(&drawn, diagnose)),
+        Some(diagnose) => {
+            let trials = diagnose_all(&drawn, diagnose);
+            score::print(&trials);
+            if arguments.oracle {
+                oracle::print(&drawn, &trials);
+            }
+        }
         None => score::print_drawn(&drawn),
     }
     Ok(())

@@ -1,0 +1,92 @@
+//! Two effects that are both missing.
+//!
+//! Forward selection names first what alone makes up for most of both, which need be neither. So once there are two, each is
+//! asked for again beside the other (floating selection; Pudil, Novovicova and Kittler 1994, Pattern Recognition Letters
+//! 15:1119-1125), until each is the best companion of the other and earns its place beside it.
+
+use super::forward::{FoundStep, found, winner};
+use super::residual_search::search;
+use super::selection::{PARAMETER_COST, Step, step};
+use super::trial::{Bench, Trial};
+
+/// Times that an effect may be exchanged.
+const EXCHANGES: usize = 3;
+
+/// Two effects in order, each beside the other.
+pub struct Pair<'a> {
+    /// The first, as found beside the second.
+    pub first: FoundStep<'a>,
+    /// The second, as found on top of the first.
+    pub second: FoundStep<'a>,
+    /// What both together are worth.
+    worth: f64,
+}
+
+/// An effect that was found first, and what was then found.
+pub struct Known<'a> {
+    /// The model with the effect.
+    pub one: Trial<'a>,
+    /// Its companion, if one earned its place.
+    pub companion: Option<FoundStep<'a>>,
+}
+
+/// The pair that is reached from an effect that was found first.
+pub fn from_known<'a>(bench: &Bench<'a>, known: Known<'a>) -> Option<Pair<'a>> {
+    settled(bench, known.one, Some(known.companion?))
+}
+
+/// The best pair that is reached from the two effects that go best together of those `ahead` of a first step, or the one that
+/// is known already. What was `tried` leads nowhere by itself.
+pub fn from_ahead<'a>(
+    bench: &Bench<'a>,
+    first: &Step<'a>,
+    ahead: &[Trial<'a>],
+    tried: &str,
+    mut best: Option<Pair<'a>>,
+) -> Option<Pair<'a>> {
+    let declared = first.base.specification.effects.len();
+    for effect in ahead.first().into_iter().flat_map(|both| &both.specification.effects[declared..]) {
+        let id = effect.info.id;
+        let is_reached = |pair: &Pair<'_>| pair.second.winner.trial.specification.has(id);
+        if id == tried || best.as_ref().is_some_and(is_reached) {
+            continue;
+        }
+        let alone = first.ranking.iter().find(|judged| judged.id() == id);
+        let next = alone.and_then(|judged| settled(bench, judged.trial.clone(), None));
+        if next.as_ref().is_some_and(|next| best.as_ref().is_none_or(|best| next.worth > best.worth)) {
+            best = next;
+        }
+    }
+    best
+}
+
+fn last_id(trial: &Trial<'_>) -> &'static str {
+    trial.specification.effects.last().map_or("", |effect| effect.info.id)
+}
+
+/// From a model whose last effect is the first of a pair: its best companion, that one's best companion, and so on until they
+/// agree. None where there is no companion, or no agreement.
+fn settled<'a>(bench: &Bench<'a>, start: Trial<'a>, mut known: Option<FoundStep<'a>>) -> Option<Pair<'a>> {
+    let mut one = start;
+    for _ in 0..EXCHANGES {
+        let second = known.take().or_else(|| companion(bench, &one))?;
+        let both = &second.winner.trial;
+        let other = bench.without_effect(both, last_id(&one))?;
+        let first = companion(bench, &other)?;
+        let id = last_id(&one);
+        if first.winner.id() == id || first.ambiguous_with.contains(&id) {
+            let kept = first.step.ranking.iter().position(|judged| judged.id() == id && judged.is_significant())?;
+            let worth = both.log_posterior() - PARAMETER_COST * both.effect_parameters() as f64;
+            return Some(Pair { first: found(first.step, kept), second, worth });
+        }
+        one = bench.without_effect(&first.winner.trial, last_id(&other))?;
+    }
+    None
+}
+
+fn companion<'a>(bench: &Bench<'a>, trial: &Trial<'a>) -> Option<FoundStep<'a>> {
+    let here = step(bench, trial);
+    let structures = search(bench, &here.base, here.dispersion);
+    let (place, _) = winner(bench, &here, &structures)?;
+    Some(found(here, place))
+}
