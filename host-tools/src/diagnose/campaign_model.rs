@@ -114,9 +114,9 @@ impl Model for CampaignModel<'_> {
     fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
         // As few derivatives as there are, for each is carried through every operation.
         match parameters.len() + LATENTS {
-            ..=10 => self.run::<10>(parameters, rows, latents),
-            ..=12 => self.run::<12>(parameters, rows, latents),
-            ..=16 => self.run::<16>(parameters, rows, latents),
+            0..=10 => self.run::<10>(parameters, rows, latents),
+            11..=12 => self.run::<12>(parameters, rows, latents),
+            13..=16 => self.run::<16>(parameters, rows, latents),
             _ => self.run::<22>(parameters, rows, latents),
         }
     }

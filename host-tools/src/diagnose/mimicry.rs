@@ -31,11 +31,19 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
         let beside =
             |less: f64, parameters: usize| (both - less) / step.dispersion - PARAMETER_COST * parameters as f64;
         let own_terms = added.terms.len() - common.terms.len();
-        Some((beside(alone, own_terms), beside(dependence, effect.added_parameters())))
+        let gained = beside(dependence, effect.added_parameters());
+        // An effect that is itself such an offset or trend is part of every dependence, and none is better for having it.
+        let is_common = gained < OWN && {
+            let without = log_posterior_with(bench, &step.base, common)?;
+            (alone - without) / step.dispersion < OWN
+        };
+        Some((beside(alone, own_terms), gained, is_common))
     };
-    // The difference of the two is that of the dependence alone and the effect alone.
-    let is_better = |dependence: f64, effect: f64| dependence > MORE || dependence - effect > TELLS_APART;
-    gains().is_some_and(|(dependence, effect)| effect < OWN && is_better(dependence, effect))
+    // The difference of the two gains is that of the dependence alone and the effect alone.
+    let is_better = |dependence: f64, effect: f64, is_common: bool| {
+        dependence > MORE || (!is_common && dependence - effect > TELLS_APART)
+    };
+    gains().is_some_and(|(dependence, effect, is_common)| effect < OWN && is_better(dependence, effect, is_common))
 }
 
 /// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there: then it is the

@@ -91,21 +91,19 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let all = candidates(bench.campaign, bench.measurements, &base.specification);
     let trials = trials(bench, base, &all);
     let base = polished(bench, base, &trials);
-    let ahead = if is_misfit(trials.iter()) { look_ahead(bench, &trials) } else { Vec::new() };
+    let misfit = is_misfit(trials.iter());
+    let ahead = if misfit { look_ahead(bench, &trials) } else { Vec::new() };
     let dispersion = dispersion(&base, &trials, &ahead);
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
     let before = held_out(bench, &base);
     let judge = |trial: Trial<'a>| {
-        let (gain_per_row, gain_std) = gain_over(&before, &held_out(bench, &trial));
+        let after = held_out(bench, &trial);
+        let (gain_per_row, gain_std) = gain_over(&before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
-        Judged { score, p_value, gain_per_row, gain_std, trial }
+        (Judged { score, p_value, gain_per_row, gain_std, trial }, after)
     };
-    let mut all: Vec<_> = trials.into_par_iter().map(judge).collect();
-    // What a fit can do to the runs that it sees, an effect that frees the right latents can do as well as the true one: runs
-    // that were not seen choose.
-    let key = |judged: &Judged<'_>| (judged.is_significant(), judged.gain_per_row);
-    all.sort_by(|a, b| key(b).0.cmp(&key(a).0).then(key(b).1.total_cmp(&key(a).1)));
+    let all = in_order(trials.into_par_iter().map(judge).collect(), misfit);
     let mut ranking: Vec<Judged<'a>> = Vec::new();
     for judged in all {
         if ranking.iter().all(|other| other.id() != judged.id()) {
@@ -113,6 +111,30 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         }
     }
     Step { base, ranking, dispersion, ahead }
+}
+
+/// Candidates with the runs as they predict them unseen, the best first: those that earn a place before the others. What a fit
+/// can do to the runs that it sees, an effect that frees the right latents can do as well as the true one. So the best of those
+/// runs yields to who predicts runs that were not seen better beyond chance; and where more than one effect is missing, so that
+/// the fit to those runs says little, to who predicts them better at all.
+fn in_order<'a>(mut judged: Vec<(Judged<'a>, Vec<HeldOutRun>)>, misfit: bool) -> Vec<Judged<'a>> {
+    let significant = judged.iter().filter(|(judged, _)| judged.is_significant());
+    let leader = significant.max_by(|a, b| a.0.score.total_cmp(&b.0.score)).map(|(_, runs)| runs.clone());
+    let place = |(judged, runs): &(Judged<'a>, Vec<HeldOutRun>)| match &leader {
+        Some(leader) if judged.is_significant() && (misfit || predicts_better(runs, leader)) => {
+            (2, judged.gain_per_row)
+        }
+        Some(_) if judged.is_significant() => (1, judged.score),
+        _ => (0, judged.gain_per_row),
+    };
+    judged.sort_by(|a, b| place(b).0.cmp(&place(a).0).then(place(b).1.total_cmp(&place(a).1)));
+    judged.into_iter().map(|(judged, _)| judged).collect()
+}
+
+/// Whether runs that were not seen are predicted better by more than one standard error over runs.
+fn predicts_better(runs: &[HeldOutRun], than: &[HeldOutRun]) -> bool {
+    let (gain, std) = gain_over(than, runs);
+    gain > std
 }
 
 /// The base at its best: a candidate that changes nothing may still have found a better place for the others.
@@ -136,12 +158,15 @@ pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[Trial<'a>])
     chosen(bench, base, shortlist.iter().filter_map(fitted).collect())
 }
 
-/// The candidate that runs which were not seen choose.
+/// The best of some candidates, by the rule of [`in_order`].
 pub fn chosen<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: Vec<Trial<'a>>) -> Option<Trial<'a>> {
-    let before = held_out(bench, base);
-    let gain = |trial: &Trial<'a>| gain_over(&before, &held_out(bench, trial)).0;
-    let judged = trials.into_iter().map(|trial| (gain(&trial), trial));
-    judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, trial)| trial)
+    let (before, misfit) = (held_out(bench, base), is_misfit(trials.iter()));
+    let judged: Vec<_> = trials.into_iter().map(|trial| (held_out(bench, &trial), trial)).collect();
+    let leader = judged.iter().max_by(|a, b| worth(&a.1).total_cmp(&worth(&b.1)))?;
+    let gain = |runs: &[HeldOutRun]| gain_over(&before, runs).0;
+    let better = judged.iter().filter(|(runs, _)| misfit || predicts_better(runs, &leader.0));
+    let best = better.max_by(|a, b| gain(&a.0).total_cmp(&gain(&b.0)));
+    Some(best.unwrap_or(leader).1.clone())
 }
 
 /// Whether more than one effect is missing.

@@ -138,7 +138,7 @@ pub(super) fn shares_by_run(
     };
     let estimated = problem.options.estimate_noise;
     let leverages =
-        estimated.contains(&true).then(|| leverages(problem, state, equations, &covariance)).unwrap_or_default();
+        if estimated.contains(&true) { leverages(problem, state, equations, &covariance) } else { Default::default() };
     let of_run = |index: usize| {
         let run = &equations.runs[index];
         let offset = state.offsets[index] + step.offsets[index];
