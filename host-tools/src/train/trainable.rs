@@ -29,7 +29,7 @@ pub trait Trainable: Numbers + Clone + Send + Sync {
     fn matrices() -> Vec<[usize; 2]>;
     /// Runs the network as it flies.
     fn run(&self, input: &Self::Input) -> [f32; OUTPUTS];
-    /// Runs it on at most [`LANES`] examples, with the same bits; lanes without an example hold anything finite.
+    /// Runs it on at most `LANES` examples, with the same bits; lanes without an example hold anything finite.
     fn run_block<S: Simd>(&self, simd: S, examples: &[Example<Self::Input>]) -> Self::Block;
     /// The outputs in a block.
     fn outputs(block: &Self::Block) -> &[Lane; OUTPUTS];

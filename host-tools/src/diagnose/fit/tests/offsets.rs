@@ -106,7 +106,8 @@ fn offsets_that_are_not_there_are_estimated_small() {
     }
 }
 
-/// From where a fit ended, standard deviations included, the same answer is a step or two away.
+/// From where a fit ended, standard deviations included, the same answer is a step or two away. Scales are estimated until
+/// they hardly change, so that what is gained by going on is little, and nothing is lost.
 #[test]
 fn a_fit_goes_on_from_where_one_ended() {
     let (model, rows) = campaign(&[3, 4, 2, 3, 5, 2, 4], 3, 10);
@@ -114,7 +115,8 @@ fn a_fit_goes_on_from_where_one_ended() {
     let first = fitted(&model, &rows, &options);
     let again = fit(&model, &rows, &first.onward(), &options).unwrap();
     assert!(again.converged && again.iterations < first.iterations, "{} {}", again.iterations, first.iterations);
-    assert!((again.log_likelihood - first.log_likelihood).abs() < 1e-3);
+    let gain = again.log_likelihood - first.log_likelihood;
+    assert!(gain > -1e-3 && gain < 1e-2, "{gain}");
     for c in 0..4 {
         assert!((again.offset_std[c] / first.offset_std[c]).ln().abs() < 0.05);
     }
