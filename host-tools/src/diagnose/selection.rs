@@ -113,10 +113,10 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     Step { base, ranking, dispersion, ahead }
 }
 
-/// Candidates with the runs as they predict them unseen, the best first: those that earn a place before the others. What a fit
-/// can do to the runs that it sees, an effect that frees the right latents can do as well as the true one. So the best of those
-/// runs yields to who predicts runs that were not seen better beyond chance; and where more than one effect is missing, so that
-/// the fit to those runs says little, to who predicts them better at all.
+/// Candidates with their predictions of unseen runs, the best first; those that earn a place come before the others. An effect
+/// that frees the right latents can fit the runs that it sees as well as the true one does. So the best by fit yields to those
+/// that predict unseen runs better beyond chance, and where more than one effect is missing and a fit says little, to those that
+/// predict them better at all.
 fn in_order<'a>(mut judged: Vec<(Judged<'a>, Vec<HeldOutRun>)>, misfit: bool) -> Vec<Judged<'a>> {
     let significant = judged.iter().filter(|(judged, _)| judged.is_significant());
     let leader = significant.max_by(|a, b| a.0.score.total_cmp(&b.0.score)).map(|(_, runs)| runs.clone());
