@@ -6,12 +6,8 @@ use kapvik_firmware::terramechanics::{Soil, Wheel};
 use nalgebra::SMatrix;
 use serde::Serialize;
 
-use crate::identify::method::Assumed;
+use crate::identify::method::{Assumed, training_prior};
 use crate::limit::coordinates::DIMENSION;
-use crate::train::prior::{
-    COHESION_PA, FRICTION_ANGLE_RAD, PEAK_STRESS_C1, PEAK_STRESS_C2, Range, SHEAR_MODULUS_M, SINKAGE_EXPONENT,
-    STIFFNESS,
-};
 
 /// Parameters of a soil in a bound: ln c, φ, ln K, n, ln(k_c/b + k_φ), c₁, c₂, in this order.
 pub const PARAMETERS: usize = DIMENSION;
@@ -74,7 +70,7 @@ impl Beforehand {
     pub fn standardised(&self) -> [Standardised; PARAMETERS] {
         let Self { targets, pressure, peak } = *self;
         let knowledge = [targets, targets, targets, pressure, pressure, peak, peak];
-        let (usual, trained_with) = (prior_stds(), training_stds());
+        let (usual, trained_with) = (prior_stds(), stds(&training_prior()));
         std::array::from_fn(|place| match knowledge[place] {
             Knowledge::Known => Standardised { scale: 0.0, precision: 1.0 },
             Knowledge::Prior => Standardised { scale: usual[place], precision: 1.0 },
@@ -86,7 +82,11 @@ impl Beforehand {
 
 /// Standard deviations of the usual prior.
 pub fn prior_stds() -> [f64; PARAMETERS] {
-    let prior = SoilPrior::<f64>::usual();
+    stds(&SoilPrior::usual())
+}
+
+/// Of a flat belief, that of its range.
+fn stds(prior: &SoilPrior<f64>) -> [f64; PARAMETERS] {
     [
         prior.ln_cohesion,
         prior.friction_angle_rad,
@@ -96,17 +96,7 @@ pub fn prior_stds() -> [f64; PARAMETERS] {
         prior.peak_stress_c1,
         prior.peak_stress_c2,
     ]
-    .map(|belief| belief.std.unwrap_or(f64::INFINITY))
-}
-
-/// Standard deviations of the prior that the networks are trained with: uniform in each range.
-pub fn training_stds() -> [f64; PARAMETERS] {
-    let ranges =
-        [COHESION_PA, FRICTION_ANGLE_RAD, SHEAR_MODULUS_M, SINKAGE_EXPONENT, STIFFNESS, PEAK_STRESS_C1, PEAK_STRESS_C2];
-    ranges.map(|Range { low, high, logarithmic }| {
-        let width = if logarithmic { libm::log(high / low) } else { high - low };
-        width / libm::sqrt(12.0)
-    })
+    .map(|belief| belief.std.unwrap_or((belief.high - belief.low) / libm::sqrt(12.0)))
 }
 
 /// The soil in the middle of the usual prior.
