@@ -13,7 +13,7 @@ use std::process::exit;
 use std::{env, fs};
 
 use kapvik_table_file::TableFile;
-use network::{GOLDEN_PAIRS, Numbers, PartVisitor, RoverTable, WheelTable, checksum};
+use network::{FLOWN_PAIRS, GOLDEN_PAIRS, Numbers, PartVisitor, RoverTable, WheelTable, checksum};
 
 /// Names another table than the one in the source tree; `none` builds without one, to train the first of a new shape.
 const OVERRIDE: &str = "KAPVIK_WEIGHTS";
@@ -47,7 +47,8 @@ fn link_search(here: &Path) -> Result<(), String> {
 }
 
 fn freeze(here: &Path) -> Result<(), String> {
-    let (mut wheel, mut rover) = (WheelTable::ZERO, RoverTable::ZERO);
+    let (mut wheel, mut rover) = (<WheelTable>::ZERO, <RoverTable>::ZERO);
+    let mut file_crc = None;
     let chosen = env::var(OVERRIDE).ok();
     let trained = chosen.as_deref() != Some("none");
     if trained {
@@ -55,12 +56,13 @@ fn freeze(here: &Path) -> Result<(), String> {
         println!("cargo::rerun-if-changed={}", path.display());
         let in_file = |message: String| format!("{}: {message}", path.display());
         let bytes = fs::read(&path).map_err(|error| in_file(error.to_string()))?;
+        file_crc = Some(kapvik_table_file::checksum(&bytes));
         let file = TableFile::parse(&bytes).map_err(|error| in_file(error.to_string()))?;
         fill(&file, &mut wheel, &mut rover).map_err(in_file)?;
         prove(&wheel, &rover).map_err(in_file)?;
     }
     let out = env::var("OUT_DIR").map_err(|error| error.to_string())?;
-    write(&Path::new(&out).join("frozen.rs"), trained, &wheel, &rover)
+    write(&Path::new(&out).join("frozen.rs"), file_crc, &wheel.flown(), &rover.flown())
 }
 
 /// Takes numbers from a file, part by part; keeps the first thing that does not fit.
@@ -112,13 +114,19 @@ fn prove(wheel: &WheelTable, rover: &RoverTable) -> Result<(), String> {
 }
 
 /// The derived `Debug` of the tables is Rust source, and Rust prints an `f32` so that it reads back to the same bits.
-fn write(path: &Path, trained: bool, wheel: &WheelTable, rover: &RoverTable) -> Result<(), String> {
+fn write(
+    path: &Path,
+    file_crc: Option<u32>,
+    wheel: &WheelTable<FLOWN_PAIRS>,
+    rover: &RoverTable<FLOWN_PAIRS>,
+) -> Result<(), String> {
     let source = format!(
-        "/// Whether a trained table was frozen in.\npub const TRAINED: bool = {trained};\n\
+        "/// CRC-32 of the file of the trained table that was frozen in, if one was.\n\
+         pub const FILE_CRC: Option<u32> = {file_crc:?};\n\
          /// Checksum of [`WHEEL`].\npub const WHEEL_CRC: u32 = {:#010x};\n\
          /// Checksum of [`ROVER`].\npub const ROVER_CRC: u32 = {:#010x};\n\
-         /// The per-wheel network.\npub static WHEEL: WheelTable = {wheel:?};\n\
-         /// The rover network.\npub static ROVER: RoverTable = {rover:?};\n",
+         /// The per-wheel network.\npub static WHEEL: WheelTable<FLOWN_PAIRS> = {wheel:?};\n\
+         /// The rover network.\npub static ROVER: RoverTable<FLOWN_PAIRS> = {rover:?};\n",
         checksum(wheel),
         checksum(rover)
     );

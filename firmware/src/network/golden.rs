@@ -3,8 +3,11 @@
 use super::numbers;
 use super::shape::{OUTPUTS, ROVER_CONTEXT, ROVER_WHEELS, WHEEL_FEATURES, WHEEL_INPUTS};
 
-/// Golden pairs of each network.
+/// Golden pairs of each network in a table's file, which the build script proves.
 pub const GOLDEN_PAIRS: usize = 32;
+/// The first of them, which fly and are proved again at boot. A checksum guards the weights; these guard the arithmetic, and
+/// more would take the place of weights.
+pub const FLOWN_PAIRS: usize = 8;
 
 /// A pair of the per-wheel network: inputs before normalisation, outputs as the network gives them.
 #[derive(Debug, Clone, PartialEq)]

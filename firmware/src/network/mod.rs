@@ -14,7 +14,7 @@ mod shape;
 mod table;
 mod wheel_network;
 
-pub use golden::{GOLDEN_PAIRS, RoverGolden, WheelGolden};
+pub use golden::{FLOWN_PAIRS, GOLDEN_PAIRS, RoverGolden, WheelGolden};
 pub use layer::{Layer, Weights};
 pub use normalisation::Normalisation;
 pub use parts::PartVisitor;
@@ -56,8 +56,8 @@ impl<T: Numbers, const N: usize> Numbers for [T; N] {
 
 /// Writes [`Numbers`] for a struct: its fields in the order given.
 macro_rules! numbers {
-    ($name:ty : $($field:ident),+) => {
-        impl $crate::network::Numbers for $name {
+    ($name:ty $(where $size:ident)? : $($field:ident),+) => {
+        impl$(<const $size: usize>)? $crate::network::Numbers for $name {
             fn for_each(&self, see: &mut impl FnMut(f32)) {
                 $(self.$field.for_each(see);)+
             }

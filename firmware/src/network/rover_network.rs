@@ -6,12 +6,12 @@
 use heapless::Vec;
 
 use super::shape::{
-    OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_WHEELS,
-    WHEEL_FEATURES,
+    OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD,
+    ROVER_WHEELS, WHEEL_FEATURES,
 };
 use super::{Layer, Weights, activate, joined, numbers};
 
-/// A shared layer for each wheel, a pool, and a head of two layers.
+/// A shared layer for each wheel, a pool, and a head of three layers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoverNetwork {
     /// The shared inputs' part in the wheels' layer; the same for each wheel, so it is summed once.
@@ -22,10 +22,12 @@ pub struct RoverNetwork {
     pub first: Layer<ROVER_HEAD_INPUTS, ROVER_FIRST_HEAD>,
     /// Second layer behind the pool.
     pub second: Layer<ROVER_FIRST_HEAD, ROVER_SECOND_HEAD>,
+    /// Third layer behind the pool.
+    pub third: Layer<ROVER_SECOND_HEAD, ROVER_THIRD_HEAD>,
     /// Linear output: means, then log-variances.
-    pub output: Layer<ROVER_SECOND_HEAD, OUTPUTS>,
+    pub output: Layer<ROVER_THIRD_HEAD, OUTPUTS>,
 }
-numbers!(RoverNetwork: context, wheel, first, second, output);
+numbers!(RoverNetwork: context, wheel, first, second, third, output);
 
 /// What the neurons put out for one rover; a trainer needs it to propagate errors back.
 #[derive(Debug, Clone)]
@@ -38,6 +40,8 @@ pub struct RoverActivations {
     pub first: [f32; ROVER_FIRST_HEAD],
     /// Of the second layer behind the pool.
     pub second: [f32; ROVER_SECOND_HEAD],
+    /// Of the third layer behind the pool.
+    pub third: [f32; ROVER_THIRD_HEAD],
     /// Of the output layer.
     pub output: [f32; OUTPUTS],
 }
@@ -49,6 +53,7 @@ impl RoverNetwork {
         wheel: Weights::ZERO,
         first: Layer::ZERO,
         second: Layer::ZERO,
+        third: Layer::ZERO,
         output: Layer::ZERO,
     };
 
@@ -71,7 +76,8 @@ impl RoverNetwork {
         let pool = pool(&wheels, context);
         let first = self.first.run(&pool, gradient);
         let second = self.second.run(&first, gradient);
-        RoverActivations { wheels, pool, first, second, output: self.output.apply(&second) }
+        let third = self.third.run(&second, gradient);
+        RoverActivations { wheels, pool, first, second, third, output: self.output.apply(&third) }
     }
 }
 

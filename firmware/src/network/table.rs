@@ -2,12 +2,13 @@
 
 use super::shape::{OUTPUTS, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPUTS};
 use super::{
-    GOLDEN_PAIRS, Normalisation, Numbers, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden, WheelNetwork, numbers,
+    FLOWN_PAIRS, GOLDEN_PAIRS, Normalisation, Numbers, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden,
+    WheelNetwork, numbers,
 };
 
 /// The per-wheel network, frozen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WheelTable {
+pub struct WheelTable<const PAIRS: usize = GOLDEN_PAIRS> {
     /// Coefficient A of the bipolar sigmoid, equation 13.
     pub gradient: f32,
     /// Of the inputs.
@@ -17,13 +18,13 @@ pub struct WheelTable {
     /// What the outputs mean.
     pub posterior: PosteriorScale,
     /// Pairs that the network must reproduce.
-    pub golden: [WheelGolden; GOLDEN_PAIRS],
+    pub golden: [WheelGolden; PAIRS],
 }
-numbers!(WheelTable: gradient, normalisation, network, posterior, golden);
+numbers!(WheelTable<PAIRS> where PAIRS: gradient, normalisation, network, posterior, golden);
 
 /// The rover network, frozen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RoverTable {
+pub struct RoverTable<const PAIRS: usize = GOLDEN_PAIRS> {
     /// Coefficient A of the bipolar sigmoid, equation 13.
     pub gradient: f32,
     /// Of the inputs that the wheels share.
@@ -35,18 +36,26 @@ pub struct RoverTable {
     /// What the outputs mean.
     pub posterior: PosteriorScale,
     /// Pairs that the network must reproduce.
-    pub golden: [RoverGolden; GOLDEN_PAIRS],
+    pub golden: [RoverGolden; PAIRS],
 }
-numbers!(RoverTable: gradient, context, wheel, network, posterior, golden);
+numbers!(RoverTable<PAIRS> where PAIRS: gradient, context, wheel, network, posterior, golden);
 
 impl WheelTable {
+    /// The table as it flies: with the first of its golden pairs.
+    pub fn flown(&self) -> WheelTable<FLOWN_PAIRS> {
+        let Self { gradient, normalisation, network, posterior, golden } = self.clone();
+        WheelTable { gradient, normalisation, network, posterior, golden: first_of(&golden, WheelGolden::ZERO) }
+    }
+}
+
+impl<const PAIRS: usize> WheelTable<PAIRS> {
     /// All zero, to be filled.
     pub const ZERO: Self = Self {
         gradient: 0.0,
         normalisation: Normalisation::ZERO,
         network: WheelNetwork::ZERO,
         posterior: PosteriorScale::ZERO,
-        golden: [WheelGolden::ZERO; GOLDEN_PAIRS],
+        golden: [const { WheelGolden::ZERO }; PAIRS],
     };
 
     /// The network's outputs for inputs in their own units.
@@ -63,6 +72,14 @@ impl WheelTable {
 }
 
 impl RoverTable {
+    /// The table as it flies: with the first of its golden pairs.
+    pub fn flown(&self) -> RoverTable<FLOWN_PAIRS> {
+        let Self { gradient, context, wheel, network, posterior, golden } = self.clone();
+        RoverTable { gradient, context, wheel, network, posterior, golden: first_of(&golden, RoverGolden::ZERO) }
+    }
+}
+
+impl<const PAIRS: usize> RoverTable<PAIRS> {
     /// All zero, to be filled.
     pub const ZERO: Self = Self {
         gradient: 0.0,
@@ -70,7 +87,7 @@ impl RoverTable {
         wheel: Normalisation::ZERO,
         network: RoverNetwork::ZERO,
         posterior: PosteriorScale::ZERO,
-        golden: [RoverGolden::ZERO; GOLDEN_PAIRS],
+        golden: [const { RoverGolden::ZERO }; PAIRS],
     };
 
     /// The network's outputs for inputs in their own units.
@@ -93,6 +110,11 @@ impl RoverTable {
         };
         self.golden.iter().filter(|pair| same_bits(&outputs(pair), &pair.output)).count()
     }
+}
+
+/// The first of a list; `empty` where it is shorter.
+fn first_of<T: Clone>(all: &[T], empty: T) -> [T; FLOWN_PAIRS] {
+    core::array::from_fn(|place| all.get(place).unwrap_or(&empty).clone())
 }
 
 fn same_bits(left: &[f32; OUTPUTS], right: &[f32; OUTPUTS]) -> bool {

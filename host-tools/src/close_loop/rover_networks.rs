@@ -66,7 +66,7 @@ impl Rovers {
 }
 
 /// Scores of several networks on the same rovers: for each kind its name, and a score for each network.
-pub fn compare(tables: &[&RoverTable], rovers: &Rovers) -> Vec<(&'static str, Vec<Score>)> {
+pub fn compare<const PAIRS: usize>(tables: &[&RoverTable<PAIRS>], rovers: &Rovers) -> Vec<(&'static str, Vec<Score>)> {
     let scores = |scenes: &[Scene]| tables.iter().map(|table| score_rover(table, scenes, rovers.seed)).collect();
     rovers.kinds.iter().map(|(name, scenes)| (*name, scores(scenes))).collect()
 }

@@ -1,7 +1,7 @@
 //! What is told of the flight computer.
 
 use kapvik_firmware::link::{BootReport, HealthReport};
-use kapvik_firmware::network::GOLDEN_PAIRS;
+use kapvik_firmware::network::FLOWN_PAIRS;
 use kapvik_firmware::self_test::SelfTestReport;
 use maud::{Markup, html};
 
@@ -104,7 +104,7 @@ fn self_test(report: &SelfTestReport) -> String {
         if report.tables_intact { "intact" } else { "ALTERED" },
         report.wheel_pairs,
         report.rover_pairs,
-        GOLDEN_PAIRS
+        FLOWN_PAIRS
     )
 }
 

@@ -26,7 +26,7 @@ impl Plan {
             seed,
             scenes: 400_000,
             held_out: 60_000,
-            rover_epochs: 150,
+            rover_epochs: 500,
             wheel_epochs: 40,
             comparison_scenes: 16_000,
             comparison_steps: 12,

@@ -82,11 +82,11 @@ pub fn soil(parameters: [f64; SOIL_PARAMETERS]) -> Soil<f64> {
 }
 
 /// Share of scenes with Kapvik's wheel.
-pub const KAPVIK_SHARE: f64 = 0.7;
+pub const KAPVIK_SHARE: f64 = 0.75;
 /// Share of scenes that surely have all six wheels; the others have one to six.
-pub const WHOLE_ROVER_SHARE: f64 = 0.7;
+pub const WHOLE_ROVER_SHARE: f64 = 0.8;
 /// Share of scenes whose wheels are driven at deliberately different rim speeds.
-pub const SPREAD_SHARE: f64 = 0.7;
+pub const SPREAD_SHARE: f64 = 0.8;
 
 /// Kapvik's wheel. Assumed, not published (assumption set K0).
 pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
@@ -103,7 +103,7 @@ pub const WIDTH_RATIO: Range = Range::linear(0.5, 1.3);
 /// Mean of W/(rb) of other wheels, Pa.
 pub const PRESSURE_PA: Range = Range::logarithmic(2.2e3, 2.2e4);
 /// Half of the spread of load among the wheels of an instant, as a share of the mean.
-pub const LOAD_SPREAD: Range = Range::logarithmic(0.02, 0.5);
+pub const LOAD_SPREAD: Range = Range::logarithmic(0.03, 0.6);
 /// Slip of a wheel.
 pub const SLIP: Range = Range::linear(0.02, 0.70);
 /// Least slip among wheels that are driven at deliberately different rim speeds.

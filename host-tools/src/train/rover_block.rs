@@ -1,8 +1,8 @@
 //! The rover network on blocks of examples.
 
 use kapvik_firmware::network::{
-    OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_WHEELS,
-    RoverNetwork, WHEEL_FEATURES, Weights,
+    OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD,
+    ROVER_WHEELS, RoverNetwork, WHEEL_FEATURES, Weights,
 };
 use pulp::Simd;
 
@@ -22,6 +22,7 @@ pub struct RoverBlock {
     pool: [Lane; ROVER_HEAD_INPUTS],
     first: [Lane; ROVER_FIRST_HEAD],
     second: [Lane; ROVER_SECOND_HEAD],
+    third: [Lane; ROVER_THIRD_HEAD],
     output: [Lane; OUTPUTS],
 }
 
@@ -59,7 +60,8 @@ impl Trainable for RoverNetwork {
             wheel: Weights([[wheel as f32; ROVER_HIDDEN]; WHEEL_FEATURES]),
             first: layer_fan_in(ROVER_HEAD_INPUTS),
             second: layer_fan_in(ROVER_FIRST_HEAD),
-            output: layer_fan_in(ROVER_SECOND_HEAD),
+            third: layer_fan_in(ROVER_SECOND_HEAD),
+            output: layer_fan_in(ROVER_THIRD_HEAD),
         }
     }
     fn matrices() -> Vec<[usize; 2]> {
@@ -68,7 +70,8 @@ impl Trainable for RoverNetwork {
             [WHEEL_FEATURES, ROVER_HIDDEN],
             [ROVER_HEAD_INPUTS + 1, ROVER_FIRST_HEAD],
             [ROVER_FIRST_HEAD + 1, ROVER_SECOND_HEAD],
-            [ROVER_SECOND_HEAD + 1, OUTPUTS],
+            [ROVER_SECOND_HEAD + 1, ROVER_THIRD_HEAD],
+            [ROVER_THIRD_HEAD + 1, OUTPUTS],
         ]
     }
     fn run(&self, input: &RoverInput) -> [f32; OUTPUTS] {
@@ -84,6 +87,7 @@ impl Trainable for RoverNetwork {
             pool: [ZERO; ROVER_HEAD_INPUTS],
             first: [ZERO; ROVER_FIRST_HEAD],
             second: [ZERO; ROVER_SECOND_HEAD],
+            third: [ZERO; ROVER_THIRD_HEAD],
             output: [ZERO; OUTPUTS],
         };
         let mut shared = [ZERO; ROVER_HIDDEN];
@@ -96,7 +100,8 @@ impl Trainable for RoverNetwork {
         pool(&mut block, examples);
         run_layer(simd, &self.first, &block.pool, &mut block.first);
         run_layer(simd, &self.second, &block.first, &mut block.second);
-        apply_layer(simd, &self.output, &block.second, &mut block.output);
+        run_layer(simd, &self.third, &block.second, &mut block.third);
+        apply_layer(simd, &self.output, &block.third, &mut block.output);
         block
     }
     fn outputs(block: &RoverBlock) -> &[Lane; OUTPUTS] {
@@ -105,9 +110,13 @@ impl Trainable for RoverNetwork {
 
     #[inline(always)]
     fn backward<S: Simd>(&self, simd: S, block: &RoverBlock, slope: &[Lane; OUTPUTS], gradient: &mut Self) {
-        add_layer_gradient(simd, &block.second, slope, &mut gradient.output);
+        add_layer_gradient(simd, &block.third, slope, &mut gradient.output);
+        let mut third = [ZERO; ROVER_THIRD_HEAD];
+        add_input_slope(simd, &self.output.weights, slope, &mut third);
+        before_activation(&mut third, &block.third);
+        add_layer_gradient(simd, &block.second, &third, &mut gradient.third);
         let mut second = [ZERO; ROVER_SECOND_HEAD];
-        add_input_slope(simd, &self.output.weights, slope, &mut second);
+        add_input_slope(simd, &self.third.weights, &third, &mut second);
         before_activation(&mut second, &block.second);
         add_layer_gradient(simd, &block.first, &second, &mut gradient.second);
         let mut first = [ZERO; ROVER_FIRST_HEAD];

@@ -63,13 +63,13 @@ pub fn score(posteriors: &[Posterior], truths: &[[f64; TARGETS]]) -> Score {
 }
 
 /// The posterior of ln c, φ, ln K that a rover network gives for a query.
-pub fn rover_posterior(table: &RoverTable, query: &SoilQuery) -> Posterior {
+pub fn rover_posterior<const PAIRS: usize>(table: &RoverTable<PAIRS>, query: &SoilQuery) -> Posterior {
     let (context, wheels) = query.rover_features();
     table.posterior.read(&table.outputs(&context, wheels))
 }
 
 /// Scores a rover network on one noisy observation of each scene, through the functions that fly.
-pub fn score_rover(table: &RoverTable, scenes: &[Scene], seed: u32) -> Score {
+pub fn score_rover<const PAIRS: usize>(table: &RoverTable<PAIRS>, scenes: &[Scene], seed: u32) -> Score {
     let (posteriors, truths): (Vec<Posterior>, Vec<[f64; TARGETS]>) = scenes
         .par_iter()
         .enumerate()
