@@ -14,6 +14,11 @@ const STEP: f64 = 16.0;
 
 /// Of what the candidates explained badly, the share that is still held against them a frame later.
 const MEMORY: f64 = 0.98;
+/// What smooth ground can hold against a faster rate, in twice the logarithm of likelihoods: the chance that the next frame is rough is
+/// never below e⁻⁵. Ground gets rough from one frame to the next; that it has become smooth, only a length of it tells.
+const HELD_AGAINST_FASTER: f64 = 10.0;
+/// The geometric mean of the candidates: the rate of which nothing is known.
+const UNKNOWN: f64 = LEAST * STEP * STEP;
 
 /// The rate of one quantity.
 #[derive(Debug, Clone, Copy)]
@@ -38,22 +43,30 @@ impl<S: Scalar> WalkRate<S> {
     pub fn new(phase: usize) -> Self {
         let filter = ScalarFilter { mean: S::zero(), variance: S::constant(1.0e6) };
         let trial = Trial { filter, log_variance: S::zero(), misfit: S::zero() };
-        Self { trials: [trial; CANDIDATES], factor: S::one(), frame: phase }
+        Self { trials: [trial; CANDIDATES], factor: S::constant(UNKNOWN), frame: phase }
     }
 
     /// Takes a measurement with noise of this variance, where the nominal walk since the one before has `nominal_variance`.
     pub fn see(&mut self, measured: S, noise_variance: S, nominal_variance: S) {
+        self.see_moved(measured, noise_variance, nominal_variance, S::zero());
+    }
+
+    /// The same of a sensor that itself has wandered since the measurement before, with `known_variance`.
+    pub fn see_moved(&mut self, measured: S, noise_variance: S, nominal_variance: S, known_variance: S) {
         self.frame = self.frame.wrapping_add(1);
         let renew = self.frame.is_multiple_of(CANDIDATES);
         let mut factor = S::constant(LEAST);
+        let mut slower = S::constant(1.0e30);
         for trial in &mut self.trials {
-            trial.filter.variance += factor * nominal_variance;
+            trial.filter.variance += factor * nominal_variance + known_variance;
             let (misfit, variance) = trial.filter.update(measured, noise_variance);
             if renew {
                 trial.log_variance = variance.ln();
             }
             // One wild measurement says that something is wrong with it, and little about the rate.
-            trial.misfit = S::constant(MEMORY) * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            let misfit = S::constant(MEMORY) * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            trial.misfit = misfit.min(slower + S::constant(HELD_AGAINST_FASTER));
+            slower = slower.min(trial.misfit);
             factor = factor * S::constant(STEP);
         }
         if renew {
