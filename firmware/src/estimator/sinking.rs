@@ -35,6 +35,7 @@ impl<S: Scalar> Sinking<S> {
     }
 
     /// Takes how the loads, N, have changed over so much travel.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn follow(&mut self, travel_m: S, before: PerAxle<S>, after: PerAxle<S>) {
         if travel_m < S::constant(LEAST_TRAVEL) {
             self.slopes_rad = PerAxle::all(S::zero());

@@ -52,6 +52,7 @@ impl<S: Scalar> WalkRate<S> {
     }
 
     /// The same of a sensor that itself has wandered since the measurement before, with `known_variance`.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn see_moved(&mut self, measured: S, noise_variance: S, nominal_variance: S, known_variance: S) {
         self.frame = self.frame.wrapping_add(1);
         let renew = self.frame.is_multiple_of(CANDIDATES);

@@ -98,6 +98,7 @@ impl<'a, S: Scalar> SideForces<'a, S> {
         }
     }
 
+    #[inline(never)] // flash is scarcer than the time of a call
     fn sum(&self) -> Force<S> {
         let (forward, forward_variance) = self.estimate.weighted_sum(&self.forward);
         let (upward, upward_variance) = self.estimate.weighted_sum(&self.upward);
@@ -106,6 +107,7 @@ impl<'a, S: Scalar> SideForces<'a, S> {
     }
 
     /// What the filter says, told the force that its side must come to.
+    #[inline(never)] // as above
     fn with(&self, force: &Force<S>) -> Gaussian<S, STATES> {
         let mut estimate = *self.estimate;
         estimate.take(&self.upward, force.upward, force.upward_variance);

@@ -76,6 +76,7 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     /// difference of covariances). For sums alone: a model that bends goes through [`SigmaPointFilter::update`].
     ///
     /// [`SigmaPointFilter::update`]: super::SigmaPointFilter::update
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn take(&mut self, weights: &[T; N], measured: T, noise_variance: T) {
         let slopes = self.root.each_ref().map(|column| dot(weights, column));
         let variance = dot(&slopes, &slopes) + noise_variance;
