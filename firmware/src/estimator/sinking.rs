@@ -50,3 +50,22 @@ impl<S: Scalar> Sinking<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Sinking;
+    use crate::rover::PerAxle;
+
+    /// A load that grows by 20 N over 0.2 m, a hundredth of that a frame: 0.15 mm/N make 3 mm over 0.2 m, 0.015.
+    #[test]
+    fn a_wheel_sinks_as_its_load_grows_and_not_where_it_stands() {
+        let mut sinking = Sinking::<f64>::new();
+        for _ in 0..100 {
+            sinking.follow(0.002, PerAxle::all(60.0), PerAxle { front: 60.2, middle: 60.0, rear: 59.8 });
+        }
+        let PerAxle { front, middle, rear } = *sinking.slopes();
+        assert!((front - 0.015).abs() < 1.0e-6 && middle == 0.0 && (rear + 0.015).abs() < 1.0e-6, "{front} {rear}");
+        sinking.follow(0.0, PerAxle::all(60.0), PerAxle::all(90.0));
+        assert_eq!(*sinking.slopes(), PerAxle::all(0.0));
+    }
+}

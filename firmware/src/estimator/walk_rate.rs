@@ -129,4 +129,16 @@ mod tests {
         assert!(rate(0.0) < 1.0e-3, "{}", rate(0.0));
         assert!(rate(1.0) > 1.0, "{}", rate(1.0));
     }
+
+    /// After a length of smooth ground in which every measurement is within its noise, one that begins to wander by several times its
+    /// noise a frame is noticed within a few.
+    #[test]
+    fn smooth_ground_does_not_argue_for_long() {
+        let mut rate = WalkRate::<f64>::new(0);
+        let noise = |frame: u32| if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
+        (0..400).for_each(|frame| rate.see(noise(frame), 0.01, 0.01));
+        assert!(rate.factor() < 1.0e-2, "{}", rate.factor());
+        (0..10).for_each(|frame| rate.see(0.3 * f64::from(frame) + noise(frame), 0.01, 0.01));
+        assert!(rate.factor() > 0.5, "{}", rate.factor());
+    }
 }

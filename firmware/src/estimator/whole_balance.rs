@@ -121,3 +121,42 @@ impl<'a, S: Scalar> SideForces<'a, S> {
         estimate
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Force, SideForces};
+    use crate::filter::Gaussian;
+
+    /// One side at the level, told that it carries 210 N and pulls 6 N, more surely than it knows either itself: what it lacks
+    /// goes to the forces in proportion to their variances, and its sums come out as told.
+    #[test]
+    fn what_a_side_lacks_goes_to_the_forces_that_are_known_least() {
+        let mean: [f64; 5] = [70.0, 60.0, 65.0, 2.0, 1.0];
+        let estimate = Gaussian::independent(mean, [1.0, 2.0, 1.0, 1.0, 2.0]).expect("numbers");
+        let side = SideForces::new(&estimate, (0.0, 1.0), (0.0, 1.0));
+        let told =
+            Force { forward: 6.0, upward: 210.0, forward_variance: 0.01, upward_variance: 0.01, covariance: 0.0 };
+        let balanced = side.with(&told);
+        // 15 N upward by 1 : 4 : 1 of 6.01, 3 N forward by 1 : 4 of 5.01.
+        let (up, on) = (15.0 / 6.01, 3.0 / 5.01);
+        let expected: [f64; 5] = [70.0 + up, 60.0 + 4.0 * up, 65.0 + up, 2.0 + on, 1.0 + 4.0 * on];
+        for (found, expected) in balanced.mean().iter().zip(expected) {
+            assert!((found - expected).abs() < 1.0e-9, "{:?}", balanced.mean());
+        }
+        assert!((balanced.weighted_sum(&side.upward).1 - 6.0 * 0.01 / 6.01).abs() < 1.0e-9);
+    }
+
+    /// Errors that belong together: what is told forward and upward with a covariance must come to the joint answer, which for
+    /// a side that knows next to nothing is what it was told.
+    #[test]
+    fn correlated_forces_are_taken_as_such() {
+        let estimate = Gaussian::independent([60.0_f64, 60.0, 60.0, 0.0, 0.0], [1.0e3; 5]).expect("numbers");
+        let side = SideForces::new(&estimate, (0.1, 0.995), (-0.05, 0.999));
+        let told =
+            Force { forward: 30.0, upward: 190.0, forward_variance: 4.0, upward_variance: 1.0, covariance: -1.5 };
+        let sum = side.with(&told).weighted_sum(&side.forward);
+        let covariance = side.with(&told).covariance_of_sums(&side.forward, &side.upward);
+        assert!((sum.0 - 30.0).abs() < 1.0e-3 && (sum.1 - 4.0).abs() < 1.0e-3, "{sum:?}");
+        assert!((covariance + 1.5).abs() < 1.0e-3, "{covariance}");
+    }
+}
