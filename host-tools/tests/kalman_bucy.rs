@@ -11,7 +11,7 @@ use kapvik_firmware::estimator::contact_angle::{self, ContactAngleModel};
 use kapvik_firmware::estimator::hub_force::{self, HubForceModel};
 use kapvik_firmware::estimator::slip_torque::{self, SlipTorqueModel};
 use kapvik_firmware::filter::{Fusion, Gate, Gaussian, Prediction, SigmaPointFilter};
-use kapvik_firmware::rover::{Axes, RollingSide, Rover, body_moment_nm};
+use kapvik_firmware::rover::{Axes, PerAxle, RollingSide, Rover, body_moment_nm};
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::data::truth_file::Truth;
 use kapvik_host::reference::continuous_model::ContinuousModel;
@@ -168,6 +168,7 @@ impl Side {
             rim_speed_m_s: radius_m * readings.rates.iter().sum::<f64>() / 3.0,
             body_pitch: truth.pitch_rad.sin_cos(),
             body_rate_rad_s: readings.pitch_rate,
+            sinking_rad: PerAxle::all(0.0),
         };
         let [forward, up] = readings.velocity;
         self.angles.tick(&model, [forward, up, readings.rocker, readings.bogie, readings.pitch]);

@@ -31,15 +31,21 @@ pub struct ContactAngleModel<S> {
     pub body_pitch: (S, S),
     /// Rate of the body's pitch that the gyro tells, rad/s, nose-up.
     pub body_rate_rad_s: S,
+    /// How steeply each wheel sinks below the terrain that its hub travels along, rad: by so much less than the contact angle its
+    /// hub rises.
+    pub sinking_rad: PerAxle<S>,
 }
 
 impl<S: Scalar> ContactAngleModel<S> {
     /// The motion that a state stands for.
     pub fn motion(&self, state: &[S; STATES]) -> RollingMotion<S> {
         let [ratio, front, middle, rear, rocker_pitch_rad, bogie_pitch_rad, _] = *state;
+        let sinking = &self.sinking_rad;
+        let path_angles_rad =
+            PerAxle { front: front - sinking.front, middle: middle - sinking.middle, rear: rear - sinking.rear };
         self.side.motion(&RollingState {
             speed_m_s: ratio * self.rim_speed_m_s,
-            contact_angles_rad: PerAxle { front, middle, rear },
+            contact_angles_rad: path_angles_rad,
             rocker_pitch_rad,
             bogie_pitch_rad,
         })
@@ -79,6 +85,8 @@ const UNKNOWN_RATIO: f64 = 0.3;
 const UNKNOWN_ANGLE: f64 = 0.2;
 /// The part of that which is added where the state has moved faster than it drifts.
 const LOOSENED: f64 = 0.2;
+/// One standard deviation by which the path of a hub may turn against the terrain in a frame while its wheel digs in, rad.
+const DUG_IN: f64 = 0.02;
 /// A contact angle farther from the pitch of its link is given up, rad.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
 /// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
@@ -87,7 +95,7 @@ const ANGLE_DRIFT: f64 = 0.32;
 /// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
 const LINK_DRIFT: f64 = 0.032;
 /// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
-const ANGLE_FROM_WANDERING: f64 = 0.12;
+const ANGLE_FROM_WANDERING: f64 = 0.157;
 /// What is added to that for each unit by which runs of innovations are above [`RUN`].
 const ANGLE_FROM_RUNS: f64 = 0.1;
 /// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
@@ -121,7 +129,13 @@ impl<S: Scalar> ContactAngleFilter<S> {
     pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
         let side = RollingSide::new(rover);
         let (zero, one) = (S::zero(), S::one());
-        let model = ContactAngleModel { side, rim_speed_m_s: zero, body_pitch: (zero, one), body_rate_rad_s: zero };
+        let model = ContactAngleModel {
+            side,
+            rim_speed_m_s: zero,
+            body_pitch: (zero, one),
+            body_rate_rad_s: zero,
+            sinking_rad: PerAxle::all(zero),
+        };
         let level = Gaussian::independent([one, zero, zero, zero, zero, zero, zero], Self::unknown_std())?;
         Ok(Self {
             filter: SigmaPointFilter::new(level, Self::unknown_std())?,
@@ -188,6 +202,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().weighted_sum(&slopes).1)
     }
 
+    /// A wheel stands or has just started: it digs in, in a way that no load tells, and its hub's path is not the terrain's slope.
+    pub fn unsettle(&mut self) {
+        let (zero, angle) = (S::zero(), S::constant(DUG_IN));
+        let _ = self.filter.random_walk(&[zero, angle, angle, angle, zero, zero, zero]);
+    }
+
     /// How often the filter fell back to its floor.
     pub fn resets(&self) -> u32 {
         self.filter.resets()
@@ -203,6 +223,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &mut self,
         step_s: S,
         rim_speed_m_s: S,
+        sinking_rad: &PerAxle<S>,
         attitude: &Attitude<S>,
         readings: &SideReadings<S>,
         noise: &SensorNoise<S>,
@@ -210,6 +231,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let body_pitch_rad = attitude.pitch_rad();
         let (rate, rate_std) = attitude.rate_rad_s();
         self.model.body_rate_rad_s = rate;
+        self.model.sinking_rad = *sinking_rad;
         let stands = rim_speed_m_s.abs() < S::constant(STANDING);
         self.model.rim_speed_m_s = if stands { S::zero() } else { rim_speed_m_s };
         if !self.begun {
@@ -253,8 +275,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// the velocity does; a wheel feels more of it than its link.
     fn angle_factor(&self) -> S {
         let wandering = S::constant(ANGLE_FROM_WANDERING) * (self.direction_rate.factor() + self.roughness());
-        // Where links and velocity wander fast, so do the angles, and a little more than in proportion.
-        let steeper = wandering * wandering.sqrt().sqrt();
+        // Where links and velocity wander fast, so do the angles, and more than in proportion: how slowly they wander on plane
+        // ground, no sensor can tell.
+        let steeper = wandering * wandering.sqrt();
         steeper + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
     }
 
@@ -289,13 +312,16 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let nominal = |drift: f64| S::constant(drift * drift) * travel;
         let pitch = readings.rocker_angle_rad.map(|rocker| body_pitch_rad + rocker);
         let variance = noise.angle_rad * noise.angle_rad;
+        // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
+        let turned = noise.gyro_rad_s * step_s;
+        let moved = S::constant(2.0) * turned * turned;
         match pitch {
-            Some(pitch) => self.rocker_rate.see(pitch, variance + variance, nominal(LINK_DRIFT)),
+            Some(pitch) => self.rocker_rate.see_moved(pitch, variance, nominal(LINK_DRIFT), moved),
             None => self.rocker_rate.miss(nominal(LINK_DRIFT)),
         }
         match (pitch, readings.bogie_angle_rad) {
             (Some(pitch), Some(bogie)) => {
-                self.bogie_rate.see(pitch + bogie, variance + variance + variance, nominal(LINK_DRIFT));
+                self.bogie_rate.see_moved(pitch + bogie, variance + variance, nominal(LINK_DRIFT), moved);
             }
             _ => self.bogie_rate.miss(nominal(LINK_DRIFT)),
         }

@@ -137,7 +137,18 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// The force on each hub at the mean, in the coordinates of its link, N.
     pub fn forces_n(&self) -> PerAxle<Planar<S>> {
-        self.model.forces(self.filter.estimate().mean())
+        self.forces_at(self.filter.estimate())
+    }
+
+    /// The same of another estimate of its state.
+    pub fn forces_at(&self, estimate: &Gaussian<S, STATES>) -> PerAxle<Planar<S>> {
+        self.model.forces(estimate.mean())
+    }
+
+    /// The force along each cell at the mean, N.
+    pub fn cells_n(&self) -> PerAxle<S> {
+        let [front, middle, rear, ..] = *self.filter.estimate().mean();
+        PerAxle { front, middle, rear }
     }
 
     /// How often the filter fell back to its floor.

@@ -28,10 +28,12 @@ mod sensor;
 mod sensor_gate;
 mod side_estimate;
 mod side_estimator;
+mod sinking;
 pub mod slip_torque;
 mod surprise;
 mod walk_rate;
 mod watch;
+mod whole_balance;
 
 pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 pub use health::{EstimatorHealth, PerSensor, SensorHealth};

@@ -3,11 +3,13 @@
 use super::attitude::Attitude;
 use super::estimate::SideEstimate;
 use super::health::{EstimatorHealth, PerSensor, SensorHealth};
+use super::hub_force;
 use super::sensor_gate::{SensorGates, count};
 use super::side_estimate::WheelCovariance;
 use super::side_estimator::{SideEstimator, SideFrame, SideInnovations};
 use super::surprise::Surprises;
-use crate::filter::InvalidNumber;
+use super::whole_balance::balanced;
+use crate::filter::{Gaussian, InvalidNumber};
 use crate::rover::{PerSide, PerWheel, Rover, Side};
 use crate::scalar::Scalar;
 use crate::sensor_frame::SensorFrame;
@@ -89,12 +91,21 @@ impl<S: Scalar> RoverEstimator<S> {
 
     /// What is known of the sides.
     pub fn estimate(&self) -> PerSide<SideEstimate> {
-        self.sides.as_ref().map(SideEstimator::estimate)
+        let forces = self.balanced();
+        self.sides.as_ref().zip(forces).map(|(side, forces)| side.estimate(&forces))
     }
 
     /// How the errors of each wheel's estimates belong together.
     pub fn covariances(&self) -> PerWheel<WheelCovariance<S>> {
-        self.sides.as_ref().map(SideEstimator::covariances)
+        let forces = self.balanced();
+        self.sides.as_ref().zip(forces).map(|(side, forces)| side.covariances(&forces))
+    }
+
+    /// The forces on the hubs of both sides, as they hold the rover together.
+    fn balanced(&self) -> PerSide<Gaussian<S, { hub_force::STATES }>> {
+        let sides = self.sides.as_ref().map(SideEstimator::forces);
+        let steady = self.sides.as_array().into_iter().all(SideEstimator::is_steady);
+        balanced(&self.rover, &self.attitude, steady, &sides)
     }
 
     /// What the measurements told the filters in the last frame.

@@ -6,6 +6,8 @@ use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
 use super::side_estimator::{BLOCKED, SideEstimator};
 use super::slip_torque::SlipTorqueFilter;
+use super::whole_balance::SideForces;
+use crate::filter::Gaussian;
 use crate::rover::{Axle, PerAxle, Planar};
 use crate::scalar::Scalar;
 
@@ -17,6 +19,9 @@ pub struct WheelCovariance<S> {
     /// Covariance of filter 2: contact angle, rad, normal load and drawbar pull, N.
     pub contact: [[S; 3]; 3],
 }
+
+/// What is known of the forces on a side's hubs.
+type HubForces<S> = Gaussian<S, { hub_force::STATES }>;
 
 /// Forces along one contact, and how they hang on the states of filter 2.
 struct ContactForces<S> {
@@ -32,20 +37,26 @@ struct ContactForces<S> {
 }
 
 impl<S: Scalar> SideEstimator<S> {
-    /// What is known of the side now.
-    pub fn estimate(&self) -> SideEstimate {
-        let PerAxle { front, middle, rear } = self.contacts();
+    /// What the filter of the forces says, and what these sum to.
+    pub fn forces(&self) -> SideForces<'_, S> {
+        let [.., rocker, bogie, body] = *self.angles.estimate().mean();
+        SideForces::new(self.forces.estimate(), (rocker - body).sin_cos(), (bogie - body).sin_cos())
+    }
+
+    /// What is known of the side now, with such forces on its hubs.
+    pub fn estimate(&self, forces: &HubForces<S>) -> SideEstimate {
+        let PerAxle { front, middle, rear } = self.contacts(forces);
         let sum = middle.pull_n + rear.pull_n;
         let half = S::constant(0.5);
         let by_load = DrawbarSplit::by_load_n(middle.load_n, rear.load_n, sum);
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
-        let bogie_drawbar_pull_n = self.sum_of_pulls(&middle, &rear);
+        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, &middle, &rear);
         let contacts = PerAxle { front, middle, rear };
         let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).zip(self.lifted()).map(
             |(((contact, by_load), (filter, activity)), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
-                    ..self.wheel(&contact, filter, activity)
+                    ..self.wheel(forces, &contact, filter, activity)
                 };
                 if lifted { in_the_air(&wheel) } else { wheel }
             },
@@ -53,23 +64,24 @@ impl<S: Scalar> SideEstimator<S> {
         SideEstimate { wheels, bogie_drawbar_pull_n }
     }
 
-    /// How the errors of each wheel's estimates belong together.
-    pub fn covariances(&self) -> PerAxle<WheelCovariance<S>> {
+    /// How the errors of each wheel's estimates belong together, with such forces on the hubs.
+    pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
         let entry =
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
-        self.contacts().zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
+        self.contacts(forces).zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
             torque_slip: [[entry(filter, 1, 1), entry(filter, 1, 2)], [entry(filter, 2, 1), entry(filter, 2, 2)]],
-            contact: self.covariance(&contact),
+            contact: self.covariance(forces, &contact),
         })
     }
 
     fn wheel(
         &self,
+        forces: &HubForces<S>,
         contact: &ContactForces<S>,
         filter: &SlipTorqueFilter<S>,
         activity: WheelActivity,
     ) -> WheelEstimate {
-        let [angle_std, load_std, pull_std] = self.variances(contact).map(S::sqrt);
+        let [angle_std, load_std, pull_std] = self.variances(forces, contact).map(S::sqrt);
         let [_, torque, slip] = *filter.estimate().mean();
         let [_, torque_std, slip_std] = filter.estimate().stds();
         let normal_load_n = published(contact.load_n, load_std);
@@ -88,10 +100,10 @@ impl<S: Scalar> SideEstimator<S> {
     }
 
     /// The contacts, with the split of the bogie's pull that the torques tell now.
-    fn contacts(&self) -> PerAxle<ContactForces<S>> {
+    fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
-        let forces = self.forces.forces_n();
-        let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch);
+        let forces = self.forces.forces_at(estimate);
+        let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch, &forces);
         let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
         let split = S::constant(0.5) * DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
         PerAxle {
@@ -101,23 +113,22 @@ impl<S: Scalar> SideEstimator<S> {
         }
     }
 
-    fn variances(&self, contact: &ContactForces<S>) -> [S; 3] {
+    fn variances(&self, forces: &HubForces<S>, contact: &ContactForces<S>) -> [S; 3] {
         let mut variances = contact.by_split.map(|split| split * split);
         let rows = contact.by_angles.iter().zip(&contact.by_forces);
         for (variance, (by_angles, by_forces)) in variances.iter_mut().zip(rows) {
-            *variance +=
-                self.angles.estimate().weighted_sum(by_angles).1 + self.forces.estimate().weighted_sum(by_forces).1;
+            *variance += self.angles.estimate().weighted_sum(by_angles).1 + forces.weighted_sum(by_forces).1;
         }
         variances
     }
 
-    fn covariance(&self, contact: &ContactForces<S>) -> [[S; 3]; 3] {
+    fn covariance(&self, estimate: &HubForces<S>, contact: &ContactForces<S>) -> [[S; 3]; 3] {
         let rows = || contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split);
         let mut covariance = [[S::zero(); 3]; 3];
         for (line, ((angles, forces), split)) in covariance.iter_mut().zip(rows()) {
             for (place, ((other_angles, other_forces), other_split)) in line.iter_mut().zip(rows()) {
                 *place = self.angles.estimate().covariance_of_sums(angles, other_angles)
-                    + self.forces.estimate().covariance_of_sums(forces, other_forces)
+                    + estimate.covariance_of_sums(forces, other_forces)
                     + split * other_split;
             }
         }
@@ -125,12 +136,12 @@ impl<S: Scalar> SideEstimator<S> {
     }
 
     /// The sum of a bogie's drawbar pulls, which does not hang on their split but for the contacts' difference.
-    fn sum_of_pulls(&self, middle: &ContactForces<S>, rear: &ContactForces<S>) -> Estimate {
+    fn sum_of_pulls(&self, forces: &HubForces<S>, middle: &ContactForces<S>, rear: &ContactForces<S>) -> Estimate {
         let ([.., middle_angles], [.., rear_angles]) = (&middle.by_angles, &rear.by_angles);
         let ([.., middle_forces], [.., rear_forces]) = (&middle.by_forces, &rear.by_forces);
         let ([.., middle_split], [.., rear_split]) = (middle.by_split, rear.by_split);
         let by_angles = self.angles.estimate().weighted_sum(&sums(middle_angles, rear_angles)).1;
-        let by_forces = self.forces.estimate().weighted_sum(&sums(middle_forces, rear_forces)).1;
+        let by_forces = forces.weighted_sum(&sums(middle_forces, rear_forces)).1;
         let split = middle_split + rear_split;
         published(middle.pull_n + rear.pull_n, (by_angles + by_forces + split * split).sqrt())
     }

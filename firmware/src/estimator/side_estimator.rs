@@ -5,6 +5,7 @@ use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
+use super::sinking::Sinking;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use crate::filter::{Innovation, InvalidNumber};
@@ -39,6 +40,8 @@ const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
+/// Frames in which a wheel that has started may still dig in.
+const DIGGING_IN: u8 = 16;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
@@ -59,6 +62,7 @@ pub(super) struct SideEstimator<S> {
     unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
+    sinking: Sinking<S>,
     told: SideInnovations<S>,
 }
 
@@ -99,6 +103,7 @@ impl<S: Scalar> SideEstimator<S> {
             activity: PerAxle::default(),
             unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
+            sinking: Sinking::new(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -122,6 +127,11 @@ impl<S: Scalar> SideEstimator<S> {
         &self.told
     }
 
+    /// Whether its wheels roll as they will: none starts, stops or stands.
+    pub fn is_steady(&self) -> bool {
+        self.unsettled.as_array().into_iter().all(|frames| *frames == 0)
+    }
+
     /// How fast this side travels, m/s, forward or back.
     pub fn speed_m_s(&self) -> S {
         self.motion.axis_velocity_m_s.length()
@@ -132,13 +142,16 @@ impl<S: Scalar> SideEstimator<S> {
         let mut surprises = Surprises::default();
         let readings = self.side_readings(frame);
         self.follow_rims(&frame.wheel_rate_rad_s);
-        let told = self.angles.tick(step_s, self.rim_speed_m_s, attitude, &readings, &self.rover.noise);
+        let slopes = *self.sinking.slopes();
+        let told = self.angles.tick(step_s, self.rim_speed_m_s, &slopes, attitude, &readings, &self.rover.noise);
         surprises.of_side(&told);
         self.told.angles = told;
         self.motion = self.angles.motion();
         let wheels = self.wheel_frames(&readings, self.angles.body_pitch());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
+        let before = self.forces.cells_n();
         self.tick_forces(step_s, frame, attitude, &mut surprises);
+        self.sinking.follow(self.speed_m_s() * step_s, before, self.forces.cells_n());
         surprises
     }
 
@@ -254,6 +267,9 @@ impl<S: Scalar> SideEstimator<S> {
         if unsettles {
             self.forces.unsettle();
         }
+        if self.unsettled.as_array().into_iter().any(|frames| *frames > SETTLED - DIGGING_IN) {
+            self.angles.unsettle();
+        }
         if settles {
             self.forces.settle();
         }
@@ -305,7 +321,7 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
     fn split_along_bogie_n(&self, bogie_pitch: S) -> S {
-        let (middle, rear) = self.bogie_wheels(bogie_pitch);
+        let (middle, rear) = self.bogie_wheels(bogie_pitch, &self.forces.forces_n());
         let split = DrawbarSplit::by_torque(&middle.wheel, &rear.wheel, middle.drawbar_pull_n + rear.drawbar_pull_n);
         let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
         let half = S::constant(0.5);
@@ -313,10 +329,9 @@ impl<S: Scalar> SideEstimator<S> {
         along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
     }
 
-    /// The wheels of the bogie along their contacts, with the split that was taken last.
-    pub(super) fn bogie_wheels(&self, bogie_pitch: S) -> (BogieHub<S>, BogieHub<S>) {
+    /// The wheels of the bogie along their contacts, with such forces on the hubs.
+    pub(super) fn bogie_wheels(&self, bogie_pitch: S, forces: &PerAxle<Planar<S>>) -> (BogieHub<S>, BogieHub<S>) {
         let [_, _, middle, rear, ..] = *self.angles.estimate().mean();
-        let forces = self.forces.forces_n();
         let hub = |force: Planar<S>, contact: S, filter: &SlipTorqueFilter<S>| {
             let angle = (contact - bogie_pitch).sin_cos();
             let (load_n, drawbar_pull_n) = along_contact(force, angle);

@@ -14,6 +14,11 @@ const STEP: f64 = 16.0;
 
 /// Of what the candidates explained badly, the share that is still held against them a frame later.
 const MEMORY: f64 = 0.98;
+/// What smooth ground can hold against a faster rate, in twice the logarithm of likelihoods: the chance that the next frame is rough is
+/// never below e⁻⁵. Ground gets rough from one frame to the next; that it has become smooth, only a length of it tells.
+const HELD_AGAINST_FASTER: f64 = 10.0;
+/// The geometric mean of the candidates: the rate of which nothing is known.
+const UNKNOWN: f64 = LEAST * STEP * STEP;
 
 /// The rate of one quantity.
 #[derive(Debug, Clone, Copy)]
@@ -38,22 +43,31 @@ impl<S: Scalar> WalkRate<S> {
     pub fn new(phase: usize) -> Self {
         let filter = ScalarFilter { mean: S::zero(), variance: S::constant(1.0e6) };
         let trial = Trial { filter, log_variance: S::zero(), misfit: S::zero() };
-        Self { trials: [trial; CANDIDATES], factor: S::one(), frame: phase }
+        Self { trials: [trial; CANDIDATES], factor: S::constant(UNKNOWN), frame: phase }
     }
 
     /// Takes a measurement with noise of this variance, where the nominal walk since the one before has `nominal_variance`.
     pub fn see(&mut self, measured: S, noise_variance: S, nominal_variance: S) {
+        self.see_moved(measured, noise_variance, nominal_variance, S::zero());
+    }
+
+    /// The same of a sensor that itself has wandered since the measurement before, with `known_variance`.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn see_moved(&mut self, measured: S, noise_variance: S, nominal_variance: S, known_variance: S) {
         self.frame = self.frame.wrapping_add(1);
         let renew = self.frame.is_multiple_of(CANDIDATES);
         let mut factor = S::constant(LEAST);
+        let mut slower = S::constant(1.0e30);
         for trial in &mut self.trials {
-            trial.filter.variance += factor * nominal_variance;
+            trial.filter.variance += factor * nominal_variance + known_variance;
             let (misfit, variance) = trial.filter.update(measured, noise_variance);
             if renew {
                 trial.log_variance = variance.ln();
             }
             // One wild measurement says that something is wrong with it, and little about the rate.
-            trial.misfit = S::constant(MEMORY) * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            let misfit = S::constant(MEMORY) * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            trial.misfit = misfit.min(slower + S::constant(HELD_AGAINST_FASTER));
+            slower = slower.min(trial.misfit);
             factor = factor * S::constant(STEP);
         }
         if renew {
@@ -114,5 +128,17 @@ mod tests {
         };
         assert!(rate(0.0) < 1.0e-3, "{}", rate(0.0));
         assert!(rate(1.0) > 1.0, "{}", rate(1.0));
+    }
+
+    /// After a length of smooth ground in which every measurement is within its noise, one that begins to wander by several times its
+    /// noise a frame is noticed within a few.
+    #[test]
+    fn smooth_ground_does_not_argue_for_long() {
+        let mut rate = WalkRate::<f64>::new(0);
+        let noise = |frame: u32| if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
+        (0..400).for_each(|frame| rate.see(noise(frame), 0.01, 0.01));
+        assert!(rate.factor() < 1.0e-2, "{}", rate.factor());
+        (0..10).for_each(|frame| rate.see(0.3 * f64::from(frame) + noise(frame), 0.01, 0.01));
+        assert!(rate.factor() > 0.5, "{}", rate.factor());
     }
 }

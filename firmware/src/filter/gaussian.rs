@@ -69,6 +69,32 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
         (sum(&self.mean), variance)
     }
 
+    /// Takes a measurement of a weighted sum of the numbers, Σ wᵢ xᵢ, whose noise has this variance, which must be positive.
+    /// Nothing changes where what comes out is not finite.
+    ///
+    /// With f = Sᵀ w and a = f·f + r: K = S f/a, and the root becomes S − K fᵀ/(1 + √(r/a)) (Potter 1963; a factor, never a
+    /// difference of covariances). For sums alone: a model that bends goes through [`SigmaPointFilter::update`].
+    ///
+    /// [`SigmaPointFilter::update`]: super::SigmaPointFilter::update
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn take(&mut self, weights: &[T; N], measured: T, noise_variance: T) {
+        let slopes = self.root.each_ref().map(|column| dot(weights, column));
+        let variance = dot(&slopes, &slopes) + noise_variance;
+        let innovation = (measured - dot(weights, &self.mean)) / variance;
+        let kept = T::one() / (variance + (noise_variance * variance).sqrt());
+        if !(innovation.is_finite() && kept.is_finite()) {
+            return;
+        }
+        let mut across = [T::zero(); N];
+        for (column, slope) in self.root.iter().zip(&slopes) {
+            across.iter_mut().zip(column).for_each(|(sum, entry)| *sum += *slope * *entry);
+        }
+        for (column, slope) in self.root.iter_mut().zip(&slopes) {
+            column.iter_mut().zip(&across).for_each(|(entry, across)| *entry -= kept * *slope * *across);
+        }
+        self.mean.iter_mut().zip(&across).for_each(|(mean, across)| *mean += innovation * *across);
+    }
+
     /// Covariance of two weighted sums of the numbers.
     pub fn covariance_of_sums(&self, one: &[T; N], other: &[T; N]) -> T {
         self.root.iter().fold(T::zero(), |sum, column| sum + dot(one, column) * dot(other, column))

@@ -5,6 +5,7 @@ use kapvik_firmware::rover::Rover;
 
 use super::estimators_soil;
 use crate::simulate::Scenario;
+use crate::trial::pulls_seen::MeanSquare;
 use crate::trial::tally::Tally;
 use crate::trial::{Quantity, Trial, trial};
 
@@ -26,6 +27,9 @@ pub struct EstimatorArguments {
 pub const REPORTED: [Scenario; 6] =
     [Scenario::Level, Scenario::Hills, Scenario::Spread, Scenario::Slope, Scenario::Rock, Scenario::Dropout];
 
+/// Those of them on plane ground.
+const PLANE: [Scenario; 3] = [Scenario::Level, Scenario::Spread, Scenario::Slope];
+
 /// Drives and prints.
 pub fn run(arguments: &EstimatorArguments) {
     let scenarios = if arguments.scenario.is_empty() { REPORTED.to_vec() } else { arguments.scenario.clone() };
@@ -44,6 +48,7 @@ fn print(trial: &Trial) {
     for quantity in Quantity::ALL {
         print_tally(quantity, errors.of(quantity));
     }
+    print_pulls(trial);
     let names = ["NEES filter 1", "NEES filter 2", "NIS filter 1", "NIS angles", "NIS forces"];
     for (name, squares) in names.into_iter().zip(trial.squares()) {
         println!(
@@ -54,6 +59,27 @@ fn print(trial: &Trial) {
     }
     let white = trial.share_white().map(|share| format!("{:.0}", 100.0 * share)).join(" ");
     println!("  white at 5 %: share of drives, % (rate hub | vx vz rocker bogie pitch | cells moments): {white}");
+}
+
+/// The pulls without the errors of the contact angles; on plane ground what the sensors tell at the best.
+fn print_pulls(trial: &Trial) {
+    let [mut angle, mut front, mut bogie, mut front_told, mut bogie_told] = [MeanSquare::default(); 5];
+    for pulls in trial.drives.iter().map(|drive| &drive.pulls) {
+        angle.add(&pulls.angle_bound);
+        front.add(&pulls.front_bound);
+        bogie.add(&pulls.bogie_bound);
+        front_told.add(&pulls.front_told);
+        bogie_told.add(&pulls.bogie_told);
+    }
+    println!("  told the contact angles: front pull {:.4} N, bogie pull {:.4} N", front_told.root(), bogie_told.root());
+    if PLANE.contains(&trial.scenario) {
+        println!(
+            "  Cramér–Rao bound where ground and forces are known to be steady: contact angle {:.4}°, front pull {:.4} N, bogie pull {:.4} N",
+            angle.root().to_degrees(),
+            front.root(),
+            bogie.root()
+        );
+    }
 }
 
 fn print_tally(quantity: Quantity, tally: &Tally) {

@@ -8,6 +8,7 @@ use kapvik_firmware::rover::Rover;
 
 use super::consistency::{NormalisedSquares, normalised_square};
 use super::errors::Errors;
+use super::pulls_seen::PullsSeen;
 use super::soil_seen::SoilSeen;
 use crate::data::truth_file::{Truth, WheelTruth};
 use crate::error::HostError;
@@ -64,6 +65,8 @@ pub struct Drive {
     /// Normalised innovations of each measurement, a series each: filter 1 of one wheel, then both halves of filter 2 of one
     /// side.
     pub series: [Vec<f64>; 12],
+    /// Where the errors of the pulls come from, and the bounds on them.
+    pub pulls: PullsSeen,
     /// The soil, frame by frame, from the first estimate on.
     pub soils: Vec<SoilPoint>,
     /// The bound on what any estimator could say of the soil at [`SOIL_LOOK_S`].
@@ -110,6 +113,8 @@ impl Drive {
             if time_s < SOIL_LOOK_S && index % ALIKE == ALIKE / 2 {
                 seen.take(traverse.world(), traverse.instant(), &truth, ALIKE as f64);
             }
+            let speed_m_s = traverse.instant().motion.rates.x;
+            drive.pulls.take(rover, speed_m_s, &estimate, &truth, time_s >= WARM_UP_S);
             if time_s >= WARM_UP_S {
                 drive.errors.take(&estimate, &now, &second, &truth);
                 drive.take_squares(index, &pipeline, &estimate, &truth);

@@ -5,6 +5,7 @@ pub mod consistency;
 mod drive;
 pub mod errors;
 pub mod faults;
+pub mod pulls_seen;
 mod report;
 pub mod soil_seen;
 pub mod tally;

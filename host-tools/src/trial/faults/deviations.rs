@@ -6,6 +6,19 @@ use kapvik_firmware::rover::PerWheel;
 
 use crate::data::truth_file::{Truth, WheelTruth};
 
+/// An estimate that is farther off than allowed, in its standard deviations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Excess {
+    /// The wheel.
+    pub wheel: &'static str,
+    /// What is estimated.
+    pub quantity: &'static str,
+    /// How far it is off.
+    pub deviation: f64,
+    /// How far the drive without the fault is off in the same frame.
+    pub undisturbed: f64,
+}
+
 /// |Estimate − truth| over the stated standard deviation, of slip, torque, contact angle, load and drawbar pull of each
 /// wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +29,23 @@ impl Deviations {
     /// infinity.
     pub fn new(estimate: &FrameEstimate, truth: &Truth) -> Self {
         Self(estimate.wheels.zip_wheels(truth.wheels).map_wheels(|(wheel, truth)| of_wheel(&wheel, &truth)))
+    }
+
+    /// The deviation that is farthest above `limit` and above what it is in `others`; none where no one is.
+    pub fn worst(&self, limit: f64, others: &Self) -> Option<Excess> {
+        const QUANTITIES: [&str; 5] = ["slip", "torque", "contact angle", "load", "drawbar pull"];
+        const WHEELS: [&str; 6] = ["fl", "ml", "rl", "fr", "mr", "rr"];
+        let pairs = self.0.iter_wheels().zip(others.0.iter_wheels()).zip(WHEELS);
+        let excesses = pairs.flat_map(|((deviations, others), wheel)| {
+            deviations.iter().zip(others).zip(QUANTITIES).map(move |((deviation, other), quantity)| Excess {
+                wheel,
+                quantity,
+                deviation: *deviation,
+                undisturbed: *other,
+            })
+        });
+        let above = |excess: &Excess| excess.deviation - limit.max(excess.undisturbed);
+        excesses.filter(|excess| above(excess) > 0.0).max_by(|a, b| above(a).total_cmp(&above(b)))
     }
 
     /// Whether each is at most `limit`, or at most what it is in `others`.

@@ -9,7 +9,7 @@ use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::case::Case;
-use super::deviations::Deviations;
+use super::deviations::{Deviations, Excess};
 use crate::data::truth_file::Truth;
 use crate::error::HostError;
 use crate::replay::health::sensor_name;
@@ -48,6 +48,8 @@ pub struct Outcome {
     /// the drive without the fault is itself farther off in that frame, until it is no farther off than that. 0 where
     /// the first frame after the fault is so, none where no frame is that is watched.
     pub frames_to_recover: Option<usize>,
+    /// What was farthest off when it should have been back.
+    pub late: Option<Excess>,
 }
 
 impl FaultDrive {
@@ -84,7 +86,7 @@ impl FaultDrive {
         // What a stuck sensor repeats is what it said before.
         let _ = faults.applied(&self.last_frame);
         let mut pipeline = self.before.clone();
-        let (mut not_finite, mut frames_to_recover) = (0, None);
+        let (mut not_finite, mut frames_to_recover, mut late) = (0, None, None);
         for (index, ((frame, truth), undisturbed)) in self.frames.iter().zip(&self.undisturbed).enumerate() {
             let Some(frame) = faults.applied(frame) else { continue };
             let after = index.checked_sub(self.faulty_frames);
@@ -92,11 +94,14 @@ impl FaultDrive {
             for frame in [Some(&frame), again].into_iter().flatten() {
                 let estimate = pipeline.tick(frame);
                 not_finite += usize::from(!is_finite(&estimate));
-                let back = Deviations::new(&estimate, truth).within(LIMIT, undisturbed);
-                frames_to_recover = frames_to_recover.or(after.filter(|_| back));
+                let deviations = Deviations::new(&estimate, truth);
+                frames_to_recover = frames_to_recover.or(after.filter(|_| deviations.within(LIMIT, undisturbed)));
+                if after == Some(ALLOWED_FRAMES) && frames_to_recover.is_none() {
+                    late = deviations.worst(LIMIT, undisturbed);
+                }
             }
         }
-        Ok(Outcome { case, not_finite, miscounted: self.miscounted(case, &pipeline), frames_to_recover })
+        Ok(Outcome { case, not_finite, miscounted: self.miscounted(case, &pipeline), frames_to_recover, late })
     }
 
     fn miscounted(&self, case: Case, pipeline: &Pipeline) -> Vec<String> {

@@ -7,5 +7,5 @@ mod drive;
 
 pub use case::{Case, SENSOR_FAILURES};
 pub use catalogue::{Catalogue, catalogue};
-pub use deviations::Deviations;
+pub use deviations::{Deviations, Excess};
 pub use drive::{ALLOWED_FRAMES, FAULT_S, FaultDrive, Outcome, WATCHED_FRAMES};
