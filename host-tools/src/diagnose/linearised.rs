@@ -19,8 +19,10 @@ pub struct AddedTerms {
 /// A term's value in each row, about one in size, and how it follows the true slip and load.
 ///
 /// A term made of readings of slip and load would be wrong by their noise, and so would not agree with the model's own
-/// derivatives, which are taken at the true ones: a combination of both is then nothing but the noise, which every residual
-/// follows (Fuller 1987, Measurement Error Models). So a term is a function of the true slip and load, to first order.
+/// derivatives, which are taken at the fitted ones: a combination of both is then nothing but the noise, which every residual
+/// follows (Fuller 1987, Measurement Error Models). So a term is taken where the model is: at slip and load as fitted, which
+/// are independent of what a fit leaves. Nor does it change how the model answers to slip and load, as little as the model's
+/// parameters do to first order: what only one of both did would be free to undo that answer.
 #[derive(Debug, Clone)]
 pub struct Term {
     /// Its value in each row.
@@ -44,12 +46,12 @@ impl Term {
         Self { values, slopes: None }
     }
 
-    /// Its value in a row at a true slip and load, and its derivatives by them.
-    fn at(&self, row: usize, latent: &Latent) -> (f64, [f64; 2]) {
-        let value = self.values[row];
-        let Some(slopes) = &self.slopes else { return (value, [0.0; 2]) };
-        let ([by_slip, by_load], [slip, load_n]) = (slopes.by[row], slopes.at[row]);
-        (value + by_slip * (latent.slip - slip) + by_load * (latent.load_n - load_n), slopes.by[row])
+    /// Its value in a row at a slip and load.
+    fn at(&self, row: usize, latent: &Latent) -> f64 {
+        self.slopes.as_ref().map_or(self.values[row], |slopes| {
+            let ([by_slip, by_load], [slip, load_n]) = (slopes.by[row], slopes.at[row]);
+            self.values[row] + by_slip * (latent.slip - slip) + by_load * (latent.load_n - load_n)
+        })
     }
 }
 
@@ -174,10 +176,8 @@ impl Model for WithTerms<'_> {
                 here.value[reading] += by_parameters + slip * here.by_slip[reading] + load_n * here.by_load[reading];
             }
             for (term, coefficient) in self.added.terms.iter().zip(coefficients) {
-                let (value, [by_slip, by_load]) = term.at(*row, latent);
+                let value = term.at(*row, then);
                 here.value[channel] += coefficient * value;
-                here.by_slip[channel] += coefficient * by_slip;
-                here.by_load[channel] += coefficient * by_load;
                 let mut slope = [0.0; CHANNELS];
                 slope[channel] = value;
                 here.by_parameter.push(slope);
