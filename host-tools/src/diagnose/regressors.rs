@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::data::campaign::Channel;
 
-use super::candidates::rates_differ;
+use super::candidates::{loads_differ, rates_differ};
 use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
 use super::measurements::COLUMNS;
@@ -65,9 +65,10 @@ pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor>
     let causes = Channel::ALL.iter().filter(|channel| !results.contains(channel));
     let mut names: Vec<&str> = causes.map(|channel| channel.name()).collect();
     names.extend(campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name)));
-    if !rates_differ(bench.measurements) {
-        names.retain(|name| *name != Channel::WheelRate.name());
-    }
+    // About one level they scatter by their errors.
+    let one_level =
+        [(Channel::WheelRate, !rates_differ(bench.measurements)), (Channel::Load, !loads_differ(bench.measurements))];
+    names.retain(|name| one_level.iter().all(|(channel, is_one)| !is_one || *name != channel.name()));
     let at: Arc<[[f64; 2]]> = linearised.latents().iter().map(|latent| [latent.slip, latent.load_n]).collect();
     let mut found: Vec<Regressor> = Vec::new();
     for name in names {
