@@ -46,3 +46,48 @@ pub fn speed_ratio(slip: f64) -> (f64, f64) {
         (1.0 - slip, -1.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+    use std::path::Path;
+
+    use super::*;
+    use crate::diagnose::fit::CHANNELS;
+
+    const NOISE: f64 = 0.01;
+
+    /// One row a run at slips of 0.05 to 0.6, read alternately too high and too low by the noise; rates in turn.
+    fn rates(true_rates: &[f64]) -> Vec<f64> {
+        let toml = "name = \"Rates\"\nkind = \"simulated\"\nsource = \"v = r w (1 - i)\"\n[wheel]\nradius_m = 0.1\nwidth_m = 0.1\n";
+        let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,speed_m_s\n".to_owned();
+        let mut rows = Vec::new();
+        for run in 0..24 {
+            let slip = 0.05 + 0.55 * run as f64 / 23.0;
+            let read = slip + if run % 4 < 2 { NOISE } else { -NOISE };
+            let speed_m_s = 0.1 * true_rates[run % true_rates.len()] * (1.0 - slip);
+            writeln!(csv, "{run},0,{read},50,5,{speed_m_s}").expect("a string takes it");
+            let mut row = Row { run, readings: [None; CHANNELS], noise: [NOISE; CHANNELS] };
+            row.readings[Reading::Slip.index()] = Some(read);
+            rows.push(row);
+        }
+        let campaign = Campaign::parse(Path::new("rates.csv"), &csv, toml).expect("a campaign");
+        let (places, runs): (Vec<usize>, Vec<Vec<usize>>) = (0..24).map(|row| (row, vec![row])).unzip();
+        wheel_rates(&campaign, &places, &rows, &runs).into_iter().map(|rate| rate.expect("a rate")).collect()
+    }
+
+    /// Readings of the slip that are off by up to 2.5 % of the speed leave the one rate that there is within 0.5 %.
+    #[test]
+    fn one_rate_is_found_through_noisy_slips() {
+        for rate in rates(&[0.3]) {
+            assert!((rate / 0.3 - 1.0).abs() < 5e-3, "{rate}");
+        }
+    }
+
+    #[test]
+    fn two_rates_stay_two() {
+        for (run, rate) in rates(&[0.3, 0.9]).into_iter().enumerate() {
+            assert!((rate / [0.3, 0.9][run % 2] - 1.0).abs() < 1e-2, "{rate}");
+        }
+    }
+}

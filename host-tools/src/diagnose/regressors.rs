@@ -217,3 +217,23 @@ pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
     product / (squares(a) * squares(b)).sqrt().max(f64::MIN_POSITIVE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// d(ab) = a db + b da, for a of slip and b of slip and load.
+    #[test]
+    fn a_product_follows_both_of_its_factors() {
+        let at: Arc<[[f64; 2]]> = Arc::from([[0.2, 50.0]]);
+        let term = |value: f64, by: [f64; 2]| Term {
+            values: vec![value],
+            slopes: Some(Slopes { by: vec![by], at: at.clone() }),
+        };
+        let found = product(&term(2.0, [3.0, 0.0]), &term(5.0, [7.0, 0.5]));
+        assert_eq!(found.values, [10.0]);
+        assert_eq!(found.slopes.expect("slopes").by, [[29.0, 1.0]]);
+        let steady = product(&Term::steady(vec![2.0]), &Term::steady(vec![3.0]));
+        assert!(steady.slopes.is_none() && steady.values == [6.0]);
+    }
+}
