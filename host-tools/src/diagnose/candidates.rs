@@ -10,6 +10,8 @@ use super::specification::{EffectForm, Specification};
 
 /// Spread of load, as a share, below which it counts as one level.
 const ONE_LOAD: f64 = 0.1;
+/// The same of speed and wheel rate.
+const ONE_SPEED: f64 = 0.1;
 
 /// Every form of every effect that a model does not have yet, and that the measurements could show.
 pub fn candidates(campaign: &Campaign, measurements: &Measurements, model: &Specification) -> Vec<EffectForm> {
@@ -26,10 +28,19 @@ fn is_by_load(info: &EffectInfo) -> bool {
 
 /// Whether the loads are more than one level, about which they scatter.
 pub fn loads_differ(measurements: &Measurements) -> bool {
-    let known = measurements.rows.iter().filter_map(|row| row.readings[Reading::Load.index()]);
+    differ(measurements.rows.iter().filter_map(|row| row.readings[Reading::Load.index()]), ONE_LOAD)
+}
+
+/// Whether the wheel rates are more than one level.
+pub fn rates_differ(measurements: &Measurements) -> bool {
+    differ(measurements.conditions.iter().filter_map(|row| row.wheel_rate_rad_s), ONE_SPEED)
+}
+
+/// Whether the range of some numbers is at least a share of the largest.
+fn differ(values: impl Iterator<Item = f64>, share: f64) -> bool {
     let (low, high) =
-        known.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), load_n| (load_n.min(low), load_n.max(high)));
-    high - low >= ONE_LOAD * high.abs()
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (value.min(low), value.max(high)));
+    high > low && high - low >= share * high.abs()
 }
 
 /// Whether a campaign has what a form needs.
@@ -46,7 +57,8 @@ fn has(campaign: &Campaign, measurements: &Measurements, column: Column) -> bool
         Column::Sinkage => measurements.has(Reading::Sinkage),
         Column::SideForce => measurements.has(Reading::SideForce),
         Column::SlipAngle => varies(|row| row.slip_angle_rad) || measurements.conditions.iter().any(slides),
-        Column::WheelRate | Column::Speed => varies(|row| row.wheel_rate_rad_s) || varies(|row| row.speed_m_s),
+        Column::WheelRate => rates_differ(measurements),
+        Column::Speed => differ(measurements.speeds_m_s().flatten(), ONE_SPEED),
         Column::WheelAngle => varies(|row| row.wheel_angle_rad),
         Column::Pass => varies(|row| row.pass),
         Column::Temperature => varies(|row| row.temperature_c),

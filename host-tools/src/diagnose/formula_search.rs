@@ -9,7 +9,7 @@ use super::formula::{Group, Term, figure, terms};
 use super::formula_groups::{Scale, groups, scale};
 use super::formula_screen::Screen;
 use super::held_out_errors::groups as folds;
-use super::linearised::{AddedTerms, Linearised};
+use super::linearised::{AddedTerms, Linearised, Term as AddedTerm};
 use super::measurements::COLUMNS;
 use super::residual_search::Structure;
 use super::selection::{SIGNIFICANT, family_chance};
@@ -132,7 +132,7 @@ impl Search<'_, '_> {
                 return None;
             }
             // A coefficient of one is then as much as the noise.
-            added.terms.push(values.iter().map(|value| value * unit / size).collect());
+            added.terms.push(AddedTerm::steady(values.iter().map(|value| value * unit / size).collect()));
             sizes.push(size / unit);
         }
         let fit = self.linearised.fit_with(&added).ok()?;

@@ -1,17 +1,58 @@
 //! A fitted model near its optimum, with terms added to its readings: cheap enough to try hundreds of them.
 
+use std::sync::Arc;
+
 use super::campaign_model::CampaignModel;
 use super::fit::{
     CHANNELS, Coordinate, Fit, FitError, HeldOutRun, Latent, Model, Options, Prediction, Reading, Row, Start, fit,
 };
 
-/// Terms added to a channel: a value for each row, times a coefficient that is fitted.
+/// Terms added to a channel, each times a coefficient that is fitted.
 #[derive(Debug, Clone)]
 pub struct AddedTerms {
     /// The channel.
     pub channel: Reading,
-    /// Each term's value in each row, about one in size.
-    pub terms: Vec<Vec<f64>>,
+    /// The terms.
+    pub terms: Vec<Term>,
+}
+
+/// A term's value in each row, about one in size, and how it follows the true slip and load.
+///
+/// A term made of readings of slip and load would be wrong by their noise, and so would not agree with the model's own
+/// derivatives, which are taken at the fitted ones: a combination of both is then nothing but the noise, which every residual
+/// follows (Fuller 1987, Measurement Error Models). So a term is taken where the model is: at slip and load as fitted, which
+/// are independent of what a fit leaves. Nor does it change how the model answers to slip and load, as little as the model's
+/// parameters do to first order: what only one of both did would be free to undo that answer.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// Its value in each row.
+    pub values: Vec<f64>,
+    /// How it follows slip and load; none where it does not.
+    pub slopes: Option<Slopes>,
+}
+
+/// Derivatives by the true slip and load (1/N) of each row, and where they were taken.
+#[derive(Debug, Clone)]
+pub struct Slopes {
+    /// The derivatives.
+    pub by: Vec<[f64; 2]>,
+    /// Slip and load, N, at which the values hold.
+    pub at: Arc<[[f64; 2]]>,
+}
+
+impl Term {
+    /// A term that follows neither slip nor load.
+    pub fn steady(values: Vec<f64>) -> Self {
+        Self { values, slopes: None }
+    }
+
+    /// Its value in a row at a slip and load.
+    fn at(&self, row: usize, latent: &Latent) -> f64 {
+        self.slopes.as_ref().map_or(self.values[row], |slopes| {
+            let ([by_slip, by_load], [slip, load_n]) = (slopes.by[row], slopes.at[row]);
+            self.values[row] + by_slip * (latent.slip - slip) + by_load * (latent.load_n - load_n)
+        })
+    }
 }
 
 /// A model to first order about a fit of it.
@@ -83,6 +124,17 @@ impl<'a> Linearised<'a> {
         self.predictions.iter().map(move |prediction| prediction.value[reading.index()])
     }
 
+    /// True slip and load of each row, as fitted.
+    pub fn latents(&self) -> &[Latent] {
+        &self.latents
+    }
+
+    /// How a reading follows the true slip and load in each row.
+    pub fn slopes(&self, reading: Reading) -> impl Iterator<Item = [f64; 2]> {
+        let c = reading.index();
+        self.predictions.iter().map(move |prediction| [prediction.by_slip[c], prediction.by_load[c]])
+    }
+
     /// A fit with added terms.
     ///
     /// # Errors
@@ -124,9 +176,10 @@ impl Model for WithTerms<'_> {
                 here.value[reading] += by_parameters + slip * here.by_slip[reading] + load_n * here.by_load[reading];
             }
             for (term, coefficient) in self.added.terms.iter().zip(coefficients) {
-                here.value[channel] += coefficient * term[*row];
+                let value = term.at(*row, then);
+                here.value[channel] += coefficient * value;
                 let mut slope = [0.0; CHANNELS];
-                slope[channel] = term[*row];
+                slope[channel] = value;
                 here.by_parameter.push(slope);
             }
             here

@@ -10,6 +10,7 @@ use crate::error::HostError;
 use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
 use super::noise::{Noise, channel_noise};
+use super::rates::{speed_ratio, wheel_rates};
 use super::settings::settle;
 
 /// The column of each reading, in the order of [`Reading::ALL`].
@@ -28,7 +29,7 @@ pub struct Measurements {
     pub rows: Vec<Row>,
     /// Place of each row in the campaign.
     pub places: Vec<usize>,
-    /// What else is known of each row.
+    /// What else is known of each row. Where the wheel rate is known, the speed follows from it and the true slip.
     pub conditions: Vec<Conditions<f64>>,
     /// Names of the runs, by their number.
     pub runs: Vec<String>,
@@ -38,6 +39,8 @@ pub struct Measurements {
     pub noise: [Noise; CHANNELS],
     /// Rows that were left out.
     pub left_out: Vec<LeftOut>,
+    /// Radius of the wheel, m.
+    radius_m: f64,
 }
 
 impl Measurements {
@@ -84,6 +87,7 @@ impl Measurements {
             rows_of_run: Vec::new(),
             noise,
             left_out,
+            radius_m: campaign.wheel.radius_m,
         };
         let stride = usable.len().div_ceil(MOST_ROWS);
         if stride > 1 {
@@ -112,6 +116,13 @@ impl Measurements {
                 found.rows_of_run.push(of_run);
             }
         }
+        let rates = wheel_rates(campaign, &found.places, &found.rows, &found.rows_of_run);
+        for (conditions, rate_rad_s) in found.conditions.iter_mut().zip(rates) {
+            if rate_rad_s.is_some() {
+                conditions.wheel_rate_rad_s = rate_rad_s;
+                conditions.speed_m_s = None;
+            }
+        }
         settle(&mut found.rows, &found.rows_of_run);
         found
     }
@@ -129,6 +140,20 @@ impl Measurements {
     /// Mean slip of a run; every row that is used has one.
     pub fn mean_slip(&self, run: usize) -> f64 {
         self.slips(run).sum::<f64>() / self.slips(run).count() as f64
+    }
+
+    /// r ω of each row, m/s, where the rate is known.
+    pub fn rim_speeds_m_s(&self) -> impl Iterator<Item = Option<f64>> {
+        self.conditions.iter().map(|row| row.wheel_rate_rad_s.map(|rate| rate * self.radius_m))
+    }
+
+    /// Speed of each row where it is known, m/s.
+    pub fn speeds_m_s(&self) -> impl Iterator<Item = Option<f64>> {
+        let rows = self.rim_speeds_m_s().zip(&self.conditions).zip(&self.rows);
+        rows.map(|((rim, conditions), row)| {
+            let followed = || Some(rim? * speed_ratio(row.readings[Reading::Slip.index()]?).0);
+            conditions.speed_m_s.or_else(followed)
+        })
     }
 
     /// The middle one of a reading's values.

@@ -30,6 +30,7 @@ mod mimicry;
 mod noise;
 mod outcome;
 mod pairs;
+mod rates;
 mod regressors;
 mod residual_search;
 mod selection;

@@ -1,21 +1,28 @@
 //! What a residual may follow: every column of a campaign, and products of two.
 
-use crate::data::campaign::{Campaign, Channel};
+use std::sync::Arc;
 
-use super::fit::Reading;
-use super::measurements::{COLUMNS, Measurements};
+use crate::data::campaign::Channel;
 
-/// A column, or a product of two, about zero and one in size.
+use super::candidates::{loads_differ, rates_differ};
+use super::fit::{Latent, Reading};
+use super::linearised::{Linearised, Slopes, Term};
+use super::measurements::COLUMNS;
+use super::rates::speed_ratio;
+use super::trial::Bench;
+
+/// A column, or a product of two, about zero and one in size. What is made of slip, load, sinkage or speed is a function of
+/// the true slip and load as they were fitted, not of their readings.
 #[derive(Debug, Clone)]
 pub struct Regressor {
     /// Its name; a product is written `slip*sinkage_m`.
     pub name: String,
     /// Its value in each row; 0 where the row does not have it.
-    pub values: Vec<f64>,
-    /// Of a product, the values of what it is made of.
-    pub factors: Vec<Vec<f64>>,
+    pub term: Term,
+    /// Of a product, what it is made of.
+    pub factors: Vec<Term>,
     /// Of an angle of the wheel, its sine and its cosine.
-    pub turns: Option<[Vec<f64>; 2]>,
+    pub turns: Option<[Term; 2]>,
     parts: Vec<String>,
 }
 
@@ -37,9 +44,9 @@ impl Regressor {
         self.parts.iter().all(|part| is_contact(part))
     }
 
-    /// Of a product, the values of those factors that are slip, load or sinkage.
-    pub fn contact_factors(&self) -> impl Iterator<Item = &Vec<f64>> {
-        self.factors.iter().zip(&self.parts).filter(|(_, part)| is_contact(part)).map(|(values, _)| values)
+    /// Of a product, those factors that are slip, load or sinkage.
+    pub fn contact_factors(&self) -> impl Iterator<Item = &Term> {
+        self.factors.iter().zip(&self.parts).filter(|(_, part)| is_contact(part)).map(|(term, _)| term)
     }
 }
 
@@ -50,30 +57,92 @@ fn is_contact(part: &str) -> bool {
 /// What the contact itself is made of.
 const CONTACT: [Reading; 3] = [Reading::Slip, Reading::Load, Reading::Sinkage];
 
-/// The columns of a campaign that vary, the ones that the format names first.
-pub fn columns(campaign: &Campaign, measurements: &Measurements) -> Vec<Regressor> {
+/// The columns of a campaign that vary, the ones that the format names first, about a fitted model.
+pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor> {
+    let campaign = bench.campaign;
     // Other forces are results of the same contact, not causes.
     let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
     let causes = Channel::ALL.iter().filter(|channel| !results.contains(channel));
     let mut names: Vec<&str> = causes.map(|channel| channel.name()).collect();
     names.extend(campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name)));
+    // About one level they scatter by their errors.
+    let one_level =
+        [(Channel::WheelRate, !rates_differ(bench.measurements)), (Channel::Load, !loads_differ(bench.measurements))];
+    names.retain(|name| one_level.iter().all(|(channel, is_one)| !is_one || *name != channel.name()));
+    let at: Arc<[[f64; 2]]> = linearised.latents().iter().map(|latent| [latent.slip, latent.load_n]).collect();
     let mut found: Vec<Regressor> = Vec::new();
     for name in names {
-        let values: Vec<_> = measurements.places.iter().map(|place| value(campaign, name, *place)).collect();
+        let column = column(bench, linearised, name);
         let new = |regressor: &Regressor| {
-            !found.iter().any(|other| correlation(&other.values, &regressor.values).abs() > SAME)
+            !found.iter().any(|other| correlation(&other.term.values, &regressor.term.values).abs() > SAME)
         };
-        if let Some(regressor) = standardised(name.to_owned(), vec![name.to_owned()], &values).filter(new) {
-            let turns = (name == Channel::WheelAngle.name()).then(|| turns(&values));
+        if let Some(regressor) = standardised(name.to_owned(), vec![name.to_owned()], &column, &at).filter(new) {
+            let turns = (name == Channel::WheelAngle.name()).then(|| turns(&column.values));
             found.push(Regressor { turns, ..regressor });
         }
     }
     found
 }
 
+/// A column as it stands: its value in each row, and how that follows the true slip and load.
+struct Column {
+    values: Vec<Option<f64>>,
+    by: Option<Vec<[f64; 2]>>,
+}
+
+fn column(bench: &Bench<'_>, linearised: &Linearised<'_>, name: &str) -> Column {
+    let latents = linearised.latents();
+    let own = values(bench, latents, name);
+    let constant = |by: [f64; 2]| vec![by; latents.len()];
+    match Channel::from_name(name) {
+        Some(Channel::Slip) => Column { values: own, by: Some(constant([1.0, 0.0])) },
+        Some(Channel::Load) => Column { values: own, by: Some(constant([0.0, 1.0])) },
+        Some(Channel::Sinkage) if own.iter().any(Option::is_some) => Column {
+            values: linearised.expected(Reading::Sinkage).map(Some).collect(),
+            by: Some(linearised.slopes(Reading::Sinkage).collect()),
+        },
+        Some(Channel::Speed) => {
+            let rim_speeds = bench.measurements.rim_speeds_m_s();
+            let by =
+                |(rim, latent): (Option<f64>, &Latent)| [rim.map_or(0.0, |rim| rim * speed_ratio(latent.slip).1), 0.0];
+            Column { values: own, by: Some(rim_speeds.zip(latents).map(by).collect()) }
+        }
+        _ => Column { values: own, by: None },
+    }
+}
+
+/// What a column says in each row; of slip, load and speed, where there is such a column, what it should say at the true slips
+/// and loads.
+pub(super) fn values(bench: &Bench<'_>, latents: &[Latent], name: &str) -> Vec<Option<f64>> {
+    let (campaign, measurements) = (bench.campaign, bench.measurements);
+    let read = || {
+        let of_row = |place: &usize| {
+            if name == Channel::Time.name() {
+                Some(campaign.rows().get(*place)?.t_s)
+            } else {
+                *campaign.column(name)?.get(*place)?
+            }
+        };
+        measurements.places.iter().map(of_row).collect::<Vec<_>>()
+    };
+    match Channel::from_name(name) {
+        Some(_) if campaign.column(name).is_none() && name != Channel::Time.name() => vec![None; latents.len()],
+        Some(Channel::Slip) => latents.iter().map(|latent| Some(latent.slip)).collect(),
+        Some(Channel::Load) => latents.iter().map(|latent| Some(latent.load_n)).collect(),
+        Some(Channel::Speed) => {
+            let rim_speeds = measurements.rim_speeds_m_s();
+            let followed = |((rim, latent), read): ((Option<f64>, &Latent), Option<f64>)| {
+                rim.map(|rim| rim * speed_ratio(latent.slip).0).or(read)
+            };
+            rim_speeds.zip(latents).zip(read()).map(followed).collect()
+        }
+        _ => read(),
+    }
+}
+
 /// Sine and cosine of an angle; 0 where a row does not have it.
-fn turns(angles_rad: &[Option<f64>]) -> [Vec<f64>; 2] {
-    let of = |part: fn(f64) -> f64| angles_rad.iter().map(|angle| angle.map_or(0.0, part)).collect();
+fn turns(angles_rad: &[Option<f64>]) -> [Term; 2] {
+    let of = |part: fn(f64) -> f64| Term::steady(angles_rad.iter().map(|angle| angle.map_or(0.0, part)).collect());
     [of(f64::sin), of(f64::cos)]
 }
 
@@ -82,14 +151,34 @@ pub fn products(columns: &[Regressor]) -> Vec<Regressor> {
     let mut found = Vec::new();
     for (place, one) in columns.iter().enumerate() {
         for other in &columns[place + 1..] {
-            let values: Vec<_> = one.values.iter().zip(&other.values).map(|(a, b)| Some(a * b)).collect();
+            let product = product(&one.term, &other.term);
+            let at = product.slopes.as_ref().map_or_else(|| Arc::from([]), |slopes| slopes.at.clone());
+            let column = Column {
+                values: product.values.into_iter().map(Some).collect(),
+                by: product.slopes.map(|slopes| slopes.by),
+            };
             let parts = vec![one.name.clone(), other.name.clone()];
-            let product = standardised(format!("{}*{}", one.name, other.name), parts, &values);
-            let factors = vec![one.values.clone(), other.values.clone()];
+            let factors = vec![one.term.clone(), other.term.clone()];
+            let product = standardised(format!("{}*{}", one.name, other.name), parts, &column, &at);
             found.extend(product.map(|product| Regressor { factors, ..product }));
         }
     }
     found
+}
+
+/// The product of two terms.
+fn product(one: &Term, other: &Term) -> Term {
+    let rows = one.values.len();
+    let slope = |term: &Term, row: usize| term.slopes.as_ref().map_or([0.0; 2], |slopes| slopes.by[row]);
+    let by = |row: usize| {
+        let (a, b) = (slope(one, row), slope(other, row));
+        std::array::from_fn(|k| a[k] * other.values[row] + one.values[row] * b[k])
+    };
+    let at = one.slopes.as_ref().or(other.slopes.as_ref()).map(|slopes| slopes.at.clone());
+    Term {
+        values: one.values.iter().zip(&other.values).map(|(a, b)| a * b).collect(),
+        slopes: at.map(|at| Slopes { by: (0..rows).map(by).collect(), at }),
+    }
 }
 
 /// Columns that say how a channel scattered within a window are results, not causes.
@@ -97,16 +186,8 @@ pub(super) fn is_scatter(name: &str) -> bool {
     name.contains("_sd") || name.contains("std")
 }
 
-/// What a column says in a row of the campaign.
-pub(super) fn value(campaign: &Campaign, name: &str, place: usize) -> Option<f64> {
-    if name == Channel::Time.name() {
-        Some(campaign.rows().get(place)?.t_s)
-    } else {
-        *campaign.column(name)?.get(place)?
-    }
-}
-
-fn standardised(name: String, parts: Vec<String>, values: &[Option<f64>]) -> Option<Regressor> {
+fn standardised(name: String, parts: Vec<String>, column: &Column, at: &Arc<[[f64; 2]]>) -> Option<Regressor> {
+    let values = &column.values;
     let known: Vec<f64> = values.iter().flatten().copied().filter(|value| value.is_finite()).collect();
     let mut distinct = known.clone();
     distinct.sort_by(f64::total_cmp);
@@ -119,9 +200,11 @@ fn standardised(name: String, parts: Vec<String>, values: &[Option<f64>]) -> Opt
     let std = (known.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
     let flat = std <= 1e-9 * mean.abs();
     let scale = |value: &Option<f64>| value.map_or(0.0, |value| (value - mean) / std);
+    let slopes =
+        || Some(Slopes { by: column.by.as_ref()?.iter().map(|by| by.map(|by| by / std)).collect(), at: at.clone() });
     (!flat && std > 0.0).then(|| Regressor {
         name,
-        values: values.iter().map(scale).collect(),
+        term: Term { values: values.iter().map(scale).collect(), slopes: slopes() },
         factors: Vec::new(),
         turns: None,
         parts,
@@ -133,4 +216,24 @@ pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
     product / (squares(a) * squares(b)).sqrt().max(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// d(ab) = a db + b da, for a of slip and b of slip and load.
+    #[test]
+    fn a_product_follows_both_of_its_factors() {
+        let at: Arc<[[f64; 2]]> = Arc::from([[0.2, 50.0]]);
+        let term = |value: f64, by: [f64; 2]| Term {
+            values: vec![value],
+            slopes: Some(Slopes { by: vec![by], at: at.clone() }),
+        };
+        let found = product(&term(2.0, [3.0, 0.0]), &term(5.0, [7.0, 0.5]));
+        assert_eq!(found.values, [10.0]);
+        assert_eq!(found.slopes.expect("slopes").by, [[29.0, 1.0]]);
+        let steady = product(&Term::steady(vec![2.0]), &Term::steady(vec![3.0]));
+        assert!(steady.slopes.is_none() && steady.values == [6.0]);
+    }
 }

@@ -5,7 +5,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::chance::over_all;
 use super::fit::{Fit, Reading};
-use super::linearised::{AddedTerms, Linearised};
+use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
 use super::selection::{PARAMETER_COST, gain_over};
 use super::trial::{Bench, Trial};
@@ -50,6 +50,9 @@ const OF_CHANNEL: usize = 8;
 /// Powers of one column that are tried: a line, a bend that few observations can bear, and a curve that may turn twice.
 const DEGREES: [usize; 3] = [1, 2, 3];
 
+/// Standard deviations of a column beyond which its powers grow no more.
+const EDGE: f64 = 4.0;
+
 /// Every channel against every column and every product of two, refitted with the model's parameters; the best first. One
 /// entry a channel and column.
 pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Structure> {
@@ -63,10 +66,10 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
 /// tried.
 fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<Structure>, usize)> {
     let measurements = bench.measurements;
-    let columns = columns(bench.campaign, measurements);
-    let products = products(&columns);
     let held = bench.held(&trial.fit);
     let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options)?;
+    let columns = columns(bench, &linearised);
+    let products = products(&columns);
     let nothing = linearised.fit_with(&no_terms()).ok()?;
     let channels = Reading::JUDGED.into_iter().filter(|channel| measurements.has(*channel));
     let singles = columns.iter().flat_map(|column| DEGREES.map(|degree| (column, degree)));
@@ -77,7 +80,7 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
         .flat_map(|channel| all.iter().map(move |(regressor, terms)| (channel, *regressor, terms)))
         .filter(|(channel, regressor, _)| !regressor.contains(*channel))
         .collect();
-    let examine = |&(channel, regressor, terms): &(Reading, &Regressor, &Vec<Vec<f64>>)| {
+    let examine = |&(channel, regressor, terms): &(Reading, &Regressor, &Vec<Term>)| {
         let added = AddedTerms { channel, terms: terms.clone() };
         let fit = linearised.fit_with(&added).ok()?;
         Some(Structure {
@@ -175,22 +178,39 @@ fn chance_of(gain: f64, terms: usize, observations: usize, tried: usize) -> f64 
 }
 
 /// A constant, what a product is made of, and the powers: a column's effect seldom vanishes at the column's mean.
-fn powers(regressor: &Regressor, degree: usize) -> Vec<Vec<f64>> {
-    let constant = vec![1.0; regressor.values.len()];
-    let power = |power: i32| regressor.values.iter().map(|value| value.clamp(-4.0, 4.0).powi(power)).collect();
-    std::iter::once(constant).chain(regressor.factors.iter().cloned()).chain((1..=degree as i32).map(power)).collect()
+fn powers(regressor: &Regressor, degree: usize) -> Vec<Term> {
+    let powers = (1..=degree as i32).map(|degree| power(&regressor.term, degree));
+    std::iter::once(constant(regressor)).chain(regressor.factors.iter().cloned()).chain(powers).collect()
+}
+
+fn constant(regressor: &Regressor) -> Term {
+    Term::steady(vec![1.0; regressor.term.values.len()])
+}
+
+/// A power of a term; what lies far out counts as on the edge.
+fn power(term: &Term, degree: i32) -> Term {
+    let held = |value: f64| value.clamp(-EDGE, EDGE);
+    let slope = |(value, by): (&f64, &[f64; 2])| {
+        let inside = if value.abs() < EDGE { 1.0 } else { 0.0 };
+        by.map(|by| inside * f64::from(degree) * held(*value).powi(degree - 1) * by)
+    };
+    let slopes =
+        |slopes: &Slopes| Slopes { by: term.values.iter().zip(&slopes.by).map(slope).collect(), at: slopes.at.clone() };
+    Term {
+        values: term.values.iter().map(|value| held(*value).powi(degree)).collect(),
+        slopes: term.slopes.as_ref().map(slopes),
+    }
 }
 
 /// Those of the terms that a product, or a column, shares with what the contact alone may do.
-fn common(regressor: &Regressor) -> Vec<Vec<f64>> {
-    let constant = vec![1.0; regressor.values.len()];
-    std::iter::once(constant).chain(regressor.contact_factors().cloned()).collect()
+fn common(regressor: &Regressor) -> Vec<Term> {
+    std::iter::once(constant(regressor)).chain(regressor.contact_factors().cloned()).collect()
 }
 
 /// A constant and a swing once a turn, of an angle of the wheel.
-fn wave(regressor: &Regressor) -> Option<Vec<Vec<f64>>> {
+fn wave(regressor: &Regressor) -> Option<Vec<Term>> {
     let [sine, cosine] = regressor.turns.clone()?;
-    Some(vec![vec![1.0; regressor.values.len()], sine, cosine])
+    Some(vec![constant(regressor), sine, cosine])
 }
 
 /// Share of the squares of a channel's standardised residual that is gone.

@@ -21,6 +21,9 @@ const MISFIT: f64 = 1.5;
 const LEADERS: usize = 4;
 /// Second effects that are fitted on top of each of these.
 const SECONDS: usize = 3;
+/// Share of the best gain in ln posterior at a short look, and how much less than that, from which a candidate may still lead.
+const PROMISING_SHARE: f64 = 0.5;
+const PROMISING_LESS: f64 = 10.0;
 /// The chance below which any gain on runs that were not seen is enough.
 const BEYOND_DOUBT: f64 = 1e-4;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
@@ -63,13 +66,19 @@ impl Judged<'_> {
         self.p_value < SIGNIFICANT
     }
 
-    /// A size that the data push out of its range is not one that they support. Of the parameters that only shape an effect
-    /// the data may well know only a side.
+    /// A size that the data push out of its range is not one that they support; nor is a shape that they push out of it, for
+    /// the form then stands for another law. Of a shape that may be absent, and is, the data say just that.
     fn is_on_bound(&self) -> bool {
         let model = &self.trial.model;
-        let size = self.effect().and_then(|effect| Some((effect.info.id, *effect.form.free.first()?)));
-        let place = model.effect_parameters().iter().position(|parameter| Some(*parameter) == size);
-        place.is_some_and(|place| self.trial.fit.on_bound.get(model.soil_count() + place).copied().unwrap_or(false))
+        let Some(effect) = self.effect() else { return false };
+        let mut own = model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
+        own.any(|(place, (_, name))| {
+            let place = model.soil_count() + place;
+            let is_size = effect.form.free.first() == Some(name);
+            let neutral = effect.info.parameters.iter().find(|info| info.name == *name).map(|info| info.neutral);
+            let is_absent = !is_size && neutral == self.trial.fit.parameters.get(place).copied();
+            !is_absent && self.trial.fit.on_bound.get(place).copied().unwrap_or(false)
+        })
     }
 }
 
@@ -175,7 +184,7 @@ fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
 }
 
 /// Fits of the candidates: after a short look at every one, the best form of each effect, and every form of the effects that
-/// look best.
+/// look best. Where one looks good and another much less so, the short look at the other is enough.
 fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Trial<'a>> {
     let held = bench.held(&base.fit);
     let glances: Vec<_> = all.par_iter().filter_map(|form| bench.glance(&held, base, form)).collect();
@@ -184,9 +193,13 @@ fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Tr
     let form = |trial: &Trial<'_>| trial.specification.effects.last().cloned();
     let leaders: Vec<_> = best.iter().take(LEADERS).filter_map(form).collect();
     let leads = |candidate: &&EffectForm| leaders.iter().any(|leader| leader.info.id == candidate.info.id);
-    let others = best.iter().skip(LEADERS).filter_map(form);
-    let chosen: Vec<_> = all.iter().filter(leads).cloned().chain(others).collect();
-    chosen.par_iter().filter_map(|form| bench.with_effect(base, form)).collect()
+    let gain = |trial: &Trial<'_>| trial.log_posterior() - base.log_posterior();
+    let enough = PROMISING_SHARE * best.first().map_or(0.0, gain) - PROMISING_LESS * base.fit.dispersion.max(1.0);
+    let (promising, others): (Vec<_>, Vec<_>) = best.into_iter().skip(LEADERS).partition(|trial| gain(trial) > enough);
+    let chosen: Vec<_> = all.iter().filter(leads).cloned().chain(promising.iter().filter_map(form)).collect();
+    let mut fitted: Vec<_> = chosen.par_iter().filter_map(|form| bench.with_effect(base, form)).collect();
+    fitted.extend(others);
+    fitted
 }
 
 /// What candidates on top of the same model are compared by: ln posterior, less the cost of what the last effect frees.

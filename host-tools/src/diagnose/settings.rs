@@ -19,47 +19,52 @@ const GAP: f64 = 4.0;
 
 /// Moves slips and loads to what is expected of the true ones, and their noise to what is left unknown of them.
 pub fn settle(rows: &mut [Row], rows_of_run: &[Vec<usize>]) {
-    for reading in [Reading::Slip, Reading::Load] {
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        let still = hold_still(rows, rows_of_run, reading);
-        for run in rows_of_run {
-            let known: Vec<usize> =
-                run.iter().copied().filter(|row| rows[*row].readings[reading.index()].is_some()).collect();
-            if still && known.len() >= ROWS_OF_RUN {
-                shrink(rows, &known.iter().map(|row| vec![*row]).collect::<Vec<_>>(), reading);
-                groups.push(known);
-            } else {
-                groups.extend(known.into_iter().map(|row| vec![row]));
-            }
+    for channel in [Reading::Slip, Reading::Load].map(Reading::index) {
+        let read = |row: &Row| Some((row.readings[channel]?, row.noise[channel]));
+        let mut values: Vec<_> = rows.iter().map(read).collect();
+        settle_values(&mut values, rows_of_run);
+        for (row, (value, std)) in rows.iter_mut().zip(values).filter_map(|(row, value)| Some((row, value?))) {
+            (row.readings[channel], row.noise[channel]) = (Some(value), std);
         }
-        for level in levels(rows, groups, reading) {
-            if level.len() >= OF_LEVEL {
-                shrink(rows, &level, reading);
-            }
+    }
+}
+
+/// The same for any quantity that a rig may hold at levels: for each row what was read of it, and one standard deviation of
+/// that.
+pub fn settle_values(values: &mut [Option<(f64, f64)>], rows_of_run: &[Vec<usize>]) {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let still = hold_still(values, rows_of_run);
+    for run in rows_of_run {
+        let known: Vec<usize> = run.iter().copied().filter(|row| values[*row].is_some()).collect();
+        if still && known.len() >= ROWS_OF_RUN {
+            shrink(values, &known.iter().map(|row| vec![*row]).collect::<Vec<_>>());
+            groups.push(known);
+        } else {
+            groups.extend(known.into_iter().map(|row| vec![row]));
+        }
+    }
+    for level in levels(values, groups) {
+        if level.len() >= OF_LEVEL {
+            shrink(values, &level);
         }
     }
 }
 
 /// Whether the scatter within runs is mostly noise.
-fn hold_still(rows: &[Row], rows_of_run: &[Vec<usize>], reading: Reading) -> bool {
+fn hold_still(values: &[Option<(f64, f64)>], rows_of_run: &[Vec<usize>]) -> bool {
     let (mut scatter, mut noise) = (0.0, 0.0);
     for run in rows_of_run.iter().filter(|run| run.len() >= ROWS_OF_RUN) {
-        let values: Vec<(f64, f64)> = run.iter().filter_map(|row| value(&rows[*row], reading)).collect();
-        let mean = values.iter().map(|(value, _)| value).sum::<f64>() / values.len().max(1) as f64;
-        scatter += values.iter().map(|(value, _)| (value - mean).powi(2)).sum::<f64>();
-        noise +=
-            values.iter().map(|(_, std)| std * std).sum::<f64>() - values.first().map_or(0.0, |(_, std)| std * std);
+        let known: Vec<(f64, f64)> = run.iter().filter_map(|row| values[*row]).collect();
+        let mean = known.iter().map(|(value, _)| value).sum::<f64>() / known.len().max(1) as f64;
+        scatter += known.iter().map(|(value, _)| (value - mean).powi(2)).sum::<f64>();
+        noise += known.iter().map(|(_, std)| std * std).sum::<f64>() - known.first().map_or(0.0, |(_, std)| std * std);
     }
     noise > 0.0 && scatter < (1.0 + STILL) * noise
 }
 
-fn value(row: &Row, reading: Reading) -> Option<(f64, f64)> {
-    Some((row.readings[reading.index()]?, row.noise[reading.index()]))
-}
-
 /// Groups whose means lie closer than a gap, in one level each.
-fn levels(rows: &[Row], mut groups: Vec<Vec<usize>>, reading: Reading) -> Vec<Vec<Vec<usize>>> {
-    let middle = |group: &[usize]| mean(rows, group, reading);
+fn levels(values: &[Option<(f64, f64)>], mut groups: Vec<Vec<usize>>) -> Vec<Vec<Vec<usize>>> {
+    let middle = |group: &[usize]| mean(values, group);
     groups.sort_by(|a, b| middle(a).0.total_cmp(&middle(b).0));
     let mut levels: Vec<Vec<Vec<usize>>> = Vec::new();
     for group in groups {
@@ -74,29 +79,27 @@ fn levels(rows: &[Row], mut groups: Vec<Vec<usize>>, reading: Reading) -> Vec<Ve
 }
 
 /// Mean and middling noise of a group.
-fn mean(rows: &[Row], group: &[usize], reading: Reading) -> (f64, f64) {
-    let values = group.iter().filter_map(|row| value(&rows[*row], reading));
-    let (sum, squares, count) = values
+fn mean(values: &[Option<(f64, f64)>], group: &[usize]) -> (f64, f64) {
+    let known = group.iter().filter_map(|row| values[*row]);
+    let (sum, squares, count) = known
         .fold((0.0, 0.0, 0.0), |(sum, squares, count), (value, std)| (sum + value, squares + std * std, count + 1.0));
     (sum / f64::max(count, 1.0), (squares / f64::max(count, 1.0)).sqrt())
 }
 
 /// Moves groups towards their common mean, as far as their scatter is that of their noise.
-fn shrink(rows: &mut [Row], groups: &[Vec<usize>], reading: Reading) {
+fn shrink(values: &mut [Option<(f64, f64)>], groups: &[Vec<usize>]) {
     let count = groups.len() as f64;
-    let means: Vec<(f64, f64)> = groups.iter().map(|group| mean(rows, group, reading)).collect();
+    let means: Vec<(f64, f64)> = groups.iter().map(|group| mean(values, group)).collect();
     let common = means.iter().map(|(mean, _)| mean).sum::<f64>() / count;
     let scatter = means.iter().map(|(mean, _)| (mean - common).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
     let noise = means.iter().map(|(_, std)| std * std).sum::<f64>() / count;
     let true_variance = (scatter - noise).max(0.0);
     let kept = true_variance / (true_variance + noise).max(f64::MIN_POSITIVE);
     let std = (kept * noise + noise / count).sqrt().min(noise.sqrt());
-    let channel = reading.index();
     for (group, (mean, _)) in groups.iter().zip(&means) {
         let moved = (1.0 - kept) * (common - mean);
         for row in group {
-            rows[*row].readings[channel] = rows[*row].readings[channel].map(|value| value + moved);
-            rows[*row].noise[channel] = std;
+            values[*row] = values[*row].map(|(value, _)| (value + moved, std));
         }
     }
 }
@@ -113,7 +116,8 @@ mod tests {
     }
 
     fn load(row: &Row) -> (f64, f64) {
-        value(row, Reading::Load).expect("a load")
+        let load = Reading::Load.index();
+        (row.readings[load].expect("a load"), row.noise[load])
     }
 
     /// Scatter of less than the noise is all noise: every row at the mean, known to σ/√n.

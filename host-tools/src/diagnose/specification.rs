@@ -144,7 +144,7 @@ fn reference(parameter: &str, measurements: &Measurements) -> Option<f64> {
     };
     match parameter {
         "reference_load_n" => measurements.median(Reading::Load),
-        "reference_speed_m_s" => middle(|conditions| conditions.speed_m_s).filter(|speed| *speed > 0.0),
+        "reference_speed_m_s" => median(measurements.speeds_m_s().flatten().collect()).filter(|speed| *speed > 0.0),
         "reference_c" => middle(|conditions| conditions.temperature_c),
         _ => None,
     }

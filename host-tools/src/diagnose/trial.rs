@@ -13,6 +13,8 @@ use crate::data::campaign::Campaign;
 const STARTS: usize = 4;
 /// Steps of a short look at a candidate.
 const GLANCE: usize = 5;
+/// Gain in ln posterior of a step below which a fit has come to its end: far less than what tells anything apart.
+const TOLERANCE: f64 = 1e-4;
 /// Seed of the places where they lie.
 const SEED: u32 = 1;
 
@@ -52,7 +54,7 @@ pub struct Bench<'a> {
 impl<'a> Bench<'a> {
     /// All runs of a campaign.
     pub fn new(campaign: &'a Campaign, measurements: &'a Measurements) -> Self {
-        let mut options = Options { most_iterations: 40, ..Options::default() };
+        let mut options = Options { most_iterations: 40, tolerance: TOLERANCE, ..Options::default() };
         for reading in Reading::JUDGED {
             options.estimate_noise[reading.index()] = !measurements.noise[reading.index()].stated;
         }

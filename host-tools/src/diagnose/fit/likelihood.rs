@@ -1,6 +1,7 @@
 //! The marginal likelihood by Laplace's method.
 
-use super::model::Coordinate;
+use super::measured_latents::ln_stretch;
+use super::model::{Coordinate, Prediction};
 use super::normal_equations::NormalEquations;
 use super::observation::CHANNELS;
 use super::problem::{Problem, RunRows};
@@ -9,6 +10,10 @@ use super::state::{Scales, State};
 /// ln of the density of the readings at given parameters, latents and offsets integrated out to second order about a state
 /// (Laplace's method; exact where the model is linear in them and no reading is an outlier). `equations` are those of the
 /// state, undamped.
+///
+/// Of slip and load nothing is known but what the sensors read: their prior is flat in the readings, not in the true values.
+/// An error of the sensors that shrinks the readings would else be paid for it in every row, with nothing explained
+/// (a flat prior is one for one choice of scale only; Jeffreys 1946, Proc. R. Soc. A 186:453).
 pub(super) fn log_likelihood(
     problem: &Problem<'_>,
     state: &State,
@@ -30,8 +35,12 @@ pub(super) fn log_likelihood(
         let rows: f64 = run.rows.iter().map(row_norm).sum();
         rows + latent_norm * run.rows.len() as f64 + offsets + 0.5 * terms.ln_det
     };
+    let stretch = |(run, predictions): (&RunRows, &Vec<Prediction>)| -> f64 {
+        run.rows.iter().zip(predictions).map(|(&row, seen)| ln_stretch(&problem.rows[row], seen)).sum()
+    };
     let norm: f64 = problem.runs.iter().enumerate().map(run_norm).sum();
-    state.parameter_penalty(problem) - objective - norm
+    let stretched: f64 = problem.runs.iter().zip(&state.predictions).map(stretch).sum();
+    state.parameter_penalty(problem) - objective - norm + stretched
 }
 
 /// ln of the prior density of the parameters; a flat prior counts where its bounds are finite.

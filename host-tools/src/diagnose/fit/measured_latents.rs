@@ -31,6 +31,11 @@ fn sources(row: &Row) -> Option<[Reading; 2]> {
 
 /// Derivatives of two readings by slip and load, inverted; none where the two do not tell them apart.
 pub(super) fn by_readings(prediction: &Prediction, sources: [Reading; 2]) -> Option<Matrix2<f64>> {
+    derivatives(prediction, sources)?.try_inverse()
+}
+
+/// Derivatives of two readings by slip and load; none where the two do not tell them apart.
+fn derivatives(prediction: &Prediction, sources: [Reading; 2]) -> Option<Matrix2<f64>> {
     let [first, second] = sources.map(Reading::index);
     let matrix = Matrix2::new(
         prediction.by_slip[first],
@@ -39,7 +44,13 @@ pub(super) fn by_readings(prediction: &Prediction, sources: [Reading; 2]) -> Opt
         prediction.by_load[second],
     );
     let size = matrix.column(0).norm() * matrix.column(1).norm();
-    (matrix.determinant().abs() > SINGULAR * size).then(|| matrix.try_inverse()).flatten()
+    (matrix.determinant().abs() > SINGULAR * size).then_some(matrix)
+}
+
+/// ln of how much readings that tell slip and load stretch these; 0 where none do.
+pub(super) fn ln_stretch(row: &Row, prediction: &Prediction) -> f64 {
+    let derivatives = sources(row).and_then(|sources| derivatives(prediction, sources));
+    derivatives.map_or(0.0, |derivatives| derivatives.determinant().abs().ln())
 }
 
 /// The latents at which slip and load readings of a run come out as measured, with the predictions there; none where the model

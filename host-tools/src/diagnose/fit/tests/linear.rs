@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::dense::Dense;
 use super::toy::{Linear, Terms, blank, campaign, free, normal, plain, random};
-use crate::diagnose::fit::{CHANNELS, Coordinate, Row, Start, fit};
+use crate::diagnose::fit::{CHANNELS, Coordinate, Reading, Row, Start, fit};
 
 /// Readings of the drawbar pull that no latent moves: `y = a + b x`.
 fn line(count: usize, seed: u64) -> (Linear, Vec<Row>, DMatrix<f64>, DVector<f64>, DVector<f64>) {
@@ -120,4 +120,19 @@ proptest! {
         let expected = dense.ln_density(parameters.as_slice());
         prop_assert!((fit.log_likelihood - expected).abs() < 1e-5, "{} {expected}", fit.log_likelihood);
     }
+}
+
+/// A load cell that reads a share of the load tells as much of it as one that reads it all.
+#[test]
+fn a_sensor_that_shrinks_its_readings_explains_nothing_by_it() {
+    let (model, rows) = campaign(&[5; 4], 2, 7);
+    let likelihood = |share: f64| {
+        let mut model = model.clone();
+        for terms in &mut model.terms {
+            terms.load = [0.0; CHANNELS];
+            terms.load[Reading::Load.index()] = share;
+        }
+        fit(&model, &rows, &Start::of(&model, &rows), &plain()).unwrap().log_likelihood
+    };
+    assert!((likelihood(0.8) - likelihood(1.0)).abs() < 1e-3, "{} {}", likelihood(0.8), likelihood(1.0));
 }
