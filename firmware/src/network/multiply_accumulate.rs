@@ -70,35 +70,58 @@ mod on_target {
         if place >= O / TILE {
             return;
         }
-        // SAFETY: `weights` starts in the first row and moves on by a row with each input; the 16 weights read there end
-        // at column (place + 1) · TILE ≤ O of that row. One input by itself if I is odd, then I / 2 pairs, none if that is
-        // zero: as many inputs and rows are read as there are. Reads `input` and `rows`, reads and writes `tile`, all of
-        // them borrowed for as long, and no other memory. Changes only the registers and flags named.
+        let rest_of_row = size_of::<[f32; O]>() - size_of::<[f32; TILE / 2]>();
+        // SAFETY: the first tile of weights starts in the first row, and the last one, I − 1 rows further, ends at column
+        // (place + 1) · TILE ≤ O of its row; `input` is I numbers long.
+        unsafe {
+            add_rows(tile, input.as_ptr(), I, rows.as_ptr().cast::<f32>().wrapping_add(place * TILE), rest_of_row)
+        }
+    }
+
+    /// Adds `count` rows of a tile of weights, each times its input. One copy in the image for layers of all shapes.
+    ///
+    /// # Safety
+    /// There are `count` inputs, and as many tiles of weights, each `rest_of_row` bytes behind the middle of the one before.
+    #[inline(never)]
+    unsafe fn add_rows(
+        tile: &mut [f32; TILE],
+        input: *const f32,
+        count: usize,
+        weights: *const f32,
+        rest_of_row: usize,
+    ) {
+        // SAFETY: the inputs left over by fours one by one, then count / 4 times four, none if that is zero: as many inputs
+        // and tiles of weights are read as the caller says there are. Reads and writes `tile`, which is borrowed for as
+        // long, and no other memory. Changes only the registers and flags named.
         unsafe {
             asm!(
                 "vldmia {sums}, {{s0-s15}}",
-                "lsrs {pairs}, {count}, #1",
-                "bcc 2f",
-                "vldmia {input}!, {{s24}}",
+                "ands {turns}, {count}, #3",
+                "beq 2f",
+                "1: vldmia {input}!, {{s24}}",
                 add_row!("s24"),
-                "2: cmp {pairs}, #0",
+                "subs {turns}, {turns}, #1",
+                "bne 1b",
+                "2: lsrs {turns}, {count}, #2",
                 "beq 4f",
-                "3: vldmia {input}!, {{s24-s25}}",
+                "3: vldmia {input}!, {{s24-s27}}",
                 add_row!("s24"),
                 add_row!("s25"),
-                "subs {pairs}, {pairs}, #1",
+                add_row!("s26"),
+                add_row!("s27"),
+                "subs {turns}, {turns}, #1",
                 "bne 3b",
                 "4: vstmia {sums}, {{s0-s15}}",
                 sums = in(reg) tile.as_mut_ptr(),
-                count = in(reg) I,
-                pairs = out(reg) _,
-                input = inout(reg) input.as_ptr() => _,
-                weights = inout(reg) rows.as_ptr().cast::<f32>().add(place * TILE) => _,
-                rest_of_row = in(reg) size_of::<[f32; O]>() - size_of::<[f32; TILE / 2]>(),
+                count = in(reg) count,
+                turns = out(reg) _,
+                input = inout(reg) input => _,
+                weights = inout(reg) weights => _,
+                rest_of_row = in(reg) rest_of_row,
                 out("s0") _, out("s1") _, out("s2") _, out("s3") _, out("s4") _, out("s5") _, out("s6") _, out("s7") _,
                 out("s8") _, out("s9") _, out("s10") _, out("s11") _, out("s12") _, out("s13") _, out("s14") _,
                 out("s15") _, out("s16") _, out("s17") _, out("s18") _, out("s19") _, out("s20") _, out("s21") _,
-                out("s22") _, out("s23") _, out("s24") _, out("s25") _,
+                out("s22") _, out("s23") _, out("s24") _, out("s25") _, out("s26") _, out("s27") _,
                 options(nostack),
             );
         }
