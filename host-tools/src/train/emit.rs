@@ -40,7 +40,7 @@ pub fn table_file(wheel: WheelTable, rover: RoverTable, provenance: &Provenance<
 }
 
 /// The numbers of two tables, as their file has them.
-pub fn blocks(mut wheel: WheelTable, mut rover: RoverTable) -> Vec<Block> {
+fn blocks(mut wheel: WheelTable, mut rover: RoverTable) -> Vec<Block> {
     let mut blocks = Blocks(Vec::new());
     wheel.visit_parts(&mut blocks);
     rover.visit_parts(&mut blocks);
