@@ -13,6 +13,7 @@ use super::faults::{Failure, Fault};
 use super::ground_soils::{Becomes, Change};
 use super::programme::Command;
 use super::terrain::{Shape, Terrain};
+use crate::data::sensor_channels::WHEEL_NAMES;
 
 /// A kind of drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, ValueEnum)]
@@ -176,7 +177,7 @@ impl Draw<'_> {
         while time_s < course.duration_s - 10.0 {
             let group = PATTERNS[self.random.random_range(0..PATTERNS.len())];
             // One wheel's or side's sensor more often than all.
-            let wheel = ["fl", "ml", "rl", "fr", "mr", "rr"][self.random.random_range(0..6)];
+            let wheel = WHEEL_NAMES[self.random.random_range(0..WHEEL_NAMES.len())];
             let side = if wheel.ends_with('l') { "l" } else { "r" };
             let one = match group {
                 "load_cell_*" | "motor_torque_*" | "wheel_rate_*" => group.replace('*', &format!("{wheel}_*")),

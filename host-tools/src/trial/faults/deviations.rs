@@ -4,6 +4,7 @@ use kapvik_firmware::estimator::{Estimate, WheelEstimate};
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::PerWheel;
 
+use crate::data::sensor_channels::WHEEL_NAMES;
 use crate::data::truth_file::{Truth, WheelTruth};
 
 /// An estimate that is farther off than allowed, in its standard deviations.
@@ -34,8 +35,7 @@ impl Deviations {
     /// The deviation that is farthest above `limit` and above what it is in `others`; none where no one is.
     pub fn worst(&self, limit: f64, others: &Self) -> Option<Excess> {
         const QUANTITIES: [&str; 5] = ["slip", "torque", "contact angle", "load", "drawbar pull"];
-        const WHEELS: [&str; 6] = ["fl", "ml", "rl", "fr", "mr", "rr"];
-        let pairs = self.0.iter_wheels().zip(others.0.iter_wheels()).zip(WHEELS);
+        let pairs = self.0.iter_wheels().zip(others.0.iter_wheels()).zip(WHEEL_NAMES);
         let excesses = pairs.flat_map(|((deviations, others), wheel)| {
             deviations.iter().zip(others).zip(QUANTITIES).map(move |((deviation, other), quantity)| Excess {
                 wheel,
