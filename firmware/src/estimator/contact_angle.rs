@@ -95,7 +95,11 @@ const ANGLE_DRIFT: f64 = 0.32;
 /// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
 const LINK_DRIFT: f64 = 0.032;
 /// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
-const ANGLE_FROM_WANDERING: f64 = 0.157;
+const ANGLE_FROM_WANDERING: f64 = 0.1;
+/// From the middle of the bogie to that of the rocker, m: over this length the ground bends as the bogie does against the rocker.
+const BEND_LENGTH: f64 = 0.44;
+/// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
+const BEND_BY_SINKING: f64 = 0.02;
 /// What is added to that for each unit by which runs of innovations are above [`RUN`].
 const ANGLE_FROM_RUNS: f64 = 0.1;
 /// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
@@ -103,6 +107,7 @@ const RUN: f64 = 4.0;
 /// Runs are looked for from this measurement on: of the velocity up, the rocker and the bogie. What is forward tells nothing of
 /// the angles, and the body's pitch is no ground's doing.
 const FIRST_IN_RUNS: usize = 1;
+const RUNS: usize = MEASUREMENTS - 1 - FIRST_IN_RUNS;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
 /// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
@@ -119,7 +124,7 @@ pub(super) struct ContactAngleFilter<S> {
     bogie_rate: WalkRate<S>,
     watch: Watch,
     begun: bool,
-    runs: Runs<S, { MEASUREMENTS - 1 - FIRST_IN_RUNS }>,
+    runs: Runs<S, RUNS>,
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
     speed_slopes: PerAxle<[S; STATES]>,
 }
@@ -191,6 +196,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.model.body_pitch
     }
 
+    /// The runs of its innovations: of the velocity up, the rocker and the bogie.
+    pub fn runs(&self) -> &Runs<S, RUNS> {
+        &self.runs
+    }
+
     /// The motion at the mean.
     pub fn motion(&self) -> RollingMotion<S> {
         self.model.motion(self.filter.estimate().mean())
@@ -206,6 +216,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
     pub fn unsettle(&mut self) {
         let (zero, angle) = (S::zero(), S::constant(DUG_IN));
         let _ = self.filter.random_walk(&[zero, angle, angle, angle, zero, zero, zero]);
+    }
+
+    /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the ground is.
+    pub fn settle(&mut self) {
+        let rates = [&mut self.ratio_rate, &mut self.direction_rate, &mut self.rocker_rate, &mut self.bogie_rate];
+        rates.into_iter().for_each(WalkRate::restart);
     }
 
     /// How often the filter fell back to its floor.
@@ -278,7 +294,19 @@ impl<S: Scalar> ContactAngleFilter<S> {
         // Where links and velocity wander fast, so do the angles, and more than in proportion: how slowly they wander on plane
         // ground, no sensor can tell.
         let steeper = wandering * wandering.sqrt();
-        steeper + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
+        self.bend()
+            + steeper
+            + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
+    }
+
+    /// What the ground's bend along the side says of it: a bogie that is bent against its rocker by β stands on ground whose slope
+    /// changes by β from the middle of the one link to that of the other, and a random walk with the variance β² over that length
+    /// does the same. It tells at once, and still where a wheel is on top of a rock: there its angle changes most, and the links
+    /// hardly move.
+    fn bend(&self) -> S {
+        let [.., rocker, bogie, _] = *self.filter.estimate().mean();
+        let bend = ((bogie - rocker).abs() - S::constant(BEND_BY_SINKING)).max(S::zero());
+        bend * bend * S::constant(1.0 / (BEND_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT))
     }
 
     /// How far the hubs go in a step: wheels that spin on the spot meet no other ground.

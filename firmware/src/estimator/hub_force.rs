@@ -5,7 +5,13 @@
 //! cells, the moment on the bogie and the moment on the rocker. What the two hubs of a bogie have of their joint force
 //! is not observable where they hang at the same height, so it is no state: it comes in as a split with a spread.
 //! Normal load and drawbar pull are these forces seen along the contact ([`super::drawbar_split`]).
+//!
+//! What drifts by itself are the cells' forces and the two moments. The links have no mass to speak of: whatever the ground does,
+//! the moments on them stay what torques and body make them, so that a cell's force that changes takes the forces along the
+//! links with it. The drift of the state is therefore correlated.
 
+use super::runs::Runs;
+use super::slip_torque::TORQUE_DRIFT_NM;
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
@@ -59,6 +65,17 @@ impl<S: Scalar> HubForceModel<S> {
         [front, middle, rear, bogie, rocker]
     }
 
+    /// The state that such cells' forces, N, and moments on bogie and rocker, N·m, make necessary: [`Self::measure`] turned round.
+    fn state_of(&self, [front, middle, rear]: [S; 3], [bogie_nm, rocker_nm]: [S; 2]) -> [S; STATES] {
+        let (zero, one) = (S::zero(), S::one());
+        let straight = Self { difference_n: zero, ..*self };
+        let [.., arm_of_bogie, of_bogie] = straight.measure(&[zero, zero, zero, zero, one]);
+        let [.., arm_of_rocker] = straight.measure(&[zero, zero, zero, one, zero]);
+        let [.., bogie_by_cells, rocker_by_cells] = self.measure(&[front, middle, rear, zero, zero]);
+        let along_bogie = (bogie_nm - bogie_by_cells) / arm_of_bogie;
+        [front, middle, rear, (rocker_nm - rocker_by_cells - of_bogie * along_bogie) / arm_of_rocker, along_bogie]
+    }
+
     /// The force on each hub in the coordinates of its link, N.
     pub fn forces(&self, [front, middle, rear, along_rocker, along_bogie]: &[S; STATES]) -> PerAxle<Planar<S>> {
         let half = S::constant(0.5);
@@ -90,8 +107,9 @@ pub(super) struct ForceReadings<S> {
 const UNKNOWN_SHARE: f64 = 0.3;
 /// Nominal drift of a cell's force over a metre of travel, N: 6 N over a wheel radius.
 const CELL_DRIFT_N: f64 = 21.0;
-/// The same of the forces along rocker and bogie, N.
-const ALONG_DRIFT_N: f64 = 15.0;
+/// The same of the moments, N·m: on the rocker that of one wheel's torque (the body's share wanders less), on the bogie that of two.
+const ROCKER_DRIFT_NM: f64 = TORQUE_DRIFT_NM;
+const BOGIE_DRIFT_NM: f64 = core::f64::consts::SQRT_2 * TORQUE_DRIFT_NM;
 /// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
 const UNSETTLED_N: f64 = 3.0;
 
@@ -110,6 +128,7 @@ pub(super) struct HubForceFilter<S> {
     rocker_rate: WalkRate<S>,
     bogie_rate: WalkRate<S>,
     watch: Watch,
+    runs: Runs<S, MEASUREMENTS>,
 }
 
 impl<S: Scalar> HubForceFilter<S> {
@@ -127,12 +146,18 @@ impl<S: Scalar> HubForceFilter<S> {
             rocker_rate: WalkRate::new(phase + 3),
             bogie_rate: WalkRate::new(phase + 4),
             watch: Watch::default(),
+            runs: Runs::new(),
         })
     }
 
     /// What is known of the state.
     pub fn estimate(&self) -> &Gaussian<S, STATES> {
         self.filter.estimate()
+    }
+
+    /// The runs of its innovations.
+    pub fn runs(&self) -> &Runs<S, MEASUREMENTS> {
+        &self.runs
     }
 
     /// The force on each hub at the mean, in the coordinates of its link, N.
@@ -189,13 +214,12 @@ impl<S: Scalar> HubForceFilter<S> {
         readings: &ForceReadings<S>,
     ) -> Innovation<S, MEASUREMENTS> {
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
-        let along_bogie = self.along_bogie(readings);
-        let held = readings.bogie_is_held || along_bogie.is_some_and(|(force, _)| self.is_impossible(force, readings));
+        let held = readings.bogie_is_held || self.is_impossible(readings);
         if held {
             self.give_up_moments();
         }
-        self.learn_rates(travel_m, readings, along_bogie.filter(|_| !held));
-        let _ = self.filter.random_walk(&self.drifts_n(travel_m));
+        self.learn_rates(travel_m, readings, held);
+        let _ = self.filter.add_correlated_noise(&self.drifts(travel_m));
         let model = self.model;
         let told = self.filter.update(
             |state| model.measure(state),
@@ -215,6 +239,7 @@ impl<S: Scalar> HubForceFilter<S> {
             ],
             Gate::one_in_a_thousand(),
         );
+        self.runs.take(&told, 0);
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
             Contradiction::Moved => self.unsettle(),
@@ -223,33 +248,31 @@ impl<S: Scalar> HubForceFilter<S> {
         told
     }
 
-    /// One standard deviation of how far each force drifts over some travel, N.
-    fn drifts_n(&self, travel_m: S) -> [S; STATES] {
-        let root_travel = travel_m.sqrt();
+    /// How the state drifts over some travel: a column for each cell's force and each moment, one standard deviation of it.
+    fn drifts(&self, travel_m: S) -> [[S; STATES]; STATES] {
+        let (zero, root_travel) = (S::zero(), travel_m.sqrt());
         let drift = |nominal: f64, rate: &WalkRate<S>| S::constant(nominal) * root_travel * rate.factor().sqrt();
         let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, rate));
-        [front, middle, rear, drift(ALONG_DRIFT_N, &self.rocker_rate), drift(ALONG_DRIFT_N, &self.bogie_rate)]
+        let of_bogie = drift(BOGIE_DRIFT_NM, &self.bogie_rate);
+        let of_rocker = drift(ROCKER_DRIFT_NM, &self.rocker_rate);
+        let balanced = HubForceModel { difference_n: zero, ..self.model };
+        [
+            balanced.state_of([front, zero, zero], [zero; 2]),
+            balanced.state_of([zero, middle, zero], [zero; 2]),
+            balanced.state_of([zero, zero, rear], [zero; 2]),
+            balanced.state_of([zero; 3], [of_bogie, zero]),
+            balanced.state_of([zero; 3], [zero, of_rocker]),
+        ]
     }
 
-    /// The force along the bogie on its two hubs together that the moment on it and its cells make necessary, N, and its
-    /// variance.
-    fn along_bogie(&self, readings: &ForceReadings<S>) -> Option<(S, S)> {
-        let (middle, rear) = (readings.cells_n.middle?, readings.cells_n.rear?);
-        // The moment without the forces along it is what the cells' arms make; their height is the lever arm.
-        let [_, _, _, by_cells, _] = self.model.measure(&[S::zero(), middle, rear, S::zero(), S::zero()]);
-        let arm = S::constant(0.5) * (self.model.middle_hub.z + self.model.rear_hub.z);
-        let force = (readings.bogie_moment_nm.0 - by_cells) / arm;
-        let square = |value: S| value * value;
-        let cells = square(self.model.middle_hub.x) + square(self.model.rear_hub.x);
-        let variance = square(readings.cell_std_n) * cells + square(readings.bogie_moment_nm.1);
-        Some((force, variance / square(arm)))
-    }
-
-    /// Whether no two wheels under such loads are pushed so along their bogie: then something else holds the bogie.
-    fn is_impossible(&self, along_bogie_n: S, readings: &ForceReadings<S>) -> bool {
-        let load = |cell: Option<S>| cell.unwrap_or(S::zero()).abs();
-        let loads = load(readings.cells_n.middle) + load(readings.cells_n.rear);
-        along_bogie_n.abs() > S::constant(GREATEST_SHARE) * loads.max(S::constant(FORGOTTEN_PULL_N))
+    /// Whether the moment on the bogie and its cells make a force along it necessary that no two wheels under such loads can have:
+    /// then something else holds the bogie.
+    fn is_impossible(&self, readings: &ForceReadings<S>) -> bool {
+        let PerAxle { middle: Some(middle), rear: Some(rear), .. } = readings.cells_n else { return false };
+        let [.., along_bogie] =
+            self.model.state_of([S::zero(), middle, rear], [readings.bogie_moment_nm.0, readings.rocker_moment_nm.0]);
+        let loads = middle.abs() + rear.abs();
+        along_bogie.abs() > S::constant(GREATEST_SHARE) * loads.max(S::constant(FORGOTTEN_PULL_N))
     }
 
     /// Forgets the forces that only the moments tell.
@@ -259,38 +282,45 @@ impl<S: Scalar> HubForceFilter<S> {
         }
     }
 
-    /// Learns how fast the forces wander, from the cells, and from the moments with the forces that the cells tell.
-    fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, along_bogie: Option<(S, S)>) {
-        let [of_cell, nominal] = [CELL_DRIFT_N, ALONG_DRIFT_N].map(|drift| S::constant(drift * drift) * travel_m);
-        let variance = readings.cell_std_n * readings.cell_std_n;
-        let cells = self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array());
-        for (rate, cell) in cells {
+    /// Learns how fast the cells' forces and the moments wander. Where a stop holds the bogie the moments are not the soil's.
+    fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, held: bool) {
+        let square = |value: S| value * value;
+        let nominal = |drift: f64| S::constant(drift * drift) * travel_m;
+        let of_cell = nominal(CELL_DRIFT_N);
+        for (rate, cell) in self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array()) {
             match cell {
-                Some(force) => rate.see(*force, variance, of_cell),
+                Some(force) => rate.see(*force, square(readings.cell_std_n), of_cell),
                 None => rate.miss(of_cell),
             }
         }
-        match along_bogie {
-            Some((force, variance)) => self.bogie_rate.see(force, variance, nominal),
-            None => self.bogie_rate.miss(nominal),
-        }
-        match along_bogie.and_then(|force| self.along_rocker(readings, force)) {
-            Some((force, variance)) => self.rocker_rate.see(force, variance, nominal),
-            None => self.rocker_rate.miss(nominal),
+        let moments = [
+            (&mut self.bogie_rate, readings.bogie_moment_nm, nominal(BOGIE_DRIFT_NM)),
+            (&mut self.rocker_rate, readings.rocker_moment_nm, nominal(ROCKER_DRIFT_NM)),
+        ];
+        for (rate, (moment, std), nominal) in moments {
+            if held {
+                rate.miss(nominal);
+            } else {
+                rate.see(moment, square(std), nominal);
+            }
         }
     }
+}
 
-    /// The force along the rocker on the front hub that the moment on it makes necessary, N, and its variance.
-    fn along_rocker(&self, readings: &ForceReadings<S>, along_bogie: (S, S)) -> Option<(S, S)> {
-        let PerAxle { front: Some(front), middle: Some(middle), rear: Some(rear) } = readings.cells_n else {
-            return None;
-        };
-        let [_, _, _, _, by_others] = self.model.measure(&[front, middle, rear, S::zero(), along_bogie.0]);
-        let (arm, pivot) = (self.model.front_hub.z, self.model.bogie_pivot);
-        let square = |value: S| value * value;
-        let cells = square(self.model.front_hub.x) + square(pivot.x) + square(pivot.x);
-        let variance =
-            square(readings.cell_std_n) * cells + square(readings.rocker_moment_nm.1) + along_bogie.1 * square(pivot.z);
-        Some(((readings.rocker_moment_nm.0 - by_others) / arm, variance / square(arm)))
+#[cfg(test)]
+mod tests {
+    use super::HubForceModel;
+    use crate::rover::Rover;
+
+    /// The state that cells and moments make necessary must be measured as just these.
+    #[test]
+    fn cells_and_moments_make_one_state_necessary() {
+        let rover = Rover::<f64>::assumed();
+        let bogie_angle: f64 = 0.2;
+        let model = HubForceModel { difference_n: 3.0, ..HubForceModel::new(&rover.suspension, bogie_angle.sin_cos()) };
+        let told = [70.0, 55.0, 80.0, 3.0, -1.5];
+        let [front, middle, rear, bogie_nm, rocker_nm] = told;
+        let measured = model.measure(&model.state_of([front, middle, rear], [bogie_nm, rocker_nm]));
+        assert!(measured.iter().zip(told).all(|(found, told)| (found - told).abs() < 1.0e-9), "{measured:?}");
     }
 }

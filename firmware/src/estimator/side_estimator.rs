@@ -1,5 +1,7 @@
 //! The filters of one side, and what they say together.
 
+use core::cmp::Ordering;
+
 use super::attitude::Attitude;
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
@@ -40,8 +42,8 @@ const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
-/// Frames in which a wheel that has started may still dig in.
-const DIGGING_IN: u8 = 16;
+/// Frames in which a wheel that has started may still dig in: until its drive has come to its speed.
+const DIGGING_IN: u8 = 13;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
@@ -267,8 +269,11 @@ impl<S: Scalar> SideEstimator<S> {
         if unsettles {
             self.forces.unsettle();
         }
-        if self.unsettled.as_array().into_iter().any(|frames| *frames > SETTLED - DIGGING_IN) {
-            self.angles.unsettle();
+        let latest = self.unsettled.as_array().into_iter().fold(0, |latest: u8, frames| latest.max(*frames));
+        match latest.cmp(&(SETTLED - DIGGING_IN)) {
+            Ordering::Greater => self.angles.unsettle(),
+            Ordering::Equal => self.angles.settle(),
+            Ordering::Less => {}
         }
         if settles {
             self.forces.settle();

@@ -69,8 +69,11 @@ pub(super) struct WheelReadings<S> {
 /// One standard deviation of what is not known at all.
 const UNKNOWN: [f64; STATES] = [1.0, 3.0, 0.3];
 /// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
-const TORQUE_DRIFT_NM: f64 = 1.1;
+pub(super) const TORQUE_DRIFT_NM: f64 = 1.1;
 const SLIP_DRIFT: f64 = 0.37;
+/// What the torque did is remembered over the length of a contact, three centimetres: its sensor tells it well, and where a rock
+/// was passed it is calm at once.
+const TORQUE_MEMORY: f64 = 0.93;
 /// How much of the ground's roughness the slip feels: rough ground drives it steadily one way for long, which a single
 /// measurement of speed hardly shows.
 const SLIP_FROM_ROUGHNESS: f64 = 0.06;
@@ -108,7 +111,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         Ok(Self {
             filter: SigmaPointFilter::new(Gaussian::independent([S::zero(); STATES], unknown)?, unknown)?,
             model,
-            torque_rate: WalkRate::new(phase),
+            torque_rate: WalkRate::new(phase).remembering(TORQUE_MEMORY),
             slip_rate: WalkRate::new(phase + 2),
             shared_slip_variance: S::zero(),
             watch: Watch::default(),

@@ -12,7 +12,8 @@ const CANDIDATES: usize = 5;
 const LEAST: f64 = 1.0e-4;
 const STEP: f64 = 16.0;
 
-/// Of what the candidates explained badly, the share that is still held against them a frame later.
+/// Of what the candidates explained badly, the share that is still held against them a frame later: over a tenth of a metre at two
+/// centimetres a second.
 const MEMORY: f64 = 0.98;
 /// What smooth ground can hold against a faster rate, in twice the logarithm of likelihoods: the chance that the next frame is rough is
 /// never below e⁻⁵. Ground gets rough from one frame to the next; that it has become smooth, only a length of it tells.
@@ -25,6 +26,7 @@ const UNKNOWN: f64 = LEAST * STEP * STEP;
 pub(super) struct WalkRate<S> {
     trials: [Trial<S>; CANDIDATES],
     factor: S,
+    memory: S,
     frame: usize,
 }
 
@@ -43,7 +45,12 @@ impl<S: Scalar> WalkRate<S> {
     pub fn new(phase: usize) -> Self {
         let filter = ScalarFilter { mean: S::zero(), variance: S::constant(1.0e6) };
         let trial = Trial { filter, log_variance: S::zero(), misfit: S::zero() };
-        Self { trials: [trial; CANDIDATES], factor: S::constant(UNKNOWN), frame: phase }
+        Self { trials: [trial; CANDIDATES], factor: S::constant(UNKNOWN), memory: S::constant(MEMORY), frame: phase }
+    }
+
+    /// The same with another memory: the share of a misfit that is still held against a candidate a frame later.
+    pub fn remembering(self, memory: f64) -> Self {
+        Self { memory: S::constant(memory), ..self }
     }
 
     /// Takes a measurement with noise of this variance, where the nominal walk since the one before has `nominal_variance`.
@@ -65,7 +72,7 @@ impl<S: Scalar> WalkRate<S> {
                 trial.log_variance = variance.ln();
             }
             // One wild measurement says that something is wrong with it, and little about the rate.
-            let misfit = S::constant(MEMORY) * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            let misfit = self.memory * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
             trial.misfit = misfit.min(slower + S::constant(HELD_AGAINST_FASTER));
             slower = slower.min(trial.misfit);
             factor = factor * S::constant(STEP);
@@ -92,8 +99,8 @@ impl<S: Scalar> WalkRate<S> {
 
     /// Forgets what was explained so far, and where the quantity is: it jumped.
     pub fn restart(&mut self) {
-        let frame = self.frame;
-        *self = Self { frame, ..Self::new(0) };
+        let (frame, memory) = (self.frame, self.memory);
+        *self = Self { frame, memory, ..Self::new(0) };
     }
 
     /// The geometric mean of the candidates, weighed by their likelihood.
