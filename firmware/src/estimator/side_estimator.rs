@@ -153,7 +153,8 @@ impl<S: Scalar> SideEstimator<S> {
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
         let before = self.forces.cells_n();
         self.tick_forces(step_s, frame, attitude, &mut surprises);
-        self.sinking.follow(self.speed_m_s() * step_s, before, self.forces.cells_n());
+        let seen = frame.load_cell_n.map(|cell| cell.is_some());
+        self.sinking.follow(self.speed_m_s() * step_s, seen, before, self.forces.cells_n());
         surprises
     }
 
