@@ -66,7 +66,7 @@ impl<S: Scalar> HubForceModel<S> {
     }
 
     /// The state that such cells' forces, N, and moments on bogie and rocker, N·m, make necessary: [`Self::measure`] turned round.
-    fn state_of(&self, [front, middle, rear]: [S; 3], [bogie_nm, rocker_nm]: [S; 2]) -> [S; STATES] {
+    fn state_of(&self, &[front, middle, rear, bogie_nm, rocker_nm]: &[S; MEASUREMENTS]) -> [S; STATES] {
         let (zero, one) = (S::zero(), S::one());
         let straight = Self { difference_n: zero, ..*self };
         let [.., arm_of_bogie, of_bogie] = straight.measure(&[zero, zero, zero, zero, one]);
@@ -219,8 +219,10 @@ impl<S: Scalar> HubForceFilter<S> {
             self.give_up_moments();
         }
         self.learn_rates(travel_m, readings, held);
-        let _ = self.filter.add_correlated_noise(&self.drifts(travel_m));
         let model = self.model;
+        let changes = HubForceModel { difference_n: S::zero(), ..model };
+        let drifts = self.drifts(travel_m);
+        let _ = self.filter.random_walk_in(|state| changes.measure(state), |told| changes.state_of(told), &drifts);
         let told = self.filter.update(
             |state| model.measure(state),
             &[
@@ -248,29 +250,22 @@ impl<S: Scalar> HubForceFilter<S> {
         told
     }
 
-    /// How the state drifts over some travel: a column for each cell's force and each moment, one standard deviation of it.
-    fn drifts(&self, travel_m: S) -> [[S; STATES]; STATES] {
-        let (zero, root_travel) = (S::zero(), travel_m.sqrt());
+    /// One standard deviation of how far each cell's force, N, and the moments on bogie and rocker, N·m, drift over some travel.
+    fn drifts(&self, travel_m: S) -> [S; MEASUREMENTS] {
+        let root_travel = travel_m.sqrt();
         let drift = |nominal: f64, rate: &WalkRate<S>| S::constant(nominal) * root_travel * rate.factor().sqrt();
         let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, rate));
         let of_bogie = drift(BOGIE_DRIFT_NM, &self.bogie_rate);
         let of_rocker = drift(ROCKER_DRIFT_NM, &self.rocker_rate);
-        let balanced = HubForceModel { difference_n: zero, ..self.model };
-        [
-            balanced.state_of([front, zero, zero], [zero; 2]),
-            balanced.state_of([zero, middle, zero], [zero; 2]),
-            balanced.state_of([zero, zero, rear], [zero; 2]),
-            balanced.state_of([zero; 3], [of_bogie, zero]),
-            balanced.state_of([zero; 3], [zero, of_rocker]),
-        ]
+        [front, middle, rear, of_bogie, of_rocker]
     }
 
     /// Whether the moment on the bogie and its cells make a force along it necessary that no two wheels under such loads can have:
     /// then something else holds the bogie.
     fn is_impossible(&self, readings: &ForceReadings<S>) -> bool {
         let PerAxle { middle: Some(middle), rear: Some(rear), .. } = readings.cells_n else { return false };
-        let [.., along_bogie] =
-            self.model.state_of([S::zero(), middle, rear], [readings.bogie_moment_nm.0, readings.rocker_moment_nm.0]);
+        let told = [S::zero(), middle, rear, readings.bogie_moment_nm.0, readings.rocker_moment_nm.0];
+        let [.., along_bogie] = self.model.state_of(&told);
         let loads = middle.abs() + rear.abs();
         along_bogie.abs() > S::constant(GREATEST_SHARE) * loads.max(S::constant(FORGOTTEN_PULL_N))
     }
@@ -319,8 +314,7 @@ mod tests {
         let bogie_angle: f64 = 0.2;
         let model = HubForceModel { difference_n: 3.0, ..HubForceModel::new(&rover.suspension, bogie_angle.sin_cos()) };
         let told = [70.0, 55.0, 80.0, 3.0, -1.5];
-        let [front, middle, rear, bogie_nm, rocker_nm] = told;
-        let measured = model.measure(&model.state_of([front, middle, rear], [bogie_nm, rocker_nm]));
+        let measured = model.measure(&model.state_of(&told));
         assert!(measured.iter().zip(told).all(|(found, told)| (found - told).abs() < 1.0e-9), "{measured:?}");
     }
 }

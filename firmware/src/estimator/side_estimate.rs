@@ -62,18 +62,19 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// What is known of the side now, with such forces on its hubs.
     pub fn estimate(&self, forces: &HubForces<S>) -> SideEstimate {
+        let doubt = self.doubt();
         let PerAxle { front, middle, rear } = self.contacts(forces);
         let sum = middle.pull_n + rear.pull_n;
         let half = S::constant(0.5);
         let by_load = DrawbarSplit::by_load_n(middle.load_n, rear.load_n, sum);
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
-        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, &middle, &rear);
+        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, &doubt, &middle, &rear);
         let contacts = PerAxle { front, middle, rear };
         let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).zip(self.lifted()).map(
             |(((contact, by_load), (filter, activity)), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
-                    ..self.wheel(forces, &contact, filter, activity)
+                    ..self.wheel(forces, &doubt, &contact, filter, activity)
                 };
                 if lifted { in_the_air(&wheel) } else { wheel }
             },
@@ -99,14 +100,14 @@ impl<S: Scalar> SideEstimator<S> {
     fn wheel(
         &self,
         forces: &HubForces<S>,
+        doubt: &Doubt<S>,
         contact: &ContactForces<S>,
         filter: &SlipTorqueFilter<S>,
         activity: WheelActivity,
     ) -> WheelEstimate {
-        let [angle_std, load_std, pull_std] = self.variances(forces, contact).map(S::sqrt);
+        let [angle_std, load_std, pull_std] = self.variances(forces, doubt, contact).map(S::sqrt);
         let [_, torque, slip] = *filter.estimate().mean();
         let [_, torque_variance, slip_variance] = filter.estimate().variances();
-        let doubt = self.doubt();
         let (torque_std, slip_std) = ((doubt.torque * torque_variance).sqrt(), (doubt.slip * slip_variance).sqrt());
         let normal_load_n = published(contact.load_n, load_std);
         let [_, _, split_std] = contact.by_split;
@@ -147,13 +148,12 @@ impl<S: Scalar> SideEstimator<S> {
         }
     }
 
-    fn variances(&self, forces: &HubForces<S>, contact: &ContactForces<S>) -> [S; 3] {
-        let Doubt { angle, force, .. } = self.doubt();
+    fn variances(&self, forces: &HubForces<S>, doubt: &Doubt<S>, contact: &ContactForces<S>) -> [S; 3] {
         let mut variances = contact.by_split.map(|split| split * split);
         let rows = contact.by_angles.iter().zip(&contact.by_forces);
         for (variance, (by_angles, by_forces)) in variances.iter_mut().zip(rows) {
-            *variance +=
-                angle * self.angles.estimate().weighted_sum(by_angles).1 + force * forces.weighted_sum(by_forces).1;
+            *variance += doubt.angle * self.angles.estimate().weighted_sum(by_angles).1
+                + doubt.force * forces.weighted_sum(by_forces).1;
         }
         variances
     }
@@ -173,15 +173,21 @@ impl<S: Scalar> SideEstimator<S> {
     }
 
     /// The sum of a bogie's drawbar pulls, which does not hang on their split but for the contacts' difference.
-    fn sum_of_pulls(&self, forces: &HubForces<S>, middle: &ContactForces<S>, rear: &ContactForces<S>) -> Estimate {
+    fn sum_of_pulls(
+        &self,
+        forces: &HubForces<S>,
+        doubt: &Doubt<S>,
+        middle: &ContactForces<S>,
+        rear: &ContactForces<S>,
+    ) -> Estimate {
         let ([.., middle_angles], [.., rear_angles]) = (&middle.by_angles, &rear.by_angles);
         let ([.., middle_forces], [.., rear_forces]) = (&middle.by_forces, &rear.by_forces);
         let ([.., middle_split], [.., rear_split]) = (middle.by_split, rear.by_split);
         let by_angles = self.angles.estimate().weighted_sum(&sums(middle_angles, rear_angles)).1;
         let by_forces = forces.weighted_sum(&sums(middle_forces, rear_forces)).1;
         let split = middle_split + rear_split;
-        let Doubt { angle, force, .. } = self.doubt();
-        published(middle.pull_n + rear.pull_n, (angle * by_angles + force * by_forces + split * split).sqrt())
+        let variance = doubt.angle * by_angles + doubt.force * by_forces + split * split;
+        published(middle.pull_n + rear.pull_n, variance.sqrt())
     }
 }
 

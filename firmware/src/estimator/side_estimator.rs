@@ -151,10 +151,9 @@ impl<S: Scalar> SideEstimator<S> {
         self.motion = self.angles.motion();
         let wheels = self.wheel_frames(&readings, self.angles.body_pitch());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
-        let before = self.forces.cells_n();
         self.tick_forces(step_s, frame, attitude, &mut surprises);
-        let seen = frame.load_cell_n.map(|cell| cell.is_some());
-        self.sinking.follow(self.speed_m_s() * step_s, seen, before, self.forces.cells_n());
+        let loads = self.forces.cells_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
+        self.sinking.follow(self.speed_m_s() * step_s, &loads);
         surprises
     }
 

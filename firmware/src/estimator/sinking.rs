@@ -21,14 +21,14 @@ const LEAST_TRAVEL: f64 = 1.0e-4;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sinking<S> {
     slopes_rad: PerAxle<S>,
-    /// Which cells told the loads of the frame before.
-    seen: PerAxle<bool>,
+    /// The loads of the frame before; none of a wheel whose cell was silent.
+    loads_n: PerAxle<Option<S>>,
 }
 
 impl<S: Scalar> Sinking<S> {
     /// None does.
     pub fn new() -> Self {
-        Self { slopes_rad: PerAxle::all(S::zero()), seen: PerAxle::all(false) }
+        Self { slopes_rad: PerAxle::all(S::zero()), loads_n: PerAxle::all(None) }
     }
 
     /// Sinkage over travel of each wheel, rad.
@@ -36,11 +36,11 @@ impl<S: Scalar> Sinking<S> {
         &self.slopes_rad
     }
 
-    /// Takes how the loads, N, have changed over so much travel, and which cells told them: what becomes known of a load when a cell
-    /// speaks again is no change of it.
+    /// Takes the loads after so much travel, N; none where the cell is silent: what becomes known of a load when its cell speaks
+    /// again is no change of it.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn follow(&mut self, travel_m: S, seen: PerAxle<bool>, before: PerAxle<S>, after: PerAxle<S>) {
-        let told = core::mem::replace(&mut self.seen, seen).zip(seen).map(|(before, now)| before && now);
+    pub fn follow(&mut self, travel_m: S, loads_n: &PerAxle<Option<S>>) {
+        let before = core::mem::replace(&mut self.loads_n, *loads_n);
         if travel_m < S::constant(LEAST_TRAVEL) {
             self.slopes_rad = PerAxle::all(S::zero());
             return;
@@ -48,9 +48,9 @@ impl<S: Scalar> Sinking<S> {
         let share = travel_m / (travel_m + S::constant(AVERAGED_OVER));
         let per_load = S::constant(SINKAGE_FOR_LOAD) / travel_m;
         let steepest = S::constant(STEEPEST);
-        let changes = told.zip(before.zip(after)).into_array();
-        for (slope, (told, (before, after))) in self.slopes_rad.as_array_mut().into_iter().zip(changes) {
-            let change = if told { after - before } else { S::zero() };
+        let loads = before.as_array().into_iter().zip(loads_n.as_array());
+        for (slope, (before, after)) in self.slopes_rad.as_array_mut().into_iter().zip(loads) {
+            let change = if let (Some(before), Some(after)) = (before, after) { *after - *before } else { S::zero() };
             let now = (per_load * change).max(-steepest).min(steepest);
             *slope += share * (now - *slope);
         }
@@ -62,28 +62,30 @@ mod tests {
     use super::Sinking;
     use crate::rover::PerAxle;
 
-    const ALL: PerAxle<bool> = PerAxle { front: true, middle: true, rear: true };
+    fn loads(front: f64, middle: f64, rear: Option<f64>) -> PerAxle<Option<f64>> {
+        PerAxle { front: Some(front), middle: Some(middle), rear }
+    }
 
     /// A load that grows by 20 N over 0.2 m, a hundredth of that a frame: 0.15 mm/N make 3 mm over 0.2 m, 0.015.
     #[test]
     fn a_wheel_sinks_as_its_load_grows_and_not_where_it_stands() {
         let mut sinking = Sinking::<f64>::new();
-        for _ in 0..100 {
-            sinking.follow(0.002, ALL, PerAxle::all(60.0), PerAxle { front: 60.2, middle: 60.0, rear: 59.8 });
+        for frame in 0..=100 {
+            let change = 0.2 * f64::from(frame);
+            sinking.follow(0.002, &loads(60.0 + change, 60.0, Some(60.0 - change)));
         }
         let PerAxle { front, middle, rear } = *sinking.slopes();
         assert!((front - 0.015).abs() < 1.0e-6 && middle == 0.0 && (rear + 0.015).abs() < 1.0e-6, "{front} {rear}");
-        sinking.follow(0.0, ALL, PerAxle::all(60.0), PerAxle::all(90.0));
+        sinking.follow(0.0, &loads(90.0, 90.0, Some(90.0)));
         assert_eq!(*sinking.slopes(), PerAxle::all(0.0));
     }
 
     #[test]
     fn a_load_that_becomes_known_anew_is_no_sinking() {
         let mut sinking = Sinking::<f64>::new();
-        let silent = PerAxle { rear: false, ..ALL };
-        sinking.follow(0.002, ALL, PerAxle::all(60.0), PerAxle::all(60.0));
-        sinking.follow(0.002, silent, PerAxle::all(60.0), PerAxle::all(60.5));
-        sinking.follow(0.002, ALL, PerAxle::all(60.5), PerAxle::all(70.0));
+        for (load, rear) in [(60.0, Some(60.0)), (60.5, None), (70.0, Some(70.0))] {
+            sinking.follow(0.002, &loads(load, load, rear));
+        }
         let PerAxle { front, rear, .. } = *sinking.slopes();
         assert!(front > 0.0 && rear == 0.0, "{front} {rear}");
     }

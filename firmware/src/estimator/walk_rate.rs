@@ -83,6 +83,7 @@ impl<S: Scalar> WalkRate<S> {
     }
 
     /// Lets the quantity wander unseen: nothing tells then that it wanders less than nominally.
+    #[inline(never)] // as above
     pub fn miss(&mut self, nominal_variance: S) {
         let mut factor = S::constant(LEAST);
         for trial in &mut self.trials {
@@ -98,6 +99,7 @@ impl<S: Scalar> WalkRate<S> {
     }
 
     /// Forgets what was explained so far, and where the quantity is: it jumped.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn restart(&mut self) {
         let (frame, memory) = (self.frame, self.memory);
         *self = Self { frame, memory, ..Self::new(0) };

@@ -47,6 +47,25 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         self.finish(self.estimate.mean)
     }
 
+    /// As [`Self::random_walk`], with noise that is independent in other coordinates: `to` brings a deviation of the state to these, and
+    /// `back` undoes it. Both are linear.
+    ///
+    /// Cost: as [`Self::random_walk`], and N evaluations of each.
+    pub fn random_walk_in(
+        &mut self,
+        to: impl Fn(&[T; N]) -> [T; N],
+        back: impl Fn(&[T; N]) -> [T; N],
+        noise_std: &[T; N],
+    ) -> Prediction {
+        self.estimate.root.iter_mut().for_each(|column| *column = to(column));
+        let told = self.random_walk(noise_std);
+        if told != Prediction::Done {
+            return told;
+        }
+        self.estimate.root.iter_mut().for_each(|column| *column = back(column));
+        self.finish(self.estimate.mean)
+    }
+
     /// Adds noise that several states share: its covariance is G Gᵀ, with G given by its columns.
     ///
     /// Cost: about (N + K) N² multiplications with addition.
@@ -95,5 +114,26 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
 
     fn finish(&mut self, mean: [T; N]) -> Prediction {
         if self.settle(mean, T::zero()) { Prediction::Done } else { Prediction::Reset }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Gaussian, Prediction, SigmaPointFilter};
+
+    /// y = (x₀, 2 x₀ + x₁) with independent noise in y is noise in x with the columns (σ₀, −2 σ₀) and (0, σ₁).
+    #[test]
+    fn independent_noise_in_other_coordinates_is_correlated_noise_in_the_state() {
+        let start = Gaussian::independent([1.0_f64, 2.0], [0.5, 0.7]).expect("numbers");
+        let filter = SigmaPointFilter::new(start, [1.0, 1.0]).expect("numbers");
+        let (mut found, mut expected) = (filter, filter);
+        let told = found.random_walk_in(|[a, b]| [*a, 2.0 * a + b], |[a, b]| [*a, b - 2.0 * a], &[0.3, 0.4]);
+        assert_eq!(told, Prediction::Done);
+        assert_eq!(expected.add_correlated_noise(&[[0.3, -0.6], [0.0, 0.4]]), Prediction::Done);
+        for (one, other) in [(0, 0), (0, 1), (1, 1)] {
+            let covariance = |filter: &SigmaPointFilter<f64, 2>| filter.estimate().covariance(one, other);
+            let difference = covariance(&found).zip(covariance(&expected)).map(|(a, b)| (a - b).abs());
+            assert!(difference.is_some_and(|difference| difference < 1.0e-12), "{one} {other}");
+        }
     }
 }
