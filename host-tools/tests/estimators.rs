@@ -47,9 +47,20 @@ fn slip_load_and_torque_are_never_worse_than_the_raw_sensors() {
 #[test]
 fn with_slips_spread_on_the_level_the_filters_are_as_sure_as_they_may_be() {
     let trial = drives(Scenario::Spread);
-    for quantity in [Quantity::Slip, Quantity::Torque, Quantity::Load] {
+    let quantities = [Quantity::Slip, Quantity::Torque, Quantity::ContactAngle, Quantity::Load, Quantity::BogiePull];
+    for quantity in quantities {
         let [one, two] = trial.errors().of(quantity).coverage();
         assert!((0.63..=0.73).contains(&one) && (0.92..=0.98).contains(&two), "{quantity:?}: {one} {two}");
+    }
+}
+
+/// A white series passes in 95 of 100: of twenty, five or more fail by chance once in four hundred times.
+#[test]
+fn on_plane_ground_the_innovations_of_the_forces_are_white() {
+    for scenario in [Scenario::Spread, Scenario::Slope] {
+        let [.., front, middle, rear, bogie, rocker] = drives(scenario).share_white();
+        let shares = [front, middle, rear, bogie, rocker];
+        assert!(shares.iter().all(|share| *share >= 0.8), "{scenario:?}: {shares:?}");
     }
 }
 
