@@ -96,7 +96,9 @@ const ANGLE_DRIFT: f64 = 0.32;
 const LINK_DRIFT: f64 = 0.032;
 /// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
 const ANGLE_FROM_WANDERING: f64 = 0.1;
-/// From the middle of the bogie to that of the rocker, m: over this length the ground bends as the bogie does against the rocker.
+/// Of the bogie's bend squared, what a metre of travel adds to the variance of a contact angle is one over this, m: with the links
+/// of set K0, ground of curvature c bends the bogie against the rocker by 0.233 m times c, and turns by 0.12 m times c within
+/// the way over which the filter averages on such ground; 0.233²/0.12.
 const BEND_LENGTH: f64 = 0.44;
 /// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
 const BEND_BY_SINKING: f64 = 0.02;
@@ -299,10 +301,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
             + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
     }
 
-    /// What the ground's bend along the side says of it: a bogie that is bent against its rocker by β stands on ground whose slope
-    /// changes by β from the middle of the one link to that of the other, and a random walk with the variance β² over that length
-    /// does the same. It tells at once, and still where a wheel is on top of a rock: there its angle changes most, and the links
-    /// hardly move.
+    /// What the ground's bend along the side says of it: a bogie that is bent against its rocker stands on ground that curves. It
+    /// tells at once, and still where a wheel is on top of a rock: there its angle changes most, and the links hardly move.
     fn bend(&self) -> S {
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
         let bend = ((bogie - rocker).abs() - S::constant(BEND_BY_SINKING)).max(S::zero());
