@@ -6,6 +6,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::candidates::candidates;
 use super::chance::over_all;
 use super::fit::HeldOutRun;
+use super::held_out_errors::groups;
 use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 
@@ -21,6 +22,10 @@ const MISFIT: f64 = 1.5;
 const LEADERS: usize = 4;
 /// Second effects that are fitted on top of each of these.
 const SECONDS: usize = 3;
+/// Candidates that are fitted to the end.
+const FINISHED: usize = 6;
+/// Difference in ln likelihood from the best beyond which none of them is in question.
+const IN_QUESTION: f64 = 15.0;
 /// Share of the best gain in ln posterior at a short look, and how much less than that, from which a candidate may still lead.
 const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;
@@ -104,15 +109,21 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let ahead = if misfit { look_ahead(bench, &trials) } else { Vec::new() };
     let dispersion = dispersion(&base, &trials, &ahead);
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
-    let before = held_out(bench, &base);
-    let judge = |trial: Trial<'a>| {
-        let after = held_out(bench, &trial);
-        let (gain_per_row, gain_std) = gain_over(&before, &after);
+    let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
+    let enough = trials.iter().map(worth).fold(f64::NEG_INFINITY, f64::max) - IN_QUESTION * dispersion;
+    let judge = |(place, trial): (usize, Trial<'a>)| {
+        let in_question = place < FINISHED && worth(&trial) > enough;
+        let (before, after) = if in_question {
+            (&before.exactly, held_out(bench, &trial))
+        } else {
+            (&before.nearly, nearly_held_out(bench, &trial))
+        };
+        let (gain_per_row, gain_std) = gain_over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
         (Judged { score, p_value, gain_per_row, gain_std, trial }, after)
     };
-    let all = in_order(trials.into_par_iter().map(judge).collect(), misfit);
+    let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
     let mut ranking: Vec<Judged<'a>> = Vec::new();
     for judged in all {
         if ranking.iter().all(|other| other.id() != judged.id()) {
@@ -120,6 +131,12 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         }
     }
     Step { base, ranking, dispersion, ahead }
+}
+
+/// What a model says of runs that it has not seen.
+struct Predicted {
+    exactly: Vec<HeldOutRun>,
+    nearly: Vec<HeldOutRun>,
 }
 
 /// Candidates with their predictions of unseen runs, the best first; those that earn a place come before the others. An effect
@@ -199,6 +216,15 @@ fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Tr
     let chosen: Vec<_> = all.iter().filter(leads).cloned().chain(promising.iter().filter_map(form)).collect();
     let mut fitted: Vec<_> = chosen.par_iter().filter_map(|form| bench.with_effect(base, form)).collect();
     fitted.extend(others);
+    finished(bench, fitted)
+}
+
+/// The same, those that may win fitted to the end: of runs that it has not seen only a fit at its optimum says anything.
+fn finished<'a>(bench: &Bench<'a>, mut fitted: Vec<Trial<'a>>) -> Vec<Trial<'a>> {
+    fitted.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    let rest = fitted.split_off(FINISHED.min(fitted.len()));
+    let mut fitted: Vec<_> = fitted.into_par_iter().map(|trial| bench.finished(trial)).collect();
+    fitted.extend(rest);
     fitted
 }
 
@@ -228,12 +254,12 @@ pub fn look_ahead<'a>(bench: &Bench<'a>, trials: &[Trial<'a>]) -> Vec<Trial<'a>>
     let seconds = |first: &Trial<'a>| {
         let held = bench.held(&first.fit);
         let next = candidates(bench.campaign, bench.measurements, &first.specification);
-        let glance = |form: &EffectForm| bench.glance(&held, first, form);
+        let glance = |form: &EffectForm| bench.glance_near(&held, first, form);
         let mut glances = best_forms(next.par_iter().filter_map(glance).collect());
         glances.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         let chosen = glances.iter().take(SECONDS).filter_map(|trial| trial.specification.effects.last());
         let chosen: Vec<_> = chosen.collect();
-        chosen.into_par_iter().filter_map(|form| bench.with_effect(first, form)).collect::<Vec<_>>()
+        chosen.into_par_iter().filter_map(|form| bench.with_effect_near(first, form)).collect::<Vec<_>>()
     };
     let mut both: Vec<_> = leaders.par_iter().take(LEADERS).flat_map_iter(seconds).collect();
     let total = |trial: &Trial<'_>| trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64;
@@ -254,11 +280,27 @@ pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
     over_all(chance, tried)
 }
 
-/// Each run (or each row, of a campaign of one run) predicted without its own help.
-pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+/// Each run (or each row, of a campaign of one run) predicted without its own help, to first order.
+pub fn nearly_held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
     let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok()?.runs.pop();
     runs.filter_map(predict).collect()
+}
+
+/// Each run (or each row, of a campaign of one run) predicted by a fit without its group of runs. A step from the fit to all of
+/// them would do for a linear model; along a valley that bends it ends anywhere.
+pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+    let runs: Vec<usize> = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run)).collect();
+    let groups = groups(runs.len(), bench.measurements.rows.len());
+    let predict = |group: &Vec<usize>| {
+        let group: Vec<usize> = group.iter().map(|place| runs[*place]).collect();
+        let without: Vec<usize> = bench.without.iter().chain(&group).copied().collect();
+        let fit = bench.without(&without).refit_shortly(trial)?.fit;
+        Some(fit.predict_unseen(&trial.model, &group).ok()?.runs)
+    };
+    let mut predicted: Vec<HeldOutRun> = groups.par_iter().filter_map(predict).flatten().collect();
+    predicted.sort_by_key(|run| run.run);
+    predicted
 }
 
 /// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a

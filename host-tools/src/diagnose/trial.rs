@@ -13,6 +13,12 @@ use crate::data::campaign::Campaign;
 const STARTS: usize = 4;
 /// Steps of a short look at a candidate.
 const GLANCE: usize = 5;
+/// The same from a soil as it is expected, which is further off.
+const AFRESH: usize = 8;
+/// Steps of a fit to most of the runs from that to all.
+const SHORTLY: usize = 10;
+/// Times that a fit which ran out of steps may go on.
+const CONTINUATIONS: usize = 2;
 /// Gain in ln posterior of a step below which a fit has come to its end: far less than what tells anything apart.
 const TOLERANCE: f64 = 1e-4;
 /// Seed of the places where they lie.
@@ -80,23 +86,62 @@ impl<'a> Bench<'a> {
         Ok(Trial { specification, model, fit })
     }
 
-    /// A model with one more effect, from the fit of that without.
+    /// A model with one more effect: the better of the fit from that without, and of the fit from a soil as it is expected.
+    /// What lacks an effect may have bent the soil so far that from there the effect leads nowhere.
     pub fn with_effect(&self, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
-        self.extended(base, effect, &self.measurements.rows, &self.options)
+        let extended = self.extended(base, effect);
+        let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &self.options);
+        better(self.with_effect_near(base, effect), afresh)
     }
 
-    /// A short look at a model with one more effect: a few steps, with the scales of noise and offsets that the model without
-    /// it has.
+    /// A model with one more effect, from the fit of that without.
+    pub fn with_effect_near(&self, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
+        let extended = self.extended(base, effect);
+        self.fitted(&extended, &base.start_of(&extended.1), &self.measurements.rows, &self.options)
+    }
+
+    /// A short look at a model with one more effect: a few steps as of [`Bench::glance_near`], or from a soil as it is expected
+    /// with scales of its own.
     pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
-        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
-        self.extended(base, effect, &held.rows, &options)
+        let extended = self.extended(base, effect);
+        let options = Options { most_iterations: AFRESH, ..self.options.clone() };
+        let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &options);
+        better(self.glance_near(held, base, effect), afresh)
     }
 
-    fn extended(&self, base: &Trial<'a>, effect: &EffectForm, rows: &[Row], options: &Options) -> Option<Trial<'a>> {
+    /// The same by a few steps from the model without it, with the scales of noise and offsets that this one has.
+    pub fn glance_near(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
+        let extended = self.extended(base, effect);
+        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
+        self.fitted(&extended, &base.start_of(&extended.1), &held.rows, &options)
+    }
+
+    fn extended(&self, base: &Trial<'a>, effect: &EffectForm) -> (Specification, CampaignModel<'a>) {
         let specification = base.specification.with(effect.clone());
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
-        let fit = fit_without(&model, rows, &self.without, &base.start_of(&model), options).ok()?;
-        Some(Trial { specification, model, fit })
+        (specification, model)
+    }
+
+    /// The soil as it is expected, effects as a model without the last has them, slips and loads as they were read.
+    fn afresh(&self, base: &Trial<'a>, model: &CampaignModel<'_>) -> Start {
+        let soil = base.model.soil_count();
+        let mut parameters: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.start).collect();
+        let fitted = base.fit.parameters.iter().enumerate().skip(soil);
+        for (place, value) in fitted {
+            parameters[place] = *value;
+        }
+        Start::at(parameters, &self.measurements.rows)
+    }
+
+    fn fitted(
+        &self,
+        (specification, model): &(Specification, CampaignModel<'a>),
+        start: &Start,
+        rows: &[Row],
+        options: &Options,
+    ) -> Option<Trial<'a>> {
+        let fit = fit_without(model, rows, &self.without, start, options).ok()?;
+        Some(Trial { specification: specification.clone(), model: model.clone(), fit })
     }
 
     /// A model without one of its effects, from the fit of that with it.
@@ -132,15 +177,47 @@ impl<'a> Bench<'a> {
         Some(polished).filter(|polished| polished.log_posterior() > base.log_posterior())
     }
 
+    /// A trial whose fit has come to its end, or further on the way there.
+    pub fn finished(&self, trial: Trial<'a>) -> Trial<'a> {
+        let mut best = trial;
+        for _ in 0..CONTINUATIONS {
+            if best.fit.converged {
+                break;
+            }
+            match self.refit(&best) {
+                Some(next) if next.log_posterior() > best.log_posterior() => best = next,
+                _ => break,
+            }
+        }
+        best
+    }
+
     /// A trial fitted anew to this bench's runs.
     pub fn refit(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
         self.fitted_from(trial, trial.fit.onward())
+    }
+
+    /// The same in a few steps, where it lies near.
+    pub fn refit_shortly(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
+        let options = Options { most_iterations: SHORTLY, ..self.options.clone() };
+        self.fitted(
+            &(trial.specification.clone(), trial.model.clone()),
+            &trial.fit.onward(),
+            &self.measurements.rows,
+            &options,
+        )
     }
 
     fn fitted_from(&self, trial: &Trial<'a>, start: Start) -> Option<Trial<'a>> {
         let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
         Some(Trial { fit, ..trial.clone() })
     }
+}
+
+/// Of two fits of a model the one of higher posterior.
+fn better<'a>(one: Option<Trial<'a>>, other: Option<Trial<'a>>) -> Option<Trial<'a>> {
+    let (Some(one), Some(other)) = (&one, &other) else { return one.or(other) };
+    Some(if other.log_posterior() > one.log_posterior() { other.clone() } else { one.clone() })
 }
 
 impl Trial<'_> {

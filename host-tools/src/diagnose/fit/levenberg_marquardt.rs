@@ -1,5 +1,6 @@
 //! The way to the mode (Levenberg 1944, Quart. Appl. Math. 2:164; Marquardt 1963, SIAM J. Appl. Math. 11:431).
 
+use super::bend::Bend;
 use super::curvature::Curvature;
 use super::normal_equations::NormalEquations;
 use super::problem::Problem;
@@ -10,7 +11,10 @@ const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-9;
 /// Factors on the damping after a step that was taken and after one that was not.
 const DAMPING_FALL: f64 = 0.1;
-const DAMPING_RISE: f64 = 8.0;
+const DAMPING_RISE: f64 = 3.0;
+/// Share of the damping of the last step that was taken, at or above which one is tried after another failed, and the least.
+const DAMPING_NEAR: f64 = 0.3;
+const LEAST_FLOOR: f64 = 1e-7;
 /// Damping at which no step lowers the objective any more.
 const STUCK: f64 = 1e9;
 /// Damping above which a small gain says nothing of the minimum: the step was short.
@@ -18,7 +22,9 @@ const SHORT_STEP: f64 = 1.0;
 /// Rounds of descending and estimating variances in turn.
 const ROUNDS: usize = 15;
 /// Gain at which the first round ends when variances are yet to be estimated.
-const FIRST_TOLERANCE: f64 = 1e-2;
+const FIRST_TOLERANCE: f64 = 10.0;
+/// Steps after which it ends at the latest: with wrong variances the way leads elsewhere.
+const FIRST_STEPS: usize = 5;
 
 /// Where a fit ended.
 pub(super) struct Optimum {
@@ -40,13 +46,17 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
         state: start,
         damping: FIRST_DAMPING,
         curvature: Curvature::default(),
+        floor: FIRST_DAMPING,
+        bend: None,
         iterations: 0,
     };
     let mut converged = false;
     for round in 0..ROUNDS {
         let rough = estimated && round == 0;
         let tolerance = if rough { problem.options.tolerance.max(FIRST_TOLERANCE) } else { problem.options.tolerance };
-        let settled = search.descend(problem, &scales, tolerance);
+        let most =
+            if rough { problem.options.most_iterations.min(FIRST_STEPS) } else { problem.options.most_iterations };
+        let settled = search.descend(problem, &scales, tolerance, most);
         if !estimated {
             converged = settled;
             break;
@@ -60,6 +70,7 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
             break;
         }
         scales = next;
+        search.bend = None;
         search.curvature.look_away();
         search.objective = search.state.objective(problem, &scales);
     }
@@ -71,13 +82,17 @@ struct Search {
     objective: f64,
     damping: f64,
     curvature: Curvature,
+    /// Damping from which a step that failed is tried again.
+    floor: f64,
+    /// What the last step showed, if it failed.
+    bend: Option<Bend>,
     iterations: usize,
 }
 
 impl Search {
     /// Steps until one gains less than `tolerance`; whether that came about.
-    fn descend(&mut self, problem: &Problem<'_>, scales: &Scales, tolerance: f64) -> bool {
-        while self.iterations < problem.options.most_iterations && self.damping < STUCK {
+    fn descend(&mut self, problem: &Problem<'_>, scales: &Scales, tolerance: f64, most: usize) -> bool {
+        while self.iterations < most && self.damping < STUCK {
             self.iterations += 1;
             let Some((state, objective)) = self.attempt(problem, scales) else {
                 self.reject();
@@ -88,8 +103,11 @@ impl Search {
             if gain > 0.0 {
                 self.state = state;
                 self.objective = objective;
+                self.floor = (DAMPING_NEAR * self.damping).clamp(LEAST_FLOOR, FIRST_DAMPING);
                 self.damping = (DAMPING_FALL * self.damping).max(LEAST_DAMPING);
+                self.bend = None;
             } else {
+                self.bend = Some(Bend::between(&self.state, &state));
                 self.reject();
             }
             if settled {
@@ -103,14 +121,19 @@ impl Search {
     /// A step that was too bold: the next is shorter, and without what was learned of the curvature.
     fn reject(&mut self) {
         self.curvature.forget();
-        self.damping = (DAMPING_RISE * self.damping).max(FIRST_DAMPING);
+        self.damping = (DAMPING_RISE * self.damping).max(self.floor);
     }
 
     fn attempt(&mut self, problem: &Problem<'_>, scales: &Scales) -> Option<(State, f64)> {
         let mut equations = NormalEquations::new(problem, &self.state, scales, self.damping);
         self.curvature.see(&self.state.parameters, &equations);
         equations.information = self.curvature.corrected(&equations.information);
-        let step = equations.step(problem, &self.state, self.damping)?;
+        let mut step = equations.step(problem, &self.state, self.damping)?;
+        if let Some(bend) = &self.bend {
+            let bent = bend.allowed_for(&self.state, &step, &equations.information);
+            let again = NormalEquations::new(problem, &bent, scales, self.damping);
+            step = again.step(problem, &bent, self.damping)?;
+        }
         let state = self.state.after(problem, &step)?;
         let objective = state.objective(problem, scales);
         objective.is_finite().then_some((state, objective))

@@ -12,6 +12,7 @@
 //! its box; `levenberg_marquardt` and `variances` find the optimum, `outcome` describes it; `leave_out`, `measured_latents` and
 //! `predictive` predict runs that a fit has not seen; `multistart` fits from many places.
 
+mod bend;
 mod bounds;
 mod curvature;
 mod held_out;

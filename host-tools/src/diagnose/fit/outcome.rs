@@ -18,6 +18,8 @@ use super::variances::shares_by_run;
 
 /// Points on the way from a start to the middle of the prior at which a fit may begin.
 const RETREATS: [f64; 5] = [1.0, 0.75, 0.5, 0.25, 0.0];
+/// Share of the readings that may be gross errors.
+const GROSS_SHARE: f64 = 0.05;
 /// Share of the bounds' width within which a value is on a bound.
 const ON_BOUND: f64 = 1e-9;
 
@@ -59,7 +61,7 @@ pub struct Fit {
     pub leverages: Vec<[f64; CHANNELS]>,
     /// Readings less what was fitted of them (parameters, latents, offsets).
     pub degrees_of_freedom: f64,
-    /// Twice the loss per degree of freedom: about 1 where model and noise are right.
+    /// Twice the loss per degree of freedom, a few gross errors set aside: about 1 where model and noise are right.
     pub dispersion: f64,
     /// Trial steps taken.
     pub iterations: usize,
@@ -159,7 +161,7 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
         log_posterior: posterior,
         log_evidence: posterior + 0.5 * (count as f64 * (2.0 * std::f64::consts::PI).ln() + ln_det),
         degrees_of_freedom: by_row.freedom,
-        dispersion: 2.0 * by_row.loss / by_row.freedom.max(f64::MIN_POSITIVE),
+        dispersion: 2.0 * by_row.bulk_loss(problem) / by_row.freedom.max(f64::MIN_POSITIVE),
         latents: by_row.latents,
         standardised: by_row.standardised,
         leverages: by_row.leverages,
@@ -201,7 +203,7 @@ struct ByRow {
     latents: Vec<Latent>,
     standardised: Vec<[Option<f64>; CHANNELS]>,
     leverages: Vec<[f64; CHANNELS]>,
-    loss: f64,
+    losses: Vec<f64>,
     freedom: f64,
 }
 
@@ -212,14 +214,14 @@ impl ByRow {
             latents: problem.latent_start.clone(),
             standardised: vec![[None; CHANNELS]; count],
             leverages: vec![[0.0; CHANNELS]; count],
-            loss: 0.0,
+            losses: Vec::new(),
             freedom: 0.0,
         };
         for (run, rows) in problem.runs.iter().enumerate() {
             for (place, &row) in rows.rows.iter().enumerate() {
                 let standardised = state.standardised(&problem.rows[row], scales, run, place);
                 for t in standardised.iter().flatten() {
-                    all.loss += problem.huber.loss(*t);
+                    all.losses.push(problem.huber.loss(*t));
                     all.freedom += 1.0;
                 }
                 all.freedom -= leverages[run][place].sum();
@@ -228,7 +230,16 @@ impl ByRow {
                 all.leverages[row] = leverages[run][place].into();
             }
         }
+        all.losses.sort_by(f64::total_cmp);
         all
+    }
+
+    /// The sum of the losses; so few of them as may be gross errors count no more than they would on Huber's threshold.
+    fn bulk_loss(&self, problem: &Problem<'_>) -> f64 {
+        let most = problem.huber.loss(problem.options.huber);
+        let gross = (GROSS_SHARE * self.losses.len() as f64) as usize;
+        let (bulk, tail) = self.losses.split_at(self.losses.len() - gross);
+        bulk.iter().sum::<f64>() + tail.iter().map(|loss| loss.min(most)).sum::<f64>()
     }
 }
 
