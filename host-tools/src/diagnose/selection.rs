@@ -33,6 +33,8 @@ const PROMISING_LESS: f64 = 10.0;
 const BEYOND_DOUBT: f64 = 1e-4;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
+/// The same where noise does not explain what is left in any case, so that chances are guesses.
+const HELD_OUT_ERRORS_OF_A_MISFIT: f64 = 2.0;
 
 /// A candidate, fitted and judged.
 #[derive(Debug, Clone)]
@@ -47,6 +49,8 @@ pub struct Judged<'a> {
     pub gain_per_row: f64,
     /// One standard deviation of that, over runs.
     pub gain_std: f64,
+    /// Standard errors by which that gain must exceed nothing.
+    pub errors_wanted: f64,
 }
 
 impl Judged<'_> {
@@ -62,7 +66,7 @@ impl Judged<'_> {
 
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { HELD_OUT_ERRORS };
+        let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
         self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
     }
 
@@ -104,10 +108,11 @@ pub struct Step<'a> {
 pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let all = candidates(bench.campaign, bench.measurements, &base.specification);
     let trials = trials(bench, base, &all);
-    let base = polished(bench, base, &trials);
+    let base = bench.finished(polished(bench, base, &trials));
     let misfit = is_misfit(trials.iter());
     let ahead = if misfit { look_ahead(bench, &trials) } else { Vec::new() };
     let dispersion = dispersion(&base, &trials, &ahead);
+    let errors_wanted = if misfit { HELD_OUT_ERRORS_OF_A_MISFIT } else { HELD_OUT_ERRORS };
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
     let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
     let enough = trials.iter().map(worth).fold(f64::NEG_INFINITY, f64::max) - IN_QUESTION * dispersion;
@@ -121,7 +126,7 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         let (gain_per_row, gain_std) = gain_over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
-        (Judged { score, p_value, gain_per_row, gain_std, trial }, after)
+        (Judged { score, p_value, gain_per_row, gain_std, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
     let mut ranking: Vec<Judged<'a>> = Vec::new();
