@@ -7,7 +7,7 @@ use crate::network::{CONTEXT_FEATURES, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPU
 use crate::terramechanics::Wheel;
 use crate::wheel_state::{Slope, SoilQuery, WHEELS, WheelNoise, WheelState};
 
-use super::trend::trend;
+use super::trend::{TrendNoise, trend};
 
 /// Inputs of one wheel: DP/W, T/(rW), slip, the fifth input and ln(W/(rb) / 10 kPa).
 pub type WheelFeatures = [f32; WHEEL_FEATURES];
@@ -96,8 +96,11 @@ impl SoilQuery {
             // Not `collect`: heapless panics where it overflows.
             let _ = wheels.push(wheel_features(&self.wheel, state, fifth));
         }
-        let torque_noise = self.noise.torque_nm / (self.wheel.radius_m * mean_load_n);
-        (joined([&context, &trend(&wheels, torque_noise)]), wheels)
+        let WheelNoise { load_n, torque_nm, slip, .. } = self.noise;
+        let torque = torque_nm / (self.wheel.radius_m * mean_load_n);
+        let noise = TrendNoise { load: load_n / mean_load_n, torque, slip };
+        let trend = trend(&wheels, noise);
+        (joined([&context, trend.coefficients.as_flattened(), &trend.loads]), wheels)
     }
 
     /// The per-wheel network's inputs for one wheel.

@@ -4,7 +4,7 @@ mod answer;
 mod estimate;
 mod features;
 mod query;
-mod trend;
+pub mod trend;
 
 pub use answer::QueryAnswer;
 pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};

@@ -24,10 +24,10 @@ impl Plan {
     pub fn full(seed: u32) -> Self {
         Self {
             seed,
-            scenes: 400_000,
+            scenes: 800_000,
             held_out: 60_000,
-            rover_epochs: 500,
-            wheel_epochs: 40,
+            rover_epochs: 300,
+            wheel_epochs: 20,
             comparison_scenes: 16_000,
             comparison_steps: 12,
         }
