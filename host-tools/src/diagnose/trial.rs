@@ -124,12 +124,9 @@ impl<'a> Bench<'a> {
 
     /// The soil as it is expected, effects as a model without the last has them, slips and loads as they were read.
     fn afresh(&self, base: &Trial<'a>, model: &CampaignModel<'_>) -> Start {
-        let soil = base.model.soil_count();
+        let (soil, fitted) = (base.model.soil_count(), &base.fit.parameters);
         let mut parameters: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.start).collect();
-        let fitted = base.fit.parameters.iter().enumerate().skip(soil);
-        for (place, value) in fitted {
-            parameters[place] = *value;
-        }
+        parameters[soil..fitted.len()].copy_from_slice(&fitted[soil..]);
         Start::at(parameters, &self.measurements.rows)
     }
 

@@ -10,4 +10,5 @@ mod offsets;
 mod robust;
 mod starts;
 mod toy;
+mod valley;
 mod wheel;
