@@ -288,8 +288,8 @@ pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
 /// Each run (or each row, of a campaign of one run) predicted without its own help, to first order.
 pub fn nearly_held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
-    let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok()?.runs.pop();
-    runs.filter_map(predict).collect()
+    let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok().and_then(|mut found| found.runs.pop());
+    runs.map(|run| predict(run).unwrap_or_else(|| HeldOutRun::without_answer(run))).collect()
 }
 
 /// Each run (or each row, of a campaign of one run) predicted by a fit without its group of runs. A step from the fit to all of
@@ -300,10 +300,11 @@ pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     let predict = |group: &Vec<usize>| {
         let group: Vec<usize> = group.iter().map(|place| runs[*place]).collect();
         let without: Vec<usize> = bench.without.iter().chain(&group).copied().collect();
-        let fit = bench.without(&without).refit_shortly(trial)?.fit;
-        Some(fit.predict_unseen(&trial.model, &group).ok()?.runs)
+        let found = bench.without(&without).refit_shortly(trial);
+        let found = found.and_then(|found| found.fit.predict_unseen(&trial.model, &group).ok());
+        found.map_or_else(|| group.iter().map(|run| HeldOutRun::without_answer(*run)).collect(), |found| found.runs)
     };
-    let mut predicted: Vec<HeldOutRun> = groups.par_iter().filter_map(predict).flatten().collect();
+    let mut predicted: Vec<HeldOutRun> = groups.par_iter().flat_map_iter(predict).collect();
     predicted.sort_by_key(|run| run.run);
     predicted
 }

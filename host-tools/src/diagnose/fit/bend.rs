@@ -4,7 +4,7 @@
 //! bends instead of running up its side (the geodesic acceleration of Transtrum & Sethna 2012, arXiv 1201.5885, with the second
 //! derivative along the step taken from the step that failed).
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::observation::Channels;
 use super::state::{State, Step, latent_difference};
@@ -12,7 +12,7 @@ use super::state::{State, Step, latent_difference};
 /// What a step from a state showed of the curvature of the predictions.
 pub(super) struct Bend {
     /// The step, of the parameters.
-    step: Vec<f64>,
+    step: DVector<f64>,
     /// By run and row: the predictions after it, less what their slopes foretold.
     beyond: Vec<Vec<Channels>>,
 }
@@ -20,11 +20,12 @@ pub(super) struct Bend {
 impl Bend {
     /// From a state and where a step led.
     pub(super) fn between(here: &State, there: &State) -> Self {
-        let step: Vec<f64> = (&there.parameters - &here.parameters).iter().copied().collect();
+        let step = &there.parameters - &here.parameters;
         let row = |run: usize, place: usize| {
             let (before, after) = (&here.predictions[run][place], &there.predictions[run][place]);
             let latents = latent_difference(&there.latents[run][place], &here.latents[run][place]);
-            let by_parameters = before.by_parameter.iter().zip(&step).map(|(by, step)| Channels::from(*by) * *step);
+            let by_parameters =
+                before.by_parameter.iter().zip(step.iter()).map(|(by, step)| Channels::from(*by) * *step);
             let foretold = by_parameters.sum::<Channels>() + before.by_latents() * latents;
             Channels::from(after.value) - Channels::from(before.value) - foretold
         };
@@ -36,8 +37,8 @@ impl Bend {
     /// The state with its predictions where they will be after a step, as far as slopes do not tell: the curvature goes with
     /// the square of the step's length along the one that showed it, measured by the `information`.
     pub(super) fn allowed_for(&self, state: &State, next: &Step, information: &DMatrix<f64>) -> State {
-        let shown = nalgebra::DVector::from_column_slice(&self.step);
-        let along = next.parameters.dot(&(information * &shown)) / shown.dot(&(information * &shown));
+        let shown = information * &self.step;
+        let along = next.parameters.dot(&shown) / self.step.dot(&shown);
         let share = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
         let mut bent = state.clone();
         for (predictions, beyond) in bent.predictions.iter_mut().zip(&self.beyond) {

@@ -33,6 +33,13 @@ pub struct HeldOutRun {
     pub rows: Vec<HeldOutRow>,
 }
 
+impl HeldOutRun {
+    /// Of a run that a model says nothing of.
+    pub fn without_answer(run: usize) -> Self {
+        Self { run, log_score: None, log_score_by_channel: [0.0; CHANNELS], judged: [0; CHANNELS], rows: Vec::new() }
+    }
+}
+
 /// Prediction of one row from its slip and load. Slip and load themselves are never judged, nor is what stood in for a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldOutRow {

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::normal_equations::{bounded_covariance, with_floor};
 use super::options::FitError;
 use super::outcome::{Fit, fit_without};
-use super::predictive::{judge, unpredicted};
+use super::predictive::judge;
 use super::problem::Problem;
 use super::start::Start;
 use super::state::Scales;
@@ -114,7 +114,7 @@ fn predict(
     let of_run = |id: &usize| problem.runs.iter().find(|run| run.id == *id);
     let predict = |run| match measured_run(problem, parameters, run) {
         Some(measured) => judge(problem, scales, covariance, run, &measured),
-        None => unpredicted(run),
+        None => HeldOutRun::without_answer(run.id),
     };
     runs.iter().filter_map(of_run).map(predict).collect()
 }

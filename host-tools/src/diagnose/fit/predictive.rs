@@ -28,7 +28,7 @@ pub(super) fn judge(
     let offset = if with_offset { scales.offset } else { [0.0; CHANNELS] };
     let prior = Knowledge::new(covariance, &offset);
     let mut filter = prior.clone();
-    let mut judged = unpredicted(run);
+    let mut judged = HeldOutRun::without_answer(run.id);
     let mut total = 0.0;
     for (place, &index) in run.rows.iter().enumerate() {
         let row = &problem.rows[index];
@@ -56,17 +56,6 @@ pub(super) fn judge(
     }
     judged.log_score = Some(total);
     judged
-}
-
-/// A run of which the model predicts nothing.
-pub(super) fn unpredicted(run: &RunRows) -> HeldOutRun {
-    HeldOutRun {
-        run: run.id,
-        log_score: None,
-        log_score_by_channel: [0.0; CHANNELS],
-        judged: [0; CHANNELS],
-        rows: Vec::new(),
-    }
 }
 
 /// Channel and residual of what is judged in a row.
