@@ -44,7 +44,7 @@ const BY_SLIP: f32 = 0.015;
 /// Added to slip where its logarithm is taken: of the values tried, 0.08 leaves the least misfit.
 pub const OFFSET: f32 = 0.08;
 
-/// One standard deviation of what the wheels show, as [`super::features`] has it.
+/// One standard deviation of what the wheels show, as the features have it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrendNoise {
     /// Of W/W̄.
