@@ -139,7 +139,8 @@ pub(super) fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostErr
     })
 }
 
-/// For each effect that was found, the candidates that are tried again where runs are held out.
+/// For each effect that was found, the candidates that are tried again where runs are held out: what was found before it is
+/// one of them, as without those runs another may have come first.
 fn shortlists<'a>(selected: &Selected<'a>) -> Vec<Vec<Trial<'a>>> {
     let of_step = |found: &super::forward::FoundStep<'a>| {
         // What won only beside a second effect would not be chosen before that one.
@@ -151,5 +152,7 @@ fn shortlists<'a>(selected: &Selected<'a>) -> Vec<Vec<Trial<'a>>> {
         let near = near.filter(|(place, judged)| *place < AGAIN || judged.p_value < NEAR);
         near.map(|(_, judged)| judged.trial.clone()).collect()
     };
-    selected.found.iter().map(of_step).collect()
+    let found_before = |step: usize| selected.found[..step].iter().map(|found| found.winner.trial.clone());
+    let with_those = |(step, found)| of_step(found).into_iter().chain(found_before(step)).collect();
+    selected.found.iter().enumerate().map(with_those).collect()
 }
