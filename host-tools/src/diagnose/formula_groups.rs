@@ -32,7 +32,7 @@ pub struct Scale {
 /// The scale of a channel: the load for forces, with the radius for a torque, the radius for a sinkage.
 pub fn scale(bench: &Bench<'_>, trial: &Trial<'_>, channel: Reading) -> Scale {
     let radius_m = bench.campaign.wheel.radius_m;
-    let loads = loads(trial);
+    let loads: Vec<f64> = trial.fit.latents.iter().map(|latent| latent.load_n).collect();
     match channel {
         Reading::Torque => Scale { symbol: "r W", values: loads.iter().map(|load| radius_m * load).collect() },
         Reading::Sinkage => Scale { symbol: "r", values: vec![radius_m; loads.len()] },
@@ -46,9 +46,9 @@ pub fn groups(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>,
     let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
     let contact = [Channel::Slip, Channel::Load, Channel::Sinkage];
     let known = Channel::ALL.into_iter().filter(|channel| !results.contains(channel) && !contact.contains(channel));
-    all.extend(known.flat_map(|channel| of_channel(bench, trial, channel)));
+    all.extend(known.flat_map(|channel| of_channel(bench, linearised, channel)));
     let others = bench.campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name));
-    all.extend(others.filter_map(|name| of_unknown(name, &column(bench, trial, name)?)));
+    all.extend(others.filter_map(|name| of_unknown(name, &column(bench, linearised, name)?)));
     all.sort_by_key(|group| !first.contains(&group.column.as_str()));
     let mut found: Vec<Group> = Vec::new();
     for group in all.into_iter().filter(varies) {
@@ -59,19 +59,14 @@ pub fn groups(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>,
     found
 }
 
-/// The load of each row, as fitted.
-fn loads(trial: &Trial<'_>) -> Vec<f64> {
-    trial.fit.latents.iter().map(|latent| latent.load_n).collect()
-}
-
-/// Slip, sinkage and load as fitted: errors of measured ones would be common to both sides of a law.
+/// Slip, sinkage and load where the model was linearised: errors of measured ones would be common to both sides of a law.
 fn of_contact(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>) -> Vec<Group> {
     let wheel = &bench.campaign.wheel;
     let Soil { sinkage_exponent, frictional_modulus, .. } = trial.model.soil(&trial.fit.parameters);
     let reference_n = frictional_modulus * wheel.width_m * wheel.radius_m.powf(1.0 + sinkage_exponent);
-    let slips = trial.fit.latents.iter().map(|latent| latent.slip).collect();
+    let slips = linearised.latents().iter().map(|latent| latent.slip).collect();
     let sinkages = linearised.expected(Reading::Sinkage).map(|sinkage_m| sinkage_m / wheel.radius_m).collect();
-    let loads = loads(trial).iter().map(|load| load / reference_n).collect();
+    let loads = linearised.latents().iter().map(|latent| latent.load_n / reference_n).collect();
     vec![
         group("slip".to_owned(), Channel::Slip.name(), slips),
         group("(z/r)".to_owned(), Channel::Sinkage.name(), sinkages),
@@ -80,9 +75,9 @@ fn of_contact(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>)
 }
 
 /// The groups of a column that the format names.
-fn of_channel(bench: &Bench<'_>, trial: &Trial<'_>, channel: Channel) -> Vec<Group> {
+fn of_channel(bench: &Bench<'_>, linearised: &Linearised<'_>, channel: Channel) -> Vec<Group> {
     let name = channel.name();
-    let Some(values) = column(bench, trial, name) else { return Vec::new() };
+    let Some(values) = column(bench, linearised, name) else { return Vec::new() };
     let of = |symbol: String, law: &dyn Fn(f64) -> f64| {
         group(symbol, name, values.iter().map(|value| law(*value)).collect())
     };
@@ -129,9 +124,9 @@ fn of_unknown(name: &str, values: &[f64]) -> Option<Group> {
 }
 
 /// A column's value in each row, its middle one where it is not known; none where that is often.
-fn column(bench: &Bench<'_>, trial: &Trial<'_>, name: &str) -> Option<Vec<f64>> {
+fn column(bench: &Bench<'_>, linearised: &Linearised<'_>, name: &str) -> Option<Vec<f64>> {
     let known: Vec<_> =
-        values(bench, &trial.fit.latents, name).into_iter().map(|value| value.filter(|v| v.is_finite())).collect();
+        values(bench, linearised.latents(), name).into_iter().map(|value| value.filter(|v| v.is_finite())).collect();
     let middle = median(known.iter().flatten().copied().collect())?;
     let share = known.iter().flatten().count() as f64 / known.len() as f64;
     (share >= KNOWN_SHARE).then(|| known.into_iter().map(|value| value.unwrap_or(middle)).collect())

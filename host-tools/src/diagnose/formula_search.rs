@@ -32,8 +32,7 @@ const HELD_OUT_ERRORS: f64 = 1.0;
 /// `dispersion`. None where no formula beats chance, or none helps on held-out runs.
 pub fn law(bench: &Bench<'_>, trial: &Trial<'_>, structure: &Structure, dispersion: f64) -> Option<FoundLaw> {
     let measurements = bench.measurements;
-    let (rows, of_run) = (&measurements.rows, &measurements.rows_of_run);
-    let linearised = Linearised::about(&trial.model, &trial.fit, rows, of_run, &bench.options)?;
+    let linearised = Linearised::about(&trial.model, &trial.fit, &measurements.rows, measurements, &bench.options)?;
     let first: Vec<&str> = structure.regressor.split('*').collect();
     let groups = groups(bench, trial, &linearised, &first);
     let search = Search {

@@ -3,7 +3,8 @@
 use super::mimicry::{is_mimic, is_own_law};
 use super::pairs::{Known, Pair, from_ahead, from_known};
 use super::residual_search::{Structure, search};
-use super::selection::{Judged, Step, TELLS_APART, look_ahead, step};
+use super::selection::{Judged, Step, TELLS_APART, look_ahead};
+use super::steps::Steps;
 use super::trial::{Bench, Trial};
 
 /// Most effects that are looked for.
@@ -50,9 +51,10 @@ impl<'a> Selected<'a> {
 pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) + Sync)) -> Selected<'a> {
     let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None };
     let mut known: Option<Left> = None;
+    let steps = Steps::new(bench);
     while selected.found.len() < MOST_EFFECTS {
         progress(&format!("effect {}", selected.found.len() + 1));
-        let here = step(bench, selected.model());
+        let here = steps.on(selected.model());
         selected.left = left(bench, selected.model(), here.dispersion, known.take());
         match selected.found.last_mut() {
             Some(last) => last.winner.trial = here.base.clone(),
@@ -62,7 +64,7 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
         let won = winner(bench, &here, &selected.left);
-        if let Some(both) = together(bench, &selected, &here, won.as_ref().map(|(place, _)| *place)) {
+        if let Some(both) = together(&steps, &selected, &here, won.as_ref().map(|(place, _)| *place)) {
             // What was tried without any effect is what the first was found among, whichever it became.
             let step = selected.found.pop().map_or(here, |found| found.step);
             selected.found.extend([FoundStep { step, ..both.first }, both.second]);
@@ -100,7 +102,12 @@ fn left(bench: &Bench<'_>, model: &Trial<'_>, dispersion: f64, known: Option<Lef
 
 /// Two effects in place of the first, or of none: where a second was found, and where none of the effects alone leads on although
 /// the data ask for more.
-fn together<'a>(bench: &Bench<'a>, selected: &Selected<'a>, here: &Step<'a>, place: Option<usize>) -> Option<Pair<'a>> {
+fn together<'a>(
+    steps: &Steps<'_, 'a>,
+    selected: &Selected<'a>,
+    here: &Step<'a>,
+    place: Option<usize>,
+) -> Option<Pair<'a>> {
     let (first, known) = match selected.found.as_slice() {
         [] if place.is_none() => (here, None),
         [found_first] => {
@@ -110,7 +117,7 @@ fn together<'a>(bench: &Bench<'a>, selected: &Selected<'a>, here: &Step<'a>, pla
         _ => return None,
     };
     let tried = known.as_ref().and_then(|known| known.one.specification.effects.last()).map_or("", |one| one.info.id);
-    let best = known.and_then(|known| from_known(bench, known));
+    let best = known.and_then(|known| from_known(steps, known));
     let asks_for_more = || {
         let is_of_contact = |structure: &Structure| structure.is_significant() && structure.of_contact;
         here.ranking.iter().any(Judged::is_beyond_chance) || selected.left.iter().any(is_of_contact)
@@ -119,10 +126,10 @@ fn together<'a>(bench: &Bench<'a>, selected: &Selected<'a>, here: &Step<'a>, pla
         return best;
     }
     if !first.ahead.is_empty() {
-        return from_ahead(bench, first, &first.ahead, tried, best);
+        return from_ahead(steps, first, &first.ahead, tried, best);
     }
     let trials: Vec<_> = first.ranking.iter().map(|judged| judged.trial.clone()).collect();
-    from_ahead(bench, first, &look_ahead(bench, &trials), tried, None)
+    from_ahead(steps, first, &look_ahead(steps.bench, &trials), tried, None)
 }
 
 /// The best candidate that chance does not explain, and what it leaves; none where a bare dependence on a column explains what

@@ -6,6 +6,7 @@ use super::campaign_model::CampaignModel;
 use super::fit::{
     CHANNELS, Coordinate, Fit, FitError, HeldOutRun, Latent, Model, Options, Prediction, Reading, Row, Start, fit,
 };
+use super::measurements::Measurements;
 
 /// Terms added to a channel, each times a coefficient that is fitted.
 #[derive(Debug, Clone)]
@@ -19,9 +20,8 @@ pub struct AddedTerms {
 /// A term's value in each row, about one in size, and how it follows the true slip and load.
 ///
 /// A term made of readings of slip and load would be wrong by their noise, and so would not agree with the model's own
-/// derivatives, which are taken at the fitted ones: a combination of both is then nothing but the noise, which every residual
-/// follows (Fuller 1987, Measurement Error Models). So a term is taken where the model is: at slip and load as fitted, which
-/// are independent of what a fit leaves. Nor does it change how the model answers to slip and load, as little as the model's
+/// derivatives: a combination of both is then nothing but the noise, which every residual follows. So a term is taken where
+/// the model is: at a slip and load that are independent of what a fit leaves, see [`super::settings::Settled`]. Nor does it change how the model answers to slip and load, as little as the model's
 /// parameters do to first order: what only one of both did would be free to undo that answer.
 #[derive(Debug, Clone)]
 pub struct Term {
@@ -75,17 +75,18 @@ pub struct WithTerms<'a> {
 }
 
 impl<'a> Linearised<'a> {
-    /// The model of a fit about that fit; none where the model predicts nothing there.
+    /// The model of a fit about that fit, at slips and loads apart from what it leaves; none where the model predicts nothing
+    /// there.
     pub fn about(
         model: &CampaignModel<'_>,
         found: &Fit,
         rows: &'a [Row],
-        rows_of_run: &[Vec<usize>],
+        measurements: &Measurements,
         options: &Options,
     ) -> Option<Self> {
-        let mut latents = found.latents.clone();
+        let mut latents = measurements.settled.apart_from_residuals(rows, &found.latents);
         let mut predictions = vec![None; rows.len()];
-        for of_run in rows_of_run {
+        for of_run in &measurements.rows_of_run {
             let mut here: Vec<Latent> = of_run.iter().map(|row| latents[*row]).collect();
             for (row, prediction) in of_run.iter().zip(model.predict(&found.parameters, of_run, &mut here)?) {
                 predictions[*row] = Some(prediction);
@@ -124,7 +125,7 @@ impl<'a> Linearised<'a> {
         self.predictions.iter().map(move |prediction| prediction.value[reading.index()])
     }
 
-    /// True slip and load of each row, as fitted.
+    /// True slip and load of each row, where the model was linearised.
     pub fn latents(&self) -> &[Latent] {
         &self.latents
     }

@@ -11,7 +11,7 @@ use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
 use super::noise::{Noise, channel_noise};
 use super::rates::{speed_ratio, wheel_rates};
-use super::settings::settle;
+use super::settings::{Settled, settle};
 
 /// The column of each reading, in the order of [`Reading::ALL`].
 pub const COLUMNS: [Channel; CHANNELS] =
@@ -39,6 +39,8 @@ pub struct Measurements {
     pub noise: [Noise; CHANNELS],
     /// Rows that were left out.
     pub left_out: Vec<LeftOut>,
+    /// Which rows were held at one slip or load.
+    pub settled: Settled,
     /// Radius of the wheel, m.
     radius_m: f64,
 }
@@ -87,6 +89,7 @@ impl Measurements {
             rows_of_run: Vec::new(),
             noise,
             left_out,
+            settled: Settled::default(),
             radius_m: campaign.wheel.radius_m,
         };
         let stride = usable.len().div_ceil(MOST_ROWS);
@@ -123,7 +126,7 @@ impl Measurements {
                 conditions.speed_m_s = None;
             }
         }
-        settle(&mut found.rows, &found.rows_of_run);
+        found.settled = settle(&mut found.rows, &found.rows_of_run);
         found
     }
 

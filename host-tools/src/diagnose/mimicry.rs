@@ -62,7 +62,7 @@ fn log_posterior_with(bench: &Bench<'_>, trial: &Trial<'_>, added: &AddedTerms) 
     let mut found = None;
     for _ in 0..ROUNDS {
         let rows = &measurements.rows;
-        let about = Linearised::about(&trial.model, &here, rows, &measurements.rows_of_run, &bench.options);
+        let about = Linearised::about(&trial.model, &here, rows, measurements, &bench.options);
         let Some(about) = about else { break };
         let fit = about.fit_with(added).ok()?;
         found = Some(fit.log_likelihood + trial.log_prior(&fit.parameters));

@@ -38,6 +38,7 @@ mod sentence;
 mod settings;
 mod soil_coordinates;
 pub mod specification;
+mod steps;
 mod told;
 pub mod trial;
 

@@ -6,8 +6,9 @@
 
 use super::forward::{FoundStep, found, winner};
 use super::residual_search::search;
-use super::selection::{PARAMETER_COST, Step, step};
-use super::trial::{Bench, Trial};
+use super::selection::{PARAMETER_COST, Step};
+use super::steps::Steps;
+use super::trial::Trial;
 
 /// Times that an effect may be exchanged.
 const EXCHANGES: usize = 3;
@@ -31,14 +32,14 @@ pub struct Known<'a> {
 }
 
 /// The pair that is reached from an effect that was found first.
-pub fn from_known<'a>(bench: &Bench<'a>, known: Known<'a>) -> Option<Pair<'a>> {
-    settled(bench, known.one, Some(known.companion?))
+pub fn from_known<'a>(steps: &Steps<'_, 'a>, known: Known<'a>) -> Option<Pair<'a>> {
+    settled(steps, known.one, Some(known.companion?))
 }
 
 /// The best pair that is reached from the two effects that go best together of those `ahead` of a first step, or the one that
 /// is known already. What was `tried` leads nowhere by itself.
 pub fn from_ahead<'a>(
-    bench: &Bench<'a>,
+    steps: &Steps<'_, 'a>,
     first: &Step<'a>,
     ahead: &[Trial<'a>],
     tried: &str,
@@ -52,7 +53,7 @@ pub fn from_ahead<'a>(
             continue;
         }
         let alone = first.ranking.iter().find(|judged| judged.id() == id);
-        let next = alone.and_then(|judged| settled(bench, judged.trial.clone(), None));
+        let next = alone.and_then(|judged| settled(steps, judged.trial.clone(), None));
         if next.as_ref().is_some_and(|next| best.as_ref().is_none_or(|best| next.worth > best.worth)) {
             best = next;
         }
@@ -66,27 +67,27 @@ fn last_id(trial: &Trial<'_>) -> &'static str {
 
 /// From a model whose last effect is the first of a pair: its best companion, that one's best companion, and so on until they
 /// agree. None where there is no companion, or no agreement.
-fn settled<'a>(bench: &Bench<'a>, start: Trial<'a>, mut known: Option<FoundStep<'a>>) -> Option<Pair<'a>> {
+fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundStep<'a>>) -> Option<Pair<'a>> {
     let mut one = start;
     for _ in 0..EXCHANGES {
-        let second = known.take().or_else(|| companion(bench, &one))?;
+        let second = known.take().or_else(|| companion(steps, &one))?;
         let both = &second.winner.trial;
-        let other = bench.without_effect(both, last_id(&one))?;
-        let first = companion(bench, &other)?;
+        let other = steps.bench.without_effect(both, last_id(&one))?;
+        let first = companion(steps, &other)?;
         let id = last_id(&one);
         if first.winner.id() == id || first.ambiguous_with.contains(&id) {
             let kept = first.step.ranking.iter().position(|judged| judged.id() == id && judged.is_significant())?;
             let worth = both.log_posterior() - PARAMETER_COST * both.effect_parameters() as f64;
             return Some(Pair { first: found(first.step, kept), second, worth });
         }
-        one = bench.without_effect(&first.winner.trial, last_id(&other))?;
+        one = steps.bench.without_effect(&first.winner.trial, last_id(&other))?;
     }
     None
 }
 
-fn companion<'a>(bench: &Bench<'a>, trial: &Trial<'a>) -> Option<FoundStep<'a>> {
-    let here = step(bench, trial);
-    let structures = search(bench, &here.base, here.dispersion);
-    let (place, _) = winner(bench, &here, &structures)?;
+fn companion<'a>(steps: &Steps<'_, 'a>, trial: &Trial<'a>) -> Option<FoundStep<'a>> {
+    let here = steps.on(trial);
+    let structures = search(steps.bench, &here.base, here.dispersion);
+    let (place, _) = winner(steps.bench, &here, &structures)?;
     Some(found(here, place))
 }

@@ -67,7 +67,7 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
 fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<Structure>, usize)> {
     let measurements = bench.measurements;
     let held = bench.held(&trial.fit);
-    let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, &measurements.rows_of_run, &held.options)?;
+    let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, measurements, &held.options)?;
     let columns = columns(bench, &linearised);
     let products = products(&columns);
     let nothing = linearised.fit_with(&no_terms()).ok()?;
@@ -119,7 +119,7 @@ fn second_look(
 ) -> Option<Vec<Structure>> {
     let measurements = bench.measurements;
     let (rows, runs) = (&measurements.rows, measurements.runs.len());
-    let linearised = Linearised::about(&trial.model, &trial.fit, rows, &measurements.rows_of_run, &bench.options)?;
+    let linearised = Linearised::about(&trial.model, &trial.fit, rows, measurements, &bench.options)?;
     let nothing = linearised.fit_with(&no_terms()).ok()?;
     let before = linearised.held_out(&no_terms(), &nothing, runs)?;
     let look = |structure: Structure| {
@@ -151,8 +151,7 @@ fn gain(trial: &Trial<'_>, before: &Fit, after: &Fit) -> f64 {
 /// model without may be at a lesser optimum, which is no merit of the terms.
 fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Option<f64> {
     let held = bench.held(after);
-    let of_run = &bench.measurements.rows_of_run;
-    let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, of_run, &held.options)?;
+    let linearised = Linearised::about(&trial.model, &trial.fit, &held.rows, bench.measurements, &held.options)?;
     Some(gain(trial, &linearised.fit_with(&no_terms()).ok()?, after))
 }
 

@@ -8,7 +8,7 @@ use super::chance::over_all;
 use super::fit::HeldOutRun;
 use super::held_out_errors::groups;
 use super::specification::EffectForm;
-use super::trial::{Bench, Trial};
+use super::trial::{Bench, Glance, Trial};
 
 /// The chance, over all candidates, below which a gain is taken for an effect.
 pub const SIGNIFICANT: f64 = 0.005;
@@ -115,7 +115,7 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let errors_wanted = if misfit { HELD_OUT_ERRORS_OF_A_MISFIT } else { HELD_OUT_ERRORS };
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
     let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
-    let enough = trials.iter().map(worth).fold(f64::NEG_INFINITY, f64::max) - IN_QUESTION * dispersion;
+    let enough = enough(&trials, dispersion);
     let judge = |(place, trial): (usize, Trial<'a>)| {
         let in_question = place < FINISHED && worth(&trial) > enough;
         let (before, after) = if in_question {
@@ -191,13 +191,25 @@ pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[Trial<'a>])
 
 /// The best of some candidates, by the rule of [`in_order`].
 pub fn chosen<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: Vec<Trial<'a>>) -> Option<Trial<'a>> {
-    let (before, misfit) = (held_out(bench, base), is_misfit(trials.iter()));
+    let misfit = is_misfit(trials.iter());
+    let dispersion = dispersion(base, &trials, &[]);
+    let enough = enough(&trials, dispersion);
+    let mut trials: Vec<_> = trials.into_iter().filter(|trial| worth(trial) > enough).collect();
+    if trials.len() < 2 {
+        return trials.pop();
+    }
+    let before = held_out(bench, base);
     let judged: Vec<_> = trials.into_iter().map(|trial| (held_out(bench, &trial), trial)).collect();
     let leader = judged.iter().max_by(|a, b| worth(&a.1).total_cmp(&worth(&b.1)))?;
     let gain = |runs: &[HeldOutRun]| gain_over(&before, runs).0;
     let better = judged.iter().filter(|(runs, _)| misfit || predicts_better(runs, &leader.0));
     let best = better.max_by(|a, b| gain(&a.0).total_cmp(&gain(&b.0)));
     Some(best.unwrap_or(leader).1.clone())
+}
+
+/// What a candidate must be worth to be in question.
+fn enough(trials: &[Trial<'_>], dispersion: f64) -> f64 {
+    trials.iter().map(worth).fold(f64::NEG_INFINITY, f64::max) - IN_QUESTION * dispersion
 }
 
 /// Whether more than one effect is missing.
@@ -210,16 +222,20 @@ fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
 fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Trial<'a>> {
     let held = bench.held(&base.fit);
     let glances: Vec<_> = all.par_iter().filter_map(|form| bench.glance(&held, base, form)).collect();
-    let mut best = best_forms(glances);
+    let mut best = best_forms(glances.iter().map(|glance| glance.better.clone()).collect());
     best.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
     let form = |trial: &Trial<'_>| trial.specification.effects.last().cloned();
     let leaders: Vec<_> = best.iter().take(LEADERS).filter_map(form).collect();
-    let leads = |candidate: &&EffectForm| leaders.iter().any(|leader| leader.info.id == candidate.info.id);
+    let leads = |candidate: &EffectForm| leaders.iter().any(|leader| leader.info.id == candidate.info.id);
     let gain = |trial: &Trial<'_>| trial.log_posterior() - base.log_posterior();
     let enough = PROMISING_SHARE * best.first().map_or(0.0, gain) - PROMISING_LESS * base.fit.dispersion.max(1.0);
     let (promising, others): (Vec<_>, Vec<_>) = best.into_iter().skip(LEADERS).partition(|trial| gain(trial) > enough);
-    let chosen: Vec<_> = all.iter().filter(leads).cloned().chain(promising.iter().filter_map(form)).collect();
-    let mut fitted: Vec<_> = chosen.par_iter().filter_map(|form| bench.with_effect(base, form)).collect();
+    let promising: Vec<_> = promising.iter().filter_map(form).collect();
+    let is_chosen = |glance: &&Glance<'a>| {
+        form(&glance.better)
+            .is_some_and(|form| leads(&form) || promising.iter().any(|other| other.name() == form.name()))
+    };
+    let mut fitted: Vec<_> = glances.par_iter().filter(is_chosen).filter_map(|glance| bench.pursued(glance)).collect();
     fitted.extend(others);
     finished(bench, fitted)
 }

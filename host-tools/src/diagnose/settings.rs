@@ -6,7 +6,7 @@
 //! mean of their run, where runs hold still, and of their level, as far as the scatter there is that of the noise
 //! (empirical Bayes; James and Stein's shrinkage).
 
-use super::fit::{Reading, Row};
+use super::fit::{Latent, Reading, Row};
 
 /// Rows of a run that tell its scatter.
 const ROWS_OF_RUN: usize = 3;
@@ -17,21 +17,62 @@ const STILL: f64 = 1.0;
 /// A gap between levels, in standard deviations of the noise.
 const GAP: f64 = 4.0;
 
-/// Moves slips and loads to what is expected of the true ones, and their noise to what is left unknown of them.
-pub fn settle(rows: &mut [Row], rows_of_run: &[Vec<usize>]) {
-    for channel in [Reading::Slip, Reading::Load].map(Reading::index) {
-        let read = |row: &Row| Some((row.readings[channel]?, row.noise[channel]));
-        let mut values: Vec<_> = rows.iter().map(read).collect();
-        settle_values(&mut values, rows_of_run);
-        for (row, (value, std)) in rows.iter_mut().zip(values).filter_map(|(row, value)| Some((row, value?))) {
-            (row.readings[channel], row.noise[channel]) = (Some(value), std);
+/// Rows whose slips, and rows whose loads, were moved towards each other.
+#[derive(Debug, Clone, Default)]
+pub struct Settled {
+    slips: Vec<Vec<usize>>,
+    loads: Vec<Vec<usize>>,
+}
+
+impl Settled {
+    /// Slips and loads whose errors say nothing of what a fit leaves of the other readings.
+    ///
+    /// Those that a fit comes to are such where each reading stands by itself (Fuller 1987, Measurement Error Models). What was
+    /// moved to the middle of others is not a reading any more but what they foretell: the true value scatters about it (Berkson
+    /// 1950, J. Am. Stat. Assoc. 45:164), and the fitted one follows the same forces as the residuals do. There the scatter is
+    /// that of the moved readings, and the fit says where their middle lies.
+    pub fn apart_from_residuals(&self, rows: &[Row], fitted: &[Latent]) -> Vec<Latent> {
+        let mut latents = fitted.to_vec();
+        let shift = |group: &[usize], reading: Reading, of: fn(&Latent) -> f64| {
+            let moved = group.iter().filter_map(|row| Some(of(&fitted[*row]) - rows[*row].readings[reading.index()]?));
+            moved.sum::<f64>() / group.len() as f64
+        };
+        for group in &self.slips {
+            let shift = shift(group, Reading::Slip, |latent| latent.slip);
+            for row in group {
+                latents[*row].slip =
+                    rows[*row].readings[Reading::Slip.index()].map_or(fitted[*row].slip, |s| s + shift);
+            }
         }
+        for group in &self.loads {
+            let shift = shift(group, Reading::Load, |latent| latent.load_n);
+            for row in group {
+                latents[*row].load_n =
+                    rows[*row].readings[Reading::Load.index()].map_or(fitted[*row].load_n, |load_n| load_n + shift);
+            }
+        }
+        latents
     }
 }
 
+/// Moves slips and loads to what is expected of the true ones, and their noise to what is left unknown of them.
+pub fn settle(rows: &mut [Row], rows_of_run: &[Vec<usize>]) -> Settled {
+    let mut of = |reading: Reading| {
+        let channel = reading.index();
+        let read = |row: &Row| Some((row.readings[channel]?, row.noise[channel]));
+        let mut values: Vec<_> = rows.iter().map(read).collect();
+        let groups = settle_values(&mut values, rows_of_run);
+        for (row, (value, std)) in rows.iter_mut().zip(values).filter_map(|(row, value)| Some((row, value?))) {
+            (row.readings[channel], row.noise[channel]) = (Some(value), std);
+        }
+        groups
+    };
+    Settled { slips: of(Reading::Slip), loads: of(Reading::Load) }
+}
+
 /// The same for any quantity that a rig may hold at levels: for each row what was read of it, and one standard deviation of
-/// that.
-pub fn settle_values(values: &mut [Option<(f64, f64)>], rows_of_run: &[Vec<usize>]) {
+/// that. The rows that were moved towards each other.
+pub fn settle_values(values: &mut [Option<(f64, f64)>], rows_of_run: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let still = hold_still(values, rows_of_run);
     for run in rows_of_run {
@@ -43,11 +84,16 @@ pub fn settle_values(values: &mut [Option<(f64, f64)>], rows_of_run: &[Vec<usize
             groups.extend(known.into_iter().map(|row| vec![row]));
         }
     }
+    let mut moved = Vec::new();
     for level in levels(values, groups) {
         if level.len() >= OF_LEVEL {
             shrink(values, &level);
+            moved.push(level.concat());
+        } else {
+            moved.extend(level.into_iter().filter(|group| group.len() > 1));
         }
     }
+    moved
 }
 
 /// Whether the scatter within runs is mostly noise.
@@ -152,5 +198,18 @@ mod tests {
         settle(&mut rows, &runs);
         assert!(rows.iter().all(|row| (load(row).0 - if row.run % 2 == 0 { 30.0 } else { 60.0 }).abs() < 1e-9));
         assert!(rows.iter().all(|row| load(row).1 < 0.5));
+    }
+
+    /// Where loads were moved to a level, what the fit made of each by its own forces counts no more than the level's mean does;
+    /// a load that was left alone is where the fit has it.
+    #[test]
+    fn residuals_do_not_reach_loads_that_were_moved() {
+        let mut rows: Vec<Row> =
+            [24.5, 25.5, 25.0, 24.0, 26.0, 80.0].into_iter().zip(0..).map(|(n, run)| row(run, n)).collect();
+        let settled = settle(&mut rows, &(0..6).map(|row| vec![row]).collect::<Vec<_>>());
+        let fitted: Vec<Latent> =
+            [26.0, 24.0, 25.5, 25.5, 26.5, 81.0].map(|load_n| Latent { slip: 0.3, load_n, sinkage_m: 0.01 }).into();
+        let apart: Vec<f64> = settled.apart_from_residuals(&rows, &fitted).iter().map(|latent| latent.load_n).collect();
+        assert_eq!(apart, [25.5, 25.5, 25.5, 25.5, 25.5, 81.0]);
     }
 }

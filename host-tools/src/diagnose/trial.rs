@@ -21,6 +21,8 @@ const SHORTLY: usize = 10;
 const CONTINUATIONS: usize = 2;
 /// Gain in ln posterior of a step below which a fit has come to its end: far less than what tells anything apart.
 const TOLERANCE: f64 = 1e-4;
+/// Standard deviations of each parameter within which two fits lie in one place.
+const NEAR: f64 = 0.5;
 /// Seed of the places where they lie.
 const SEED: u32 = 1;
 
@@ -33,6 +35,14 @@ pub struct Trial<'a> {
     pub model: CampaignModel<'a>,
     /// The fit.
     pub fit: Fit,
+}
+
+/// What a short look at a model with one more effect came to from one start and from the other.
+#[derive(Debug, Clone)]
+pub struct Glance<'a> {
+    /// Where the posterior is higher.
+    pub better: Trial<'a>,
+    other: Option<Trial<'a>>,
 }
 
 /// Rows and options that hold the scales of noise and offsets.
@@ -100,16 +110,29 @@ impl<'a> Bench<'a> {
         self.fitted(&extended, &base.start_of(&extended.1), &self.measurements.rows, &self.options)
     }
 
-    /// A short look at a model with one more effect: a few steps as of [`Bench::glance_near`], or from a soil as it is expected
+    /// A short look at a model with one more effect: a few steps as of [`Bench::glance_near`], and from a soil as it is expected
     /// with scales of its own.
-    pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
+    pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Glance<'a>> {
         let extended = self.extended(base, effect);
         let options = Options { most_iterations: AFRESH, ..self.options.clone() };
         let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &options);
-        better(self.glance_near(held, base, effect), afresh)
+        match (self.glance_near(held, base, effect), afresh) {
+            (Some(near), Some(afresh)) if near.log_posterior() > afresh.log_posterior() => {
+                Some(Glance { better: near, other: Some(afresh) })
+            }
+            (near, Some(afresh)) => Some(Glance { better: afresh, other: near }),
+            (near, None) => Some(Glance { better: near?, other: None }),
+        }
     }
 
-    /// The same by a few steps from the model without it, with the scales of noise and offsets that this one has.
+    /// The fit that a short look leads to: on from both of its ends, unless they lie in one place.
+    pub fn pursued(&self, glance: &Glance<'a>) -> Option<Trial<'a>> {
+        let Glance { better: one, other } = glance;
+        let other = other.as_ref().filter(|other| !one.is_near(other)).and_then(|other| self.refit(other));
+        better(self.refit(one), other)
+    }
+
+    /// A few steps from the model without the effect, with the scales of noise and offsets that this one has.
     pub fn glance_near(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
         let extended = self.extended(base, effect);
         let options = Options { most_iterations: GLANCE, ..held.options.clone() };
@@ -218,6 +241,14 @@ fn better<'a>(one: Option<Trial<'a>>, other: Option<Trial<'a>>) -> Option<Trial<
 }
 
 impl Trial<'_> {
+    /// Whether another fit of the model lies where this one does, as far as its data tell.
+    fn is_near(&self, other: &Self) -> bool {
+        let places = self.fit.parameters.iter().zip(&other.fit.parameters).enumerate();
+        places
+            .into_iter()
+            .all(|(p, (one, other))| (one - other).abs() <= NEAR * self.fit.covariance[(p, p)].max(0.0).sqrt())
+    }
+
     /// Where a model with more parameters at the end starts from this one's fit.
     fn start_of(&self, model: &CampaignModel<'_>) -> Start {
         let mut parameters = self.fit.parameters.clone();
