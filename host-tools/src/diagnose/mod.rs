@@ -19,7 +19,7 @@ pub mod fit;
 pub mod force_channels;
 mod formula;
 mod formula_groups;
-mod formula_screen;
+
 mod formula_search;
 mod forward;
 mod held_out_errors;
@@ -39,6 +39,7 @@ mod settings;
 mod soil_coordinates;
 pub mod specification;
 mod steps;
+mod term_screen;
 mod told;
 pub mod trial;
 

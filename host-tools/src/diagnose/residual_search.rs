@@ -8,6 +8,7 @@ use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
 use super::selection::{PARAMETER_COST, gain_over};
+use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
 
 /// A channel's dependence on a column.
@@ -45,6 +46,8 @@ impl Structure {
 const SIGNIFICANT_STRUCTURE: f64 = 0.001;
 /// Fewest observations for each coefficient of a dependence.
 const PER_TERM: f64 = 4.0;
+/// Those of each channel that are fitted, of all that a first look is taken at.
+const FITTED: usize = 32;
 /// The best of each channel that are looked at again.
 const OF_CHANNEL: usize = 8;
 /// Powers of one column that are tried: a line, a bend that few observations can bear, and a curve that may turn twice.
@@ -76,11 +79,15 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
     let curves = singles.chain(products.iter().map(|product| (product, 1)));
     let curves = curves.map(|(regressor, degree)| (regressor, powers(regressor, degree)));
     let all: Vec<_> = curves.chain(columns.iter().filter_map(|column| Some((column, wave(column)?)))).collect();
-    let tries: Vec<_> = channels
-        .flat_map(|channel| all.iter().map(move |(regressor, terms)| (channel, *regressor, terms)))
-        .filter(|(channel, regressor, _)| !regressor.contains(*channel))
-        .collect();
-    let examine = |&(channel, regressor, terms): &(Reading, &Regressor, &Vec<Term>)| {
+    let mut tried = 0;
+    let mut promising = Vec::new();
+    for channel in channels {
+        let screen = Screen::new(&linearised, &AddedTerms { channel, ..no_terms() }, &nothing, &held)?;
+        let own: Vec<_> = all.iter().filter(|(regressor, _)| !regressor.contains(channel)).collect();
+        tried += own.len();
+        promising.extend(most_promising(&screen, dispersion, own).into_iter().map(|curve| (channel, curve)));
+    }
+    let examine = |&(channel, (regressor, terms)): &(Reading, &Curve<'_>)| {
         let added = AddedTerms { channel, terms: terms.clone() };
         let fit = linearised.fit_with(&added).ok()?;
         Some(Structure {
@@ -95,7 +102,7 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
             added,
         })
     };
-    let mut found: Vec<_> = tries.par_iter().filter_map(examine).collect();
+    let mut found: Vec<_> = promising.par_iter().filter_map(examine).collect();
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut seen: Vec<(Reading, String)> = Vec::new();
     found.retain(|structure| {
@@ -105,7 +112,21 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
         seen.extend(wanted.then_some(key));
         wanted
     });
-    Some((found, tries.len()))
+    Some((found, tried))
+}
+
+/// A column, or a product of two, and the terms by which it is fitted.
+type Curve<'a> = (&'a Regressor, Vec<Term>);
+
+/// Those that a first look finds worth a fit.
+fn most_promising<'a, 'b>(screen: &Screen, dispersion: f64, curves: Vec<&'a Curve<'b>>) -> Vec<&'a Curve<'b>> {
+    let worth = |terms: &[Term]| {
+        let gain = screen.gain_together(terms.iter().map(|term| term.values.as_slice()));
+        gain / dispersion - PARAMETER_COST * terms.len() as f64
+    };
+    let mut found: Vec<_> = curves.into_par_iter().map(|curve| (worth(&curve.1), curve)).collect();
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.into_iter().take(FITTED).map(|(_, curve)| curve).collect()
 }
 
 /// The best again, with the scales of noise and offsets as they are beside them: an offset of each run that is really a

@@ -1,4 +1,4 @@
-//! A first look at terms of a law: what each would gain if everything were linear and every channel's errors its own. Good
+//! A first look at terms of a law or of a column: what each would gain if everything were linear and every channel's errors its own. Good
 //! enough to say which of a thousand terms deserve a fit.
 
 use std::ops::Range;
@@ -66,9 +66,48 @@ impl Screen {
 
     /// What a term with these values in the rows gains in ln likelihood, nearly.
     pub fn gain(&self, values: &[f64]) -> f64 {
-        let term = DVector::from_vec(self.whitening.apply(|row, _| values[row]));
-        let own = term.norm_squared() - self.basis.tr_mul(&term).norm_squared();
-        if own > OWN_SHARE * term.norm_squared() { 0.5 * term.dot(&self.residual).powi(2) / own } else { 0.0 }
+        self.gain_together(std::iter::once(values))
+    }
+
+    /// What terms gain together.
+    pub fn gain_together<'a>(&self, terms: impl Iterator<Item = &'a [f64]>) -> f64 {
+        let mut taken: Vec<Taken> = Vec::new();
+        let mut gain = 0.0;
+        for values in terms {
+            let term = DVector::from_vec(self.whitening.apply(|row, _| values[row]));
+            let mut new =
+                Taken { by_parameters: self.basis.tr_mul(&term), own_part: 0.0, along: term.dot(&self.residual), term };
+            let whole = new.term.norm_squared();
+            for other in &taken {
+                new.take_off(other);
+            }
+            new.own_part = new.term.norm_squared() - new.by_parameters.norm_squared();
+            if new.own_part > OWN_SHARE * whole {
+                gain += 0.5 * new.along.powi(2) / new.own_part;
+                taken.push(new);
+            }
+        }
+        gain
+    }
+}
+
+/// A term, less what those before it can make of it.
+struct Taken {
+    term: DVector<f64>,
+    /// Its part that the parameters can make, in the coordinates of the basis.
+    by_parameters: DVector<f64>,
+    /// The square of what is left.
+    own_part: f64,
+    /// Its product with the residual.
+    along: f64,
+}
+
+impl Taken {
+    fn take_off(&mut self, other: &Self) {
+        let share = (self.term.dot(&other.term) - self.by_parameters.dot(&other.by_parameters)) / other.own_part;
+        self.term.axpy(-share, &other.term, 1.0);
+        self.by_parameters.axpy(-share, &other.by_parameters, 1.0);
+        self.along -= share * other.along;
     }
 }
 
