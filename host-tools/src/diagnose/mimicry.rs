@@ -1,6 +1,7 @@
 //! Whether an effect only mimics a dependence that no physics stands behind.
 
 use super::candidates::read_from;
+use super::fit::Reading;
 use super::linearised::{AddedTerms, Linearised};
 use super::measurements::COLUMNS;
 use super::residual_search::Structure;
@@ -25,6 +26,7 @@ const ROUNDS: usize = 3;
 pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structure: &Structure) -> bool {
     let (added, common) = (&structure.added, &structure.common);
     let gains = || {
+        let form = effect.specification.effects.last()?;
         let dependence = log_posterior_with(bench, &step.base, added)?;
         let both = log_posterior_with(bench, effect, added)?;
         let alone = log_posterior_with(bench, effect, common)?;
@@ -32,11 +34,14 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
             |less: f64, parameters: usize| (both - less) / step.dispersion - PARAMETER_COST * parameters as f64;
         let own_terms = added.terms.len() - common.terms.len();
         let gained = beside(dependence, effect.added_parameters());
-        // An effect that is itself such an offset or trend is part of every dependence, and none is better for having it.
-        let is_common = gained < OWN && {
-            let without = log_posterior_with(bench, &step.base, common)?;
-            (alone - without) / step.dispersion < OWN
-        };
+        // An effect that is itself such an offset or trend is part of every dependence, and one that follows a column of every
+        // product with it: none is better for having it.
+        let is_part = structure.regressor.split('*').any(|column| follows(form, structure.channel, column));
+        let is_common = is_part
+            || gained < OWN && {
+                let without = log_posterior_with(bench, &step.base, common)?;
+                (alone - without) / step.dispersion < OWN
+            };
         Some((beside(alone, own_terms), gained, is_common))
     };
     // The difference of the two gains is that of the dependence alone and the effect alone.
@@ -49,9 +54,14 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
 /// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there: then it is the
 /// effect by another law, and no other cause. An angle of the wheel is a column of many laws.
 pub fn is_own_law(effect: &EffectForm, structure: &Structure) -> bool {
+    follows(effect, structure.channel, &structure.regressor)
+}
+
+/// Whether a form acts on a channel and follows a column there.
+fn follows(effect: &EffectForm, channel: Reading, column: &str) -> bool {
     let needs = |channel: Channel| effect.form.needs.iter().any(|column| read_from(*column) == Some(channel));
-    let follows = Channel::from_name(&structure.regressor);
-    needs(COLUMNS[structure.channel.index()]) && follows.is_some_and(needs) && follows != Some(Channel::WheelAngle)
+    let column = Channel::from_name(column);
+    needs(COLUMNS[channel.index()]) && column.is_some_and(needs) && column != Some(Channel::WheelAngle)
 }
 
 /// ln posterior of a model with added terms. A model that lacks much is bent far by making up for it: linearised once, it would
@@ -71,4 +81,21 @@ fn log_posterior_with(bench: &Bench<'_>, trial: &Trial<'_>, added: &AddedTerms) 
         here.latents = fit.latents;
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::terramechanics::effects::effect_info;
+
+    use super::*;
+
+    #[test]
+    fn a_drift_with_temperature_follows_no_other_column_and_in_its_channel_alone() {
+        let info = effect_info("force-drift").expect("listed");
+        let form = info.forms.iter().find(|form| form.name == "side force with temperature").expect("a form");
+        let drift = EffectForm::new(info, form);
+        assert!(follows(&drift, Reading::SideForce, "temperature_c"));
+        assert!(!follows(&drift, Reading::SideForce, "hours_since_zero"));
+        assert!(!follows(&drift, Reading::DrawbarPull, "temperature_c"));
+    }
 }
