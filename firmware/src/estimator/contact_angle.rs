@@ -9,6 +9,7 @@
 
 use super::attitude::Attitude;
 use super::runs::Runs;
+use super::trend::Trends;
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
@@ -77,6 +78,8 @@ pub(super) struct SideReadings<S> {
     pub rocker_angle_rad: Option<S>,
     /// The bogie against the rocker, rad.
     pub bogie_angle_rad: Option<S>,
+    /// How far the innovations of the side's forces come in runs: mean square over what it is by chance.
+    pub runs_of_forces: S,
 }
 
 /// One standard deviation of a ratio that is not known at all, and of contact angles about the pitch of their link, rad:
@@ -106,6 +109,12 @@ const BEND_BY_SINKING: f64 = 0.02;
 const ANGLE_FROM_RUNS: f64 = 0.1;
 /// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
 const RUN: f64 = 4.0;
+/// The same by runs of the forces, of the front wheel's angle alone, and what these are taken for chance up to: a wheel that meets a
+/// rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
+const FRONT_FROM_FORCES: f64 = 0.3;
+const RUN_OF_FORCES: f64 = 3.0;
+/// What a trend that is known leaves of the drift, as a variance.
+const BESIDE_TREND: f64 = 0.5;
 /// Runs are looked for from this measurement on: of the velocity up, the rocker and the bogie. What is forward tells nothing of
 /// the angles, and the body's pitch is no ground's doing.
 const FIRST_IN_RUNS: usize = 1;
@@ -127,6 +136,9 @@ pub(super) struct ContactAngleFilter<S> {
     watch: Watch,
     begun: bool,
     runs: Runs<S, RUNS>,
+    trends: Trends<S>,
+    /// Variance of what an angle drifts by in a step, rad².
+    drift_variance: S,
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
     speed_slopes: PerAxle<[S; STATES]>,
 }
@@ -154,6 +166,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
             watch: Watch::default(),
             begun: false,
             runs: Runs::new(),
+            trends: Trends::new(),
+            drift_variance: zero,
             speed_slopes: hub_speed_slopes(rover)
                 .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero, zero]),
         })
@@ -203,6 +217,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &self.runs
     }
 
+    /// How its contact angles turn along the way.
+    pub fn trends(&self) -> &Trends<S> {
+        &self.trends
+    }
+
     /// The motion at the mean.
     pub fn motion(&self) -> RollingMotion<S> {
         self.model.motion(self.filter.estimate().mean())
@@ -216,12 +235,14 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     /// A wheel stands or has just started: it digs in, in a way that no load tells, and its hub's path is not the terrain's slope.
     pub fn unsettle(&mut self) {
+        self.trends.forget();
         let (zero, angle) = (S::zero(), S::constant(DUG_IN));
         let _ = self.filter.random_walk(&[zero, angle, angle, angle, zero, zero, zero]);
     }
 
     /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the ground is.
     pub fn settle(&mut self) {
+        self.trends.forget();
         let rates = [&mut self.ratio_rate, &mut self.direction_rate, &mut self.rocker_rate, &mut self.bogie_rate];
         rates.into_iter().for_each(WalkRate::restart);
     }
@@ -255,7 +276,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         if !self.begun {
             self.begin(body_pitch_rad, readings);
         }
-        self.predict(step_s, rate_std);
+        self.predict(step_s, rate_std, readings.runs_of_forces);
+        let before = self.angles();
         self.model.body_pitch = body_pitch_rad.sin_cos();
         self.learn_rates(step_s, body_pitch_rad, readings, noise);
         let angle = noise.angle_rad;
@@ -275,12 +297,27 @@ impl<S: Scalar> ContactAngleFilter<S> {
             Contradiction::Moved => Some(Self::unknown_std().map(|std| std * S::constant(LOOSENED))),
             Contradiction::Wrong => Some(Self::unknown_std()),
         };
-        if let Some(stds) = loosened {
-            let _ = self.filter.random_walk(&stds);
+        match loosened {
+            Some(stds) => {
+                self.trends.forget();
+                let _ = self.filter.random_walk(&stds);
+            }
+            None => self.follow_trends(step_s, &before),
         }
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
+    }
+
+    fn angles(&self) -> PerAxle<S> {
+        let [_, front, middle, rear, ..] = *self.filter.estimate().mean();
+        PerAxle { front, middle, rear }
+    }
+
+    fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>) {
+        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
+        let moved = self.angles().zip(*before).map(|(now, before)| now - before);
+        self.trends.follow(self.travel_m(step_s), &moved.zip(PerAxle { front, middle, rear }), self.drift_variance);
     }
 
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
@@ -315,19 +352,35 @@ impl<S: Scalar> ContactAngleFilter<S> {
         (ratio * self.model.rim_speed_m_s).abs() * step_s
     }
 
-    fn predict(&mut self, step_s: S, rate_std_rad_s: S) {
+    fn predict(&mut self, step_s: S, rate_std_rad_s: S, runs_of_forces: S) {
         let model = self.model;
+        let travel = self.travel_m(step_s);
+        let factor = self.angle_factor();
+        self.trends.on_ground_of(factor);
+        let turned = self.trends.rad_per_m().map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
-            let mut next = *state;
-            next.iter_mut().zip(model.rates(state)).for_each(|(number, rate)| *number += step_s * rate);
-            next
+            let [ratio, front, middle, rear, links_and_body @ ..] = *state;
+            let [.., rocker_rate, bogie_rate, body_rate] = model.rates(state);
+            let [rocker, bogie, body] = links_and_body;
+            [
+                ratio,
+                front + turned.front,
+                middle + turned.middle,
+                rear + turned.rear,
+                rocker + step_s * rocker_rate,
+                bogie + step_s * bogie_rate,
+                body + step_s * body_rate,
+            ]
         };
         let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
-        let root_travel = self.travel_m(step_s).sqrt();
-        let ratio = S::constant(RATIO_DRIFT) * self.ratio_rate.factor().sqrt() * rim_travel.sqrt();
-        let angle = S::constant(ANGLE_DRIFT) * self.angle_factor().sqrt() * root_travel;
-        let pitch = S::constant(PITCH_DRIFT) * root_travel;
-        let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch, step_s * rate_std_rad_s]);
+        let ratio = S::constant(RATIO_DRIFT) * (self.ratio_rate.factor() * rim_travel).sqrt();
+        let nominal = S::constant(BESIDE_TREND * ANGLE_DRIFT * ANGLE_DRIFT) * travel;
+        self.drift_variance = nominal * factor;
+        let met = S::constant(FRONT_FROM_FORCES) * (runs_of_forces - S::constant(RUN_OF_FORCES)).max(S::zero());
+        let (front, others) = ((self.drift_variance + nominal * met).sqrt(), self.drift_variance.sqrt());
+        let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
+        let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
+        let _ = self.filter.predict(process, &noise);
     }
 
     /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.

@@ -8,7 +8,7 @@
 //!
 //! What drifts by itself are the cells' forces and the two moments. The links have no mass to speak of: whatever the ground does,
 //! the moments on them stay what torques and body make them, so that a cell's force that changes takes the forces along the
-//! links with it. The drift of the state is therefore correlated.
+//! links with it, and so does a bogie that turns against its rocker. The drift of the state is therefore correlated.
 
 use super::runs::Runs;
 use super::slip_torque::TORQUE_DRIFT_NM;
@@ -201,28 +201,25 @@ impl<S: Scalar> HubForceFilter<S> {
         rates.for_each(WalkRate::restart);
     }
 
-    /// Takes the split that the torques tell.
-    pub fn split(&mut self, difference_n: S) {
-        self.model.difference_n = difference_n;
-    }
-
-    /// Lets the forces drift over so much travel, and takes what was measured with the bogie at an angle to the rocker.
+    /// Lets the forces drift over so much travel, and takes what was measured with the bogie at an angle to the rocker and such a
+    /// difference between its wheels, as the torques tell it, N.
     pub fn tick(
         &mut self,
         travel_m: S,
         bogie_angle_rad: S,
+        difference_n: S,
         readings: &ForceReadings<S>,
     ) -> Innovation<S, MEASUREMENTS> {
+        let before = self.model;
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
+        self.model.difference_n = difference_n;
         let held = readings.bogie_is_held || self.is_impossible(readings);
         if held {
             self.give_up_moments();
         }
         self.learn_rates(travel_m, readings, held);
+        self.drift(&before, travel_m, held);
         let model = self.model;
-        let changes = HubForceModel { difference_n: S::zero(), ..model };
-        let drifts = self.drifts(travel_m);
-        let _ = self.filter.random_walk_in(|state| changes.measure(state), |told| changes.state_of(told), &drifts);
         let told = self.filter.update(
             |state| model.measure(state),
             &[
@@ -248,6 +245,17 @@ impl<S: Scalar> HubForceFilter<S> {
             Contradiction::Wrong => self.loosen(self.unknown_n),
         }
         told
+    }
+
+    /// Carries the forces to the model of this frame: what lasts as a bogie turns is what the cells feel and the moments, not the forces
+    /// along the links. Where a stop holds the bogie, its moments are nobody's.
+    fn drift(&mut self, before: &HubForceModel<S>, travel_m: S, held: bool) {
+        let (now, mean) = (self.model, *self.filter.estimate().mean());
+        let mean = if held { mean } else { now.state_of(&before.measure(&mean)) };
+        let straight = |model: &HubForceModel<S>| HubForceModel { difference_n: S::zero(), ..*model };
+        let (before, now) = (straight(before), straight(&now));
+        let drifts = self.drifts(travel_m);
+        let _ = self.filter.random_walk_in(|state| before.measure(state), |told| now.state_of(told), mean, &drifts);
     }
 
     /// One standard deviation of how far each cell's force, N, and the moments on bogie and rocker, N·m, drift over some travel.

@@ -17,6 +17,7 @@
 
 mod attitude;
 pub mod contact_angle;
+mod doubt;
 pub mod drawbar_split;
 mod estimate;
 mod health;
@@ -31,6 +32,7 @@ mod side_estimator;
 mod sinking;
 pub mod slip_torque;
 mod surprise;
+mod trend;
 mod walk_rate;
 mod watch;
 mod whole_balance;
