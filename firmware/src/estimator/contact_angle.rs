@@ -8,9 +8,9 @@
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
+use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness};
 use super::runs::Runs;
 use super::trend::Trends;
-use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
@@ -92,25 +92,8 @@ const LOOSENED: f64 = 0.2;
 const DUG_IN: f64 = 0.02;
 /// A contact angle farther from the pitch of its link is given up, rad.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
-/// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
-const RATIO_DRIFT: f64 = 0.2;
-const ANGLE_DRIFT: f64 = 0.32;
-/// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
-const LINK_DRIFT: f64 = 0.032;
-/// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
-const ANGLE_FROM_WANDERING: f64 = 0.1;
-/// Of the bogie's bend squared, what a metre of travel adds to the variance of a contact angle is one over this, m: with the links
-/// of set K0, ground of curvature c bends the bogie against the rocker by 0.233 m times c, and turns by 0.12 m times c within
-/// the way over which the filter averages on such ground; 0.233²/0.12.
-const BEND_LENGTH: f64 = 0.44;
-/// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
-const BEND_BY_SINKING: f64 = 0.02;
-/// What is added to that for each unit by which runs of innovations are above [`RUN`].
-const ANGLE_FROM_RUNS: f64 = 0.1;
-/// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
-const RUN: f64 = 4.0;
-/// The same by runs of the forces, of the front wheel's angle alone, and what these are taken for chance up to: a wheel that meets a
-/// rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
+/// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
+/// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
 const FRONT_FROM_FORCES: f64 = 0.3;
 const RUN_OF_FORCES: f64 = 3.0;
 /// What a trend that is known leaves of the drift, as a variance.
@@ -129,10 +112,7 @@ const STANDING: f64 = 1.5e-3;
 pub(super) struct ContactAngleFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
     model: ContactAngleModel<S>,
-    ratio_rate: WalkRate<S>,
-    direction_rate: WalkRate<S>,
-    rocker_rate: WalkRate<S>,
-    bogie_rate: WalkRate<S>,
+    roughness: Roughness<S>,
     watch: Watch,
     begun: bool,
     runs: Runs<S, RUNS>,
@@ -159,10 +139,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         Ok(Self {
             filter: SigmaPointFilter::new(level, Self::unknown_std())?,
             model,
-            ratio_rate: WalkRate::new(phase),
-            direction_rate: WalkRate::new(phase + 1),
-            rocker_rate: WalkRate::new(phase + 2),
-            bogie_rate: WalkRate::new(phase + 3),
+            roughness: Roughness::new(phase),
             watch: Watch::default(),
             begun: false,
             runs: Runs::new(),
@@ -243,8 +220,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the ground is.
     pub fn settle(&mut self) {
         self.trends.forget();
-        let rates = [&mut self.ratio_rate, &mut self.direction_rate, &mut self.rocker_rate, &mut self.bogie_rate];
-        rates.into_iter().for_each(WalkRate::restart);
+        self.roughness.restart();
     }
 
     /// How often the filter fell back to its floor.
@@ -279,7 +255,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.predict(step_s, rate_std, readings.runs_of_forces);
         let before = self.angles();
         self.model.body_pitch = body_pitch_rad.sin_cos();
-        self.learn_rates(step_s, body_pitch_rad, readings, noise);
+        let ContactAngleModel { rim_speed_m_s: speed_m_s, body_pitch, .. } = self.model;
+        if !stands {
+            let motion = Motion { speed_m_s, step_s, body_pitch_rad, body_pitch };
+            self.roughness.learn(&motion, readings, noise);
+        }
         let angle = noise.angle_rad;
         let noise_std =
             [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, angle, angle, attitude.felt_std_rad()];
@@ -323,27 +303,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
     /// variance.
     pub fn roughness(&self) -> S {
-        self.rocker_rate.factor() + self.bogie_rate.factor()
-    }
-
-    /// How fast the contact angles wander. The links feel the ground a wheelbase long, and thirty times more precisely than
-    /// the velocity does; a wheel feels more of it than its link.
-    fn angle_factor(&self) -> S {
-        let wandering = S::constant(ANGLE_FROM_WANDERING) * (self.direction_rate.factor() + self.roughness());
-        // Where links and velocity wander fast, so do the angles, and more than in proportion: how slowly they wander on plane
-        // ground, no sensor can tell.
-        let steeper = wandering * wandering.sqrt();
-        self.bend()
-            + steeper
-            + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
-    }
-
-    /// What the ground's bend along the side says of it: a bogie that is bent against its rocker stands on ground that curves. It
-    /// tells at once, and still where a wheel is on top of a rock: there its angle changes most, and the links hardly move.
-    fn bend(&self) -> S {
-        let [.., rocker, bogie, _] = *self.filter.estimate().mean();
-        let bend = ((bogie - rocker).abs() - S::constant(BEND_BY_SINKING)).max(S::zero());
-        bend * bend * S::constant(1.0 / (BEND_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT))
+        self.roughness.of_links()
     }
 
     /// How far the hubs go in a step: wheels that spin on the spot meet no other ground.
@@ -355,7 +315,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
     fn predict(&mut self, step_s: S, rate_std_rad_s: S, runs_of_forces: S) {
         let model = self.model;
         let travel = self.travel_m(step_s);
-        let factor = self.angle_factor();
+        let [.., rocker, bogie, _] = *self.filter.estimate().mean();
+        let factor = self.roughness.of_angles(bogie - rocker, self.runs.over_chance());
         self.trends.on_ground_of(factor);
         let turned = self.trends.rad_per_m().map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
@@ -373,7 +334,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             ]
         };
         let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
-        let ratio = S::constant(RATIO_DRIFT) * (self.ratio_rate.factor() * rim_travel).sqrt();
+        let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
         let nominal = S::constant(BESIDE_TREND * ANGLE_DRIFT * ANGLE_DRIFT) * travel;
         self.drift_variance = nominal * factor;
         let met = S::constant(FRONT_FROM_FORCES) * (runs_of_forces - S::constant(RUN_OF_FORCES)).max(S::zero());
@@ -381,39 +342,5 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
         let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
         let _ = self.filter.predict(process, &noise);
-    }
-
-    /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.
-    fn learn_rates(&mut self, step_s: S, body_pitch_rad: S, readings: &SideReadings<S>, noise: &SensorNoise<S>) {
-        let speed = self.model.rim_speed_m_s;
-        if speed == S::zero() {
-            return;
-        }
-        let travel = speed.abs() * step_s;
-        let nominal = |drift: f64| S::constant(drift * drift) * travel;
-        let pitch = readings.rocker_angle_rad.map(|rocker| body_pitch_rad + rocker);
-        let variance = noise.angle_rad * noise.angle_rad;
-        // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
-        let turned = noise.gyro_rad_s * step_s;
-        let moved = S::constant(2.0) * turned * turned;
-        match pitch {
-            Some(pitch) => self.rocker_rate.see_moved(pitch, variance, nominal(LINK_DRIFT), moved),
-            None => self.rocker_rate.miss(nominal(LINK_DRIFT)),
-        }
-        match (pitch, readings.bogie_angle_rad) {
-            (Some(pitch), Some(bogie)) => {
-                self.bogie_rate.see_moved(pitch + bogie, variance + variance, nominal(LINK_DRIFT), moved);
-            }
-            _ => self.bogie_rate.miss(nominal(LINK_DRIFT)),
-        }
-        if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
-            let velocity = Planar { x, z }.turned(self.model.body_pitch);
-            let std = readings.velocity_std_m_s.z / speed.abs();
-            self.ratio_rate.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
-            self.direction_rate.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
-        } else {
-            self.ratio_rate.miss(nominal(RATIO_DRIFT));
-            self.direction_rate.miss(nominal(ANGLE_DRIFT));
-        }
     }
 }

@@ -91,3 +91,28 @@ impl<S: Scalar> Doubt<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Doubt, PerAxle, Runs, Trends};
+
+    fn doubt(trends: &Trends<f64>) -> Doubt<f64> {
+        Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends)
+    }
+
+    /// Of an angle that turns by 0.5 rad over a metre, 14 mm of lag; of one that does not, on the same ground, only what is untold.
+    #[test]
+    fn what_turns_lags_and_plane_ground_adds_nothing() {
+        let mut trends = Trends::<f64>::new();
+        let plane = doubt(&trends).wheels;
+        assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
+        trends.on_ground_of(1.0e6);
+        let turning = PerAxle { front: (1.0, 1.0), middle: (0.0, 1.0), rear: (0.0, 1.0) };
+        trends.follow(0.002, &turning, 1.0e6);
+        let turned = trends.rad_per_m().front;
+        let PerAxle { front, middle, .. } = doubt(&trends).wheels;
+        let lag = 0.014 * turned;
+        assert!((front.angle_variance - lag * lag - 0.008 * 0.008).abs() < 1.0e-6 * front.angle_variance);
+        assert!((middle.angle_variance - 0.0047 * 0.0047).abs() < 1.0e-9 && middle.torque_variance == 0.0);
+    }
+}

@@ -22,6 +22,7 @@ pub mod drawbar_split;
 mod estimate;
 mod health;
 pub mod hub_force;
+mod roughness;
 mod rover_estimator;
 mod runs;
 mod scalar_filter;
