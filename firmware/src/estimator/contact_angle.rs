@@ -10,7 +10,7 @@
 use super::attitude::Attitude;
 use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness};
 use super::runs::Runs;
-use super::trend::Trends;
+use super::trend::{Trends, restlessness};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
@@ -98,6 +98,8 @@ const FRONT_FROM_FORCES: f64 = 0.3;
 const RUN_OF_FORCES: f64 = 3.0;
 /// What a trend that is known leaves of the drift, as a variance.
 const BESIDE_TREND: f64 = 0.5;
+/// The share of an update's way that counts as the trend's, over the gain of the filter.
+const LEARNED: f64 = 0.25;
 /// Runs are looked for from this measurement on: of the velocity up, the rocker and the bogie. What is forward tells nothing of
 /// the angles, and the body's pitch is no ground's doing.
 const FIRST_IN_RUNS: usize = 1;
@@ -296,8 +298,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>) {
         let [_, front, middle, rear, ..] = self.filter.estimate().variances();
-        let moved = self.angles().zip(*before).map(|(now, before)| now - before);
-        self.trends.follow(self.travel_m(step_s), &moved.zip(PerAxle { front, middle, rear }), self.drift_variance);
+        // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
+        let learned = S::constant(LEARNED) * self.drift_variance;
+        let moved = self.angles().zip(*before).zip(PerAxle { front, middle, rear });
+        let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
+        self.trends.follow(self.travel_m(step_s), &moved);
     }
 
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
@@ -317,8 +322,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
         let factor = self.roughness.of_angles(bogie - rocker, self.runs.over_chance());
-        self.trends.on_ground_of(factor);
-        let turned = self.trends.rad_per_m().map(|trend| travel * trend);
+        self.trends.expect(PerAxle::all(restlessness(factor)));
+        let turned = self.trends.per_m().map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
             let [ratio, front, middle, rear, links_and_body @ ..] = *state;
             let [.., rocker_rate, bogie_rate, body_rate] = model.rates(state);

@@ -11,24 +11,24 @@ use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
 /// Of the variance that a filter states of contact angles, what is true of the bogie's, and of the front wheel's.
-const BOGIE_ANGLE: f64 = 0.88;
-const FRONT_ANGLE: f64 = 0.83;
+const BOGIE_ANGLE: f64 = 0.9;
+const FRONT_ANGLE: f64 = 0.85;
 /// What is added to that of the front wheel for each unit by which the runs of how the side moves are above chance: it meets what the
 /// others follow it to.
 const FRONT_ANGLE_BY_MOTION: f64 = 0.45;
 /// The same of the slip, and what runs of the forces add: what a wheel feels anew makes it slip anew.
 const SLIP: f64 = 0.88;
 const SLIP_BY_MOTION: f64 = 0.18;
-const SLIP_BY_FORCES: f64 = 0.35;
+const SLIP_BY_FORCES: f64 = 0.3;
 /// Of the forces on the hubs, and of the torques.
 const FORCE: f64 = 0.78;
 const FORCE_BY_FORCES: f64 = 0.38;
-const TORQUE: f64 = 0.76;
-const TORQUE_BY_FORCES: f64 = 0.18;
+const TORQUE: f64 = 0.8;
+const TORQUE_BY_FORCES: f64 = 0.14;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
 const ANGLE_LAG: f64 = 0.014;
 const LOAD_LAG: f64 = 0.19;
-const TORQUE_LAG: f64 = 0.0115;
+const TORQUE_LAG: f64 = 0.009;
 /// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
 /// sink in ways that nothing tells, and a front wheel meets more of them.
 const FRONT_UNTOLD: f64 = 0.008;
@@ -66,7 +66,8 @@ impl<S: Scalar> Doubt<S> {
     pub fn of<const N: usize, const M: usize>(motion: &Runs<S, N>, forces: &Runs<S, M>, trends: &Trends<S>) -> Self {
         let (motion, forces) = (motion.above_chance(), forces.above_chance());
         let constant = S::constant;
-        let rough = trends.rough();
+        // The same of all three: the ground's.
+        let PerAxle { front: rough, .. } = trends.restless();
         let wheel = |trend: S, angle: S, untold: f64| {
             let lag = |length: f64| constant(length * length) * trend * trend;
             WheelDoubt {
@@ -76,7 +77,7 @@ impl<S: Scalar> Doubt<S> {
                 torque_variance: lag(TORQUE_LAG),
             }
         };
-        let PerAxle { front, middle, rear } = trends.rad_per_m();
+        let PerAxle { front, middle, rear } = trends.per_m();
         let (of_front, of_bogie) =
             (constant(FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * motion, constant(BOGIE_ANGLE));
         Self {
@@ -106,10 +107,9 @@ mod tests {
         let mut trends = Trends::<f64>::new();
         let plane = doubt(&trends).wheels;
         assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
-        trends.on_ground_of(1.0e6);
-        let turning = PerAxle { front: (1.0, 1.0), middle: (0.0, 1.0), rear: (0.0, 1.0) };
-        trends.follow(0.002, &turning, 1.0e6);
-        let turned = trends.rad_per_m().front;
+        trends.expect(PerAxle::all(1.0));
+        trends.follow(0.002, &PerAxle { front: (1.0e-3, 1.0), middle: (0.0, 1.0), rear: (0.0, 1.0) });
+        let turned = trends.per_m().front;
         let PerAxle { front, middle, .. } = doubt(&trends).wheels;
         let lag = 0.014 * turned;
         assert!((front.angle_variance - lag * lag - 0.008 * 0.008).abs() < 1.0e-6 * front.angle_variance);
