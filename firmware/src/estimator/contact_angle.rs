@@ -118,7 +118,7 @@ pub(super) struct ContactAngleFilter<S> {
     watch: Watch,
     begun: bool,
     runs: Runs<S, RUNS>,
-    trends: Trends<S>,
+    trends: Trends<S, 3>,
     /// Variance of what an angle drifts by in a step, rad².
     drift_variance: S,
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
@@ -197,7 +197,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     }
 
     /// How its contact angles turn along the way.
-    pub fn trends(&self) -> &Trends<S> {
+    pub fn trends(&self) -> &Trends<S, 3> {
         &self.trends
     }
 
@@ -302,7 +302,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let learned = S::constant(LEARNED) * self.drift_variance;
         let moved = self.angles().zip(*before).zip(PerAxle { front, middle, rear });
         let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
-        self.trends.follow(self.travel_m(step_s), &moved);
+        self.trends.follow(self.travel_m(step_s), &moved.into_array());
     }
 
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
@@ -322,8 +322,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
         let factor = self.roughness.of_angles(bogie - rocker, self.runs.over_chance());
-        self.trends.expect(PerAxle::all(restlessness(factor)));
-        let turned = self.trends.per_m().map(|trend| travel * trend);
+        self.trends.expect([restlessness(factor); 3]);
+        let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
             let [ratio, front, middle, rear, links_and_body @ ..] = *state;
             let [.., rocker_rate, bogie_rate, body_rate] = model.rates(state);

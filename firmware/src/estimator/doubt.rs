@@ -17,18 +17,18 @@ const FRONT_ANGLE: f64 = 0.85;
 /// others follow it to.
 const FRONT_ANGLE_BY_MOTION: f64 = 0.45;
 /// The same of the slip, and what runs of the forces add: what a wheel feels anew makes it slip anew.
-const SLIP: f64 = 0.88;
+const SLIP: f64 = 0.93;
 const SLIP_BY_MOTION: f64 = 0.18;
 const SLIP_BY_FORCES: f64 = 0.3;
 /// Of the forces on the hubs, and of the torques.
 const FORCE: f64 = 0.78;
 const FORCE_BY_FORCES: f64 = 0.38;
-const TORQUE: f64 = 0.8;
+const TORQUE: f64 = 0.82;
 const TORQUE_BY_FORCES: f64 = 0.14;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
 const ANGLE_LAG: f64 = 0.014;
 const LOAD_LAG: f64 = 0.19;
-const TORQUE_LAG: f64 = 0.009;
+const TORQUE_LAG: f64 = 0.008;
 /// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
 /// sink in ways that nothing tells, and a front wheel meets more of them.
 const FRONT_UNTOLD: f64 = 0.008;
@@ -63,11 +63,11 @@ pub(super) struct Doubt<S> {
 impl<S: Scalar> Doubt<S> {
     /// What the runs of how a side moves and of its forces tell, and the trends of its contact angles.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn of<const N: usize, const M: usize>(motion: &Runs<S, N>, forces: &Runs<S, M>, trends: &Trends<S>) -> Self {
+    pub fn of<const N: usize, const M: usize>(motion: &Runs<S, N>, forces: &Runs<S, M>, trends: &Trends<S, 3>) -> Self {
         let (motion, forces) = (motion.above_chance(), forces.above_chance());
         let constant = S::constant;
         // The same of all three: the ground's.
-        let PerAxle { front: rough, .. } = trends.restless();
+        let [rough, ..] = trends.restless();
         let wheel = |trend: S, angle: S, untold: f64| {
             let lag = |length: f64| constant(length * length) * trend * trend;
             WheelDoubt {
@@ -77,7 +77,7 @@ impl<S: Scalar> Doubt<S> {
                 torque_variance: lag(TORQUE_LAG),
             }
         };
-        let PerAxle { front, middle, rear } = trends.per_m();
+        let [front, middle, rear] = trends.per_m();
         let (of_front, of_bogie) =
             (constant(FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * motion, constant(BOGIE_ANGLE));
         Self {
@@ -97,19 +97,19 @@ impl<S: Scalar> Doubt<S> {
 mod tests {
     use super::{Doubt, PerAxle, Runs, Trends};
 
-    fn doubt(trends: &Trends<f64>) -> Doubt<f64> {
+    fn doubt(trends: &Trends<f64, 3>) -> Doubt<f64> {
         Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends)
     }
 
     /// Of an angle that turns by 0.5 rad over a metre, 14 mm of lag; of one that does not, on the same ground, only what is untold.
     #[test]
     fn what_turns_lags_and_plane_ground_adds_nothing() {
-        let mut trends = Trends::<f64>::new();
+        let mut trends = Trends::<f64, 3>::new();
         let plane = doubt(&trends).wheels;
         assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
-        trends.expect(PerAxle::all(1.0));
-        trends.follow(0.002, &PerAxle { front: (1.0e-3, 1.0), middle: (0.0, 1.0), rear: (0.0, 1.0) });
-        let turned = trends.per_m().front;
+        trends.expect([1.0; 3]);
+        trends.follow(0.002, &[(1.0e-3, 1.0), (0.0, 1.0), (0.0, 1.0)]);
+        let [turned, ..] = trends.per_m();
         let PerAxle { front, middle, .. } = doubt(&trends).wheels;
         let lag = 0.014 * turned;
         assert!((front.angle_variance - lag * lag - 0.008 * 0.008).abs() < 1.0e-6 * front.angle_variance);

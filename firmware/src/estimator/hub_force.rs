@@ -136,7 +136,7 @@ pub(super) struct HubForceFilter<S> {
     watch: Watch,
     runs: Runs<S, MEASUREMENTS>,
     /// Of the cells' forces. The moments have none that would be worth following.
-    trends: Trends<S>,
+    trends: Trends<S, 3>,
 }
 
 impl<S: Scalar> HubForceFilter<S> {
@@ -265,11 +265,10 @@ impl<S: Scalar> HubForceFilter<S> {
     /// deviation of how far each may drift beside that.
     fn drift(&mut self, before: &HubForceModel<S>, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
         let restless = self.cell_rates.as_ref().map(|rate| restlessness(rate.factor()));
-        self.trends.expect(restless);
+        self.trends.expect(restless.into_array());
         let (now, mean) = (self.model, *self.filter.estimate().mean());
-        let gone_on = self.trends.per_m().map(|trend| travel_m * trend);
-        let [front, middle, rear, bogie, rocker] = before.measure(&mean);
-        let expected = [front + gone_on.front, middle + gone_on.middle, rear + gone_on.rear, bogie, rocker];
+        let mut expected = before.measure(&mean);
+        expected.iter_mut().zip(self.trends.per_m()).for_each(|(force, trend)| *force += travel_m * trend);
         let mean = if held { mean } else { now.state_of(&expected) };
         let straight = |model: &HubForceModel<S>| HubForceModel { difference_n: S::zero(), ..*model };
         let (before, now) = (straight(before), straight(&now));
@@ -283,7 +282,8 @@ impl<S: Scalar> HubForceFilter<S> {
         // With a steady gain well below one, the drift's standard deviation is to that of the noise as that gain is to one.
         let learned = S::constant(LEARNED) / cell_std_n;
         let moved = self.cells_n().zip(*expected).zip(PerAxle { front, middle, rear });
-        self.trends.follow(travel_m, &moved.map(|((now, before), drift)| (now - before, learned * drift)));
+        let moved = moved.map(|((now, before), drift)| (now - before, learned * drift));
+        self.trends.follow(travel_m, &moved.into_array());
     }
 
     /// One standard deviation of how far each cell's force, N, and the moments on bogie and rocker, N·m, drift over some travel.
