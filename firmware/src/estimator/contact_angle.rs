@@ -95,7 +95,7 @@ const IMPOSSIBLE_ANGLE: f64 = 1.2;
 /// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
 /// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
 const FRONT_FROM_FORCES: f64 = 0.3;
-const RUN_OF_FORCES: f64 = 3.0;
+const RUN_OF_FORCES: f64 = 3.2;
 /// What a trend that is known leaves of the drift, as a variance.
 const BESIDE_TREND: f64 = 0.5;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.

@@ -15,7 +15,7 @@ const BOGIE_ANGLE: f64 = 0.9;
 const FRONT_ANGLE: f64 = 0.85;
 /// What is added to that of the front wheel for each unit by which the runs of how the side moves are above chance: it meets what the
 /// others follow it to.
-const FRONT_ANGLE_BY_MOTION: f64 = 0.45;
+const FRONT_ANGLE_BY_MOTION: f64 = 0.5;
 /// The same of the slip, and what runs of the forces add: what a wheel feels anew makes it slip anew.
 const SLIP: f64 = 0.93;
 const SLIP_BY_MOTION: f64 = 0.18;
@@ -23,12 +23,12 @@ const SLIP_BY_FORCES: f64 = 0.3;
 /// Of the forces on the hubs, and of the torques.
 const FORCE: f64 = 0.78;
 const FORCE_BY_FORCES: f64 = 0.38;
-const TORQUE: f64 = 0.82;
+const TORQUE: f64 = 0.8;
 const TORQUE_BY_FORCES: f64 = 0.14;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
 const ANGLE_LAG: f64 = 0.014;
 const LOAD_LAG: f64 = 0.19;
-const TORQUE_LAG: f64 = 0.008;
+const TORQUE_LAG: f64 = 0.005;
 /// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
 /// sink in ways that nothing tells, and a front wheel meets more of them.
 const FRONT_UNTOLD: f64 = 0.008;

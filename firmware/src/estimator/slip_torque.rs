@@ -90,8 +90,11 @@ const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
 const BESIDE_TREND: f64 = 0.6;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
 const LEARNED: f64 = 0.25;
-/// A torque whose rate is learned over so short a way seems to drift where it does not: this much of its rate counts as restless.
+/// These parts of how fast torque and slip wander count as restless. A torque's rate is learned over a short way, and a slip's from a
+/// velocimeter whose noise is the size of what it is to tell: on plane ground, too, they seem to drift by some hundredths of
+/// the nominal rate.
 const TORQUE_AT_REST: f64 = 0.4;
+const SLIP_AT_REST: f64 = 0.15;
 /// The slip that a wheel starts with, and its standard deviation.
 const STARTING_SLIP: [f64; 2] = [0.2, 0.4];
 
@@ -203,7 +206,10 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let model = self.model;
         let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
         let torque_factor = self.torque_rate.factor();
-        let restless = [restlessness(S::constant(TORQUE_AT_REST) * torque_factor), restlessness(slip_factor)];
+        let restless = [
+            restlessness(S::constant(TORQUE_AT_REST) * torque_factor),
+            restlessness(S::constant(SLIP_AT_REST) * slip_factor),
+        ];
         self.trends.expect(restless);
         let trends = self.trends.per_m();
         let process = |state: &[S; STATES]| {
