@@ -90,8 +90,10 @@ const UNKNOWN_ANGLE: f64 = 0.2;
 const LOOSENED: f64 = 0.2;
 /// One standard deviation by which the path of a hub may turn against the terrain in a frame while its wheel digs in, rad.
 const DUG_IN: f64 = 0.02;
-/// A contact angle farther from the pitch of its link is given up, rad.
+/// A contact angle farther from the pitch of its link is given up, rad; and one whose variance is this many times that of one that
+/// is not known at all: over so wide a spread the model bends so much that no measurement would narrow it.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
+const LOST: f64 = 1.5;
 /// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
 /// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
 const FRONT_FROM_FORCES: f64 = 0.3;
@@ -170,12 +172,14 @@ impl<S: Scalar> ContactAngleFilter<S> {
         }
     }
 
-    /// Gives up contact angles that no wheel on the ground has.
+    /// Gives up contact angles that no wheel on the ground has, and those that are lost.
     fn give_up_impossible(&mut self) {
         let [_, front, middle, rear, rocker, bogie, _] = *self.filter.estimate().mean();
-        let places = [(1, front, rocker), (2, middle, bogie), (3, rear, bogie)];
-        for (index, angle, link) in places {
-            if (angle - link).abs() > S::constant(IMPOSSIBLE_ANGLE) {
+        let [_, of_front, of_middle, of_rear, ..] = self.filter.estimate().variances();
+        let lost = S::constant(LOST * UNKNOWN_ANGLE * UNKNOWN_ANGLE);
+        let places = [(1, front, of_front, rocker), (2, middle, of_middle, bogie), (3, rear, of_rear, bogie)];
+        for (index, angle, variance, link) in places {
+            if (angle - link).abs() > S::constant(IMPOSSIBLE_ANGLE) || variance > lost {
                 let _ = self.filter.forget(index, link, S::constant(UNKNOWN_ANGLE));
             }
         }
@@ -215,8 +219,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// A wheel stands or has just started: it digs in, in a way that no load tells, and its hub's path is not the terrain's slope.
     pub fn unsettle(&mut self) {
         self.trends.forget();
-        let (zero, angle) = (S::zero(), S::constant(DUG_IN));
-        let _ = self.filter.random_walk(&[zero, angle, angle, angle, zero, zero, zero]);
+        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
+        // However long it stands, an angle does not become less known than one of which nothing is known.
+        let unknown = S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE);
+        let zero = S::zero();
+        let angle = |variance: S| if variance < unknown { S::constant(DUG_IN) } else { zero };
+        let _ = self.filter.random_walk(&[zero, angle(front), angle(middle), angle(rear), zero, zero, zero]);
     }
 
     /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the ground is.
