@@ -8,8 +8,9 @@
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
+use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness};
 use super::runs::Runs;
-use super::walk_rate::WalkRate;
+use super::trend::{Trends, restlessness};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
@@ -77,6 +78,8 @@ pub(super) struct SideReadings<S> {
     pub rocker_angle_rad: Option<S>,
     /// The bogie against the rocker, rad.
     pub bogie_angle_rad: Option<S>,
+    /// How far the innovations of the side's forces come in runs: mean square over what it is by chance.
+    pub runs_of_forces: S,
 }
 
 /// One standard deviation of a ratio that is not known at all, and of contact angles about the pitch of their link, rad:
@@ -87,25 +90,18 @@ const UNKNOWN_ANGLE: f64 = 0.2;
 const LOOSENED: f64 = 0.2;
 /// One standard deviation by which the path of a hub may turn against the terrain in a frame while its wheel digs in, rad.
 const DUG_IN: f64 = 0.02;
-/// A contact angle farther from the pitch of its link is given up, rad.
+/// A contact angle farther from the pitch of its link is given up, rad; and one whose variance is this many times that of one that
+/// is not known at all: over so wide a spread the model bends so much that no measurement would narrow it.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
-/// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
-const RATIO_DRIFT: f64 = 0.2;
-const ANGLE_DRIFT: f64 = 0.32;
-/// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
-const LINK_DRIFT: f64 = 0.032;
-/// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
-const ANGLE_FROM_WANDERING: f64 = 0.1;
-/// Of the bogie's bend squared, what a metre of travel adds to the variance of a contact angle is one over this, m: with the links
-/// of set K0, ground of curvature c bends the bogie against the rocker by 0.233 m times c, and turns by 0.12 m times c within
-/// the way over which the filter averages on such ground; 0.233²/0.12.
-const BEND_LENGTH: f64 = 0.44;
-/// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
-const BEND_BY_SINKING: f64 = 0.02;
-/// What is added to that for each unit by which runs of innovations are above [`RUN`].
-const ANGLE_FROM_RUNS: f64 = 0.1;
-/// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
-const RUN: f64 = 4.0;
+const LOST: f64 = 1.5;
+/// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
+/// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
+const FRONT_FROM_FORCES: f64 = 0.3;
+const RUN_OF_FORCES: f64 = 3.2;
+/// What a trend that is known leaves of the drift, as a variance.
+const BESIDE_TREND: f64 = 0.5;
+/// The share of an update's way that counts as the trend's, over the gain of the filter.
+const LEARNED: f64 = 0.25;
 /// Runs are looked for from this measurement on: of the velocity up, the rocker and the bogie. What is forward tells nothing of
 /// the angles, and the body's pitch is no ground's doing.
 const FIRST_IN_RUNS: usize = 1;
@@ -120,13 +116,13 @@ const STANDING: f64 = 1.5e-3;
 pub(super) struct ContactAngleFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
     model: ContactAngleModel<S>,
-    ratio_rate: WalkRate<S>,
-    direction_rate: WalkRate<S>,
-    rocker_rate: WalkRate<S>,
-    bogie_rate: WalkRate<S>,
+    roughness: Roughness<S>,
     watch: Watch,
     begun: bool,
     runs: Runs<S, RUNS>,
+    trends: Trends<S, 3>,
+    /// Variance of what an angle drifts by in a step, rad².
+    drift_variance: S,
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
     speed_slopes: PerAxle<[S; STATES]>,
 }
@@ -147,13 +143,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
         Ok(Self {
             filter: SigmaPointFilter::new(level, Self::unknown_std())?,
             model,
-            ratio_rate: WalkRate::new(phase),
-            direction_rate: WalkRate::new(phase + 1),
-            rocker_rate: WalkRate::new(phase + 2),
-            bogie_rate: WalkRate::new(phase + 3),
+            roughness: Roughness::new(phase),
             watch: Watch::default(),
             begun: false,
             runs: Runs::new(),
+            trends: Trends::new(),
+            drift_variance: zero,
             speed_slopes: hub_speed_slopes(rover)
                 .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero, zero]),
         })
@@ -177,12 +172,14 @@ impl<S: Scalar> ContactAngleFilter<S> {
         }
     }
 
-    /// Gives up contact angles that no wheel on the ground has.
+    /// Gives up contact angles that no wheel on the ground has, and those that are lost.
     fn give_up_impossible(&mut self) {
         let [_, front, middle, rear, rocker, bogie, _] = *self.filter.estimate().mean();
-        let places = [(1, front, rocker), (2, middle, bogie), (3, rear, bogie)];
-        for (index, angle, link) in places {
-            if (angle - link).abs() > S::constant(IMPOSSIBLE_ANGLE) {
+        let [_, of_front, of_middle, of_rear, ..] = self.filter.estimate().variances();
+        let lost = S::constant(LOST * UNKNOWN_ANGLE * UNKNOWN_ANGLE);
+        let places = [(1, front, of_front, rocker), (2, middle, of_middle, bogie), (3, rear, of_rear, bogie)];
+        for (index, angle, variance, link) in places {
+            if (angle - link).abs() > S::constant(IMPOSSIBLE_ANGLE) || variance > lost {
                 let _ = self.filter.forget(index, link, S::constant(UNKNOWN_ANGLE));
             }
         }
@@ -203,6 +200,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &self.runs
     }
 
+    /// How its contact angles turn along the way.
+    pub fn trends(&self) -> &Trends<S, 3> {
+        &self.trends
+    }
+
     /// The motion at the mean.
     pub fn motion(&self) -> RollingMotion<S> {
         self.model.motion(self.filter.estimate().mean())
@@ -216,14 +218,19 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     /// A wheel stands or has just started: it digs in, in a way that no load tells, and its hub's path is not the terrain's slope.
     pub fn unsettle(&mut self) {
-        let (zero, angle) = (S::zero(), S::constant(DUG_IN));
-        let _ = self.filter.random_walk(&[zero, angle, angle, angle, zero, zero, zero]);
+        self.trends.forget();
+        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
+        // However long it stands, an angle does not become less known than one of which nothing is known.
+        let unknown = S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE);
+        let zero = S::zero();
+        let angle = |variance: S| if variance < unknown { S::constant(DUG_IN) } else { zero };
+        let _ = self.filter.random_walk(&[zero, angle(front), angle(middle), angle(rear), zero, zero, zero]);
     }
 
     /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the ground is.
     pub fn settle(&mut self) {
-        let rates = [&mut self.ratio_rate, &mut self.direction_rate, &mut self.rocker_rate, &mut self.bogie_rate];
-        rates.into_iter().for_each(WalkRate::restart);
+        self.trends.forget();
+        self.roughness.restart();
     }
 
     /// How often the filter fell back to its floor.
@@ -255,9 +262,14 @@ impl<S: Scalar> ContactAngleFilter<S> {
         if !self.begun {
             self.begin(body_pitch_rad, readings);
         }
-        self.predict(step_s, rate_std);
+        self.predict(step_s, rate_std, readings.runs_of_forces);
+        let before = self.angles();
         self.model.body_pitch = body_pitch_rad.sin_cos();
-        self.learn_rates(step_s, body_pitch_rad, readings, noise);
+        let ContactAngleModel { rim_speed_m_s: speed_m_s, body_pitch, .. } = self.model;
+        if !stands {
+            let motion = Motion { speed_m_s, step_s, body_pitch_rad, body_pitch };
+            self.roughness.learn(&motion, readings, noise);
+        }
         let angle = noise.angle_rad;
         let noise_std =
             [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, angle, angle, attitude.felt_std_rad()];
@@ -275,38 +287,36 @@ impl<S: Scalar> ContactAngleFilter<S> {
             Contradiction::Moved => Some(Self::unknown_std().map(|std| std * S::constant(LOOSENED))),
             Contradiction::Wrong => Some(Self::unknown_std()),
         };
-        if let Some(stds) = loosened {
-            let _ = self.filter.random_walk(&stds);
+        match loosened {
+            Some(stds) => {
+                self.trends.forget();
+                let _ = self.filter.random_walk(&stds);
+            }
+            None => self.follow_trends(step_s, &before),
         }
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
     }
 
+    fn angles(&self) -> PerAxle<S> {
+        let [_, front, middle, rear, ..] = *self.filter.estimate().mean();
+        PerAxle { front, middle, rear }
+    }
+
+    fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>) {
+        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
+        // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
+        let learned = S::constant(LEARNED) * self.drift_variance;
+        let moved = self.angles().zip(*before).zip(PerAxle { front, middle, rear });
+        let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
+        self.trends.follow(self.travel_m(step_s), &moved.into_array());
+    }
+
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
     /// variance.
     pub fn roughness(&self) -> S {
-        self.rocker_rate.factor() + self.bogie_rate.factor()
-    }
-
-    /// How fast the contact angles wander. The links feel the ground a wheelbase long, and thirty times more precisely than
-    /// the velocity does; a wheel feels more of it than its link.
-    fn angle_factor(&self) -> S {
-        let wandering = S::constant(ANGLE_FROM_WANDERING) * (self.direction_rate.factor() + self.roughness());
-        // Where links and velocity wander fast, so do the angles, and more than in proportion: how slowly they wander on plane
-        // ground, no sensor can tell.
-        let steeper = wandering * wandering.sqrt();
-        self.bend()
-            + steeper
-            + S::constant(ANGLE_FROM_RUNS) * (self.runs.over_chance() - S::constant(RUN)).max(S::zero())
-    }
-
-    /// What the ground's bend along the side says of it: a bogie that is bent against its rocker stands on ground that curves. It
-    /// tells at once, and still where a wheel is on top of a rock: there its angle changes most, and the links hardly move.
-    fn bend(&self) -> S {
-        let [.., rocker, bogie, _] = *self.filter.estimate().mean();
-        let bend = ((bogie - rocker).abs() - S::constant(BEND_BY_SINKING)).max(S::zero());
-        bend * bend * S::constant(1.0 / (BEND_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT))
+        self.roughness.of_links()
     }
 
     /// How far the hubs go in a step: wheels that spin on the spot meet no other ground.
@@ -315,52 +325,35 @@ impl<S: Scalar> ContactAngleFilter<S> {
         (ratio * self.model.rim_speed_m_s).abs() * step_s
     }
 
-    fn predict(&mut self, step_s: S, rate_std_rad_s: S) {
+    fn predict(&mut self, step_s: S, rate_std_rad_s: S, runs_of_forces: S) {
         let model = self.model;
+        let travel = self.travel_m(step_s);
+        let [.., rocker, bogie, _] = *self.filter.estimate().mean();
+        let factor = self.roughness.of_angles(bogie - rocker, self.runs.over_chance());
+        self.trends.expect([restlessness(factor); 3]);
+        let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
-            let mut next = *state;
-            next.iter_mut().zip(model.rates(state)).for_each(|(number, rate)| *number += step_s * rate);
-            next
+            let [ratio, front, middle, rear, links_and_body @ ..] = *state;
+            let [.., rocker_rate, bogie_rate, body_rate] = model.rates(state);
+            let [rocker, bogie, body] = links_and_body;
+            [
+                ratio,
+                front + turned.front,
+                middle + turned.middle,
+                rear + turned.rear,
+                rocker + step_s * rocker_rate,
+                bogie + step_s * bogie_rate,
+                body + step_s * body_rate,
+            ]
         };
         let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
-        let root_travel = self.travel_m(step_s).sqrt();
-        let ratio = S::constant(RATIO_DRIFT) * self.ratio_rate.factor().sqrt() * rim_travel.sqrt();
-        let angle = S::constant(ANGLE_DRIFT) * self.angle_factor().sqrt() * root_travel;
-        let pitch = S::constant(PITCH_DRIFT) * root_travel;
-        let _ = self.filter.predict(process, &[ratio, angle, angle, angle, pitch, pitch, step_s * rate_std_rad_s]);
-    }
-
-    /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.
-    fn learn_rates(&mut self, step_s: S, body_pitch_rad: S, readings: &SideReadings<S>, noise: &SensorNoise<S>) {
-        let speed = self.model.rim_speed_m_s;
-        if speed == S::zero() {
-            return;
-        }
-        let travel = speed.abs() * step_s;
-        let nominal = |drift: f64| S::constant(drift * drift) * travel;
-        let pitch = readings.rocker_angle_rad.map(|rocker| body_pitch_rad + rocker);
-        let variance = noise.angle_rad * noise.angle_rad;
-        // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
-        let turned = noise.gyro_rad_s * step_s;
-        let moved = S::constant(2.0) * turned * turned;
-        match pitch {
-            Some(pitch) => self.rocker_rate.see_moved(pitch, variance, nominal(LINK_DRIFT), moved),
-            None => self.rocker_rate.miss(nominal(LINK_DRIFT)),
-        }
-        match (pitch, readings.bogie_angle_rad) {
-            (Some(pitch), Some(bogie)) => {
-                self.bogie_rate.see_moved(pitch + bogie, variance + variance, nominal(LINK_DRIFT), moved);
-            }
-            _ => self.bogie_rate.miss(nominal(LINK_DRIFT)),
-        }
-        if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
-            let velocity = Planar { x, z }.turned(self.model.body_pitch);
-            let std = readings.velocity_std_m_s.z / speed.abs();
-            self.ratio_rate.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
-            self.direction_rate.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
-        } else {
-            self.ratio_rate.miss(nominal(RATIO_DRIFT));
-            self.direction_rate.miss(nominal(ANGLE_DRIFT));
-        }
+        let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
+        let nominal = S::constant(BESIDE_TREND * ANGLE_DRIFT * ANGLE_DRIFT) * travel;
+        self.drift_variance = nominal * factor;
+        let met = S::constant(FRONT_FROM_FORCES) * (runs_of_forces - S::constant(RUN_OF_FORCES)).max(S::zero());
+        let (front, others) = ((self.drift_variance + nominal * met).sqrt(), self.drift_variance.sqrt());
+        let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
+        let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
+        let _ = self.filter.predict(process, &noise);
     }
 }

@@ -8,10 +8,11 @@
 //!
 //! What drifts by itself are the cells' forces and the two moments. The links have no mass to speak of: whatever the ground does,
 //! the moments on them stay what torques and body make them, so that a cell's force that changes takes the forces along the
-//! links with it. The drift of the state is therefore correlated.
+//! links with it, and so does a bogie that turns against its rocker. The drift of the state is therefore correlated.
 
 use super::runs::Runs;
 use super::slip_torque::TORQUE_DRIFT_NM;
+use super::trend::{Trends, restlessness};
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
@@ -110,6 +111,11 @@ const CELL_DRIFT_N: f64 = 21.0;
 /// The same of the moments, N·m: on the rocker that of one wheel's torque (the body's share wanders less), on the bogie that of two.
 const ROCKER_DRIFT_NM: f64 = TORQUE_DRIFT_NM;
 const BOGIE_DRIFT_NM: f64 = core::f64::consts::SQRT_2 * TORQUE_DRIFT_NM;
+/// What of the drift is left beside what goes on by its trend, as a variance, on restless ground: with all of it innovations have
+/// nine tenths of the variance that they are stated to have.
+const BESIDE_TREND: f64 = 0.4;
+/// The share of an update's way that counts as the trend's, over the gain of the filter.
+const LEARNED: f64 = 0.4;
 /// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
 const UNSETTLED_N: f64 = 3.0;
 
@@ -129,6 +135,8 @@ pub(super) struct HubForceFilter<S> {
     bogie_rate: WalkRate<S>,
     watch: Watch,
     runs: Runs<S, MEASUREMENTS>,
+    /// Of the cells' forces. The moments have none that would be worth following.
+    trends: Trends<S, 3>,
 }
 
 impl<S: Scalar> HubForceFilter<S> {
@@ -147,6 +155,7 @@ impl<S: Scalar> HubForceFilter<S> {
             bogie_rate: WalkRate::new(phase + 4),
             watch: Watch::default(),
             runs: Runs::new(),
+            trends: Trends::new(),
         })
     }
 
@@ -188,6 +197,7 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// A wheel stands or has just started: the forces are not what they were a frame ago.
     pub fn unsettle(&mut self) {
+        self.trends.forget();
         self.loosen(S::constant(UNSETTLED_N));
     }
 
@@ -197,32 +207,31 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// The wheels roll as they will.
     pub fn settle(&mut self) {
+        self.trends.forget();
         let rates = self.cell_rates.as_array_mut().into_iter().chain([&mut self.rocker_rate, &mut self.bogie_rate]);
         rates.for_each(WalkRate::restart);
     }
 
-    /// Takes the split that the torques tell.
-    pub fn split(&mut self, difference_n: S) {
-        self.model.difference_n = difference_n;
-    }
-
-    /// Lets the forces drift over so much travel, and takes what was measured with the bogie at an angle to the rocker.
+    /// Lets the forces drift over so much travel, and takes what was measured with the bogie at an angle to the rocker and such a
+    /// difference between its wheels, as the torques tell it, N.
     pub fn tick(
         &mut self,
         travel_m: S,
         bogie_angle_rad: S,
+        difference_n: S,
         readings: &ForceReadings<S>,
     ) -> Innovation<S, MEASUREMENTS> {
+        let before = self.model;
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
+        self.model.difference_n = difference_n;
         let held = readings.bogie_is_held || self.is_impossible(readings);
         if held {
             self.give_up_moments();
         }
         self.learn_rates(travel_m, readings, held);
+        let drifts = self.drift(&before, travel_m, held);
+        let expected = self.cells_n();
         let model = self.model;
-        let changes = HubForceModel { difference_n: S::zero(), ..model };
-        let drifts = self.drifts(travel_m);
-        let _ = self.filter.random_walk_in(|state| changes.measure(state), |told| changes.state_of(told), &drifts);
         let told = self.filter.update(
             |state| model.measure(state),
             &[
@@ -242,6 +251,7 @@ impl<S: Scalar> HubForceFilter<S> {
             Gate::one_in_a_thousand(),
         );
         self.runs.take(&told, 0);
+        self.follow_trends(travel_m, &expected, &drifts, readings.cell_std_n);
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
             Contradiction::Moved => self.unsettle(),
@@ -250,10 +260,39 @@ impl<S: Scalar> HubForceFilter<S> {
         told
     }
 
+    /// Carries the forces to the model of this frame: what lasts as a bogie turns is what the cells feel, which goes on by its trend, and
+    /// the moments, not the forces along the links. Where a stop holds the bogie, its moments are nobody's. Gives one standard
+    /// deviation of how far each may drift beside that.
+    fn drift(&mut self, before: &HubForceModel<S>, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
+        let restless = self.cell_rates.as_ref().map(|rate| restlessness(rate.factor()));
+        self.trends.expect(restless.into_array());
+        let (now, mean) = (self.model, *self.filter.estimate().mean());
+        let mut expected = before.measure(&mean);
+        expected.iter_mut().zip(self.trends.per_m()).for_each(|(force, trend)| *force += travel_m * trend);
+        let mean = if held { mean } else { now.state_of(&expected) };
+        let straight = |model: &HubForceModel<S>| HubForceModel { difference_n: S::zero(), ..*model };
+        let (before, now) = (straight(before), straight(&now));
+        let drifts = self.drifts(travel_m);
+        let _ = self.filter.random_walk_in(|state| before.measure(state), |told| now.state_of(told), mean, &drifts);
+        drifts
+    }
+
+    fn follow_trends(&mut self, travel_m: S, expected: &PerAxle<S>, drifts: &[S; MEASUREMENTS], cell_std_n: S) {
+        let [front, middle, rear, ..] = *drifts;
+        // With a steady gain well below one, the drift's standard deviation is to that of the noise as that gain is to one.
+        let learned = S::constant(LEARNED) / cell_std_n;
+        let moved = self.cells_n().zip(*expected).zip(PerAxle { front, middle, rear });
+        let moved = moved.map(|((now, before), drift)| (now - before, learned * drift));
+        self.trends.follow(travel_m, &moved.into_array());
+    }
+
     /// One standard deviation of how far each cell's force, N, and the moments on bogie and rocker, N·m, drift over some travel.
     fn drifts(&self, travel_m: S) -> [S; MEASUREMENTS] {
-        let root_travel = travel_m.sqrt();
-        let drift = |nominal: f64, rate: &WalkRate<S>| S::constant(nominal) * root_travel * rate.factor().sqrt();
+        let drift = |nominal: f64, rate: &WalkRate<S>| {
+            let factor = rate.factor();
+            let beside = S::one() - S::constant(1.0 - BESIDE_TREND) * restlessness(factor);
+            S::constant(nominal) * (travel_m * factor * beside).sqrt()
+        };
         let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, rate));
         let of_bogie = drift(BOGIE_DRIFT_NM, &self.bogie_rate);
         let of_rocker = drift(ROCKER_DRIFT_NM, &self.rocker_rate);

@@ -17,10 +17,12 @@
 
 mod attitude;
 pub mod contact_angle;
+mod doubt;
 pub mod drawbar_split;
 mod estimate;
 mod health;
 pub mod hub_force;
+mod roughness;
 mod rover_estimator;
 mod runs;
 mod scalar_filter;
@@ -31,6 +33,7 @@ mod side_estimator;
 mod sinking;
 pub mod slip_torque;
 mod surprise;
+mod trend;
 mod walk_rate;
 mod watch;
 mod whole_balance;

@@ -18,6 +18,8 @@ use crate::sensor_frame::SensorFrame;
 const GAP_US: u64 = 5_000_000;
 /// So many frames in a row from the past mean that the clock was set back.
 const CLOCK_SET_BACK: u8 = 8;
+/// What the costly work of each side begins with, so that it is spread over frames.
+const PHASES: PerSide<usize> = PerSide { left: 0, right: 3 };
 
 /// The estimators of a rover.
 #[derive(Debug, Clone)]
@@ -52,7 +54,10 @@ impl<S: Scalar> RoverEstimator<S> {
             rover: *rover,
             gates: SensorGates::new(&rover.map(Scalar::to_f32)),
             attitude: Attitude::new(rover.gravity_m_s2),
-            sides: Self::sides(rover)?,
+            sides: PerSide {
+                left: SideEstimator::new(rover, Side::Left, PHASES.left)?,
+                right: SideEstimator::new(rover, Side::Right, PHASES.right)?,
+            },
             health: EstimatorHealth::default(),
             troubles_before: (0, 0),
             last_time_us: None,
@@ -60,11 +65,26 @@ impl<S: Scalar> RoverEstimator<S> {
         })
     }
 
-    fn sides(rover: &Rover<S>) -> Result<PerSide<SideEstimator<S>>, InvalidNumber> {
-        Ok(PerSide {
-            left: SideEstimator::new(rover, Side::Left, 0)?,
-            right: SideEstimator::new(rover, Side::Right, 3)?,
-        })
+    /// Starts anew, for another rover, where this one is: two estimators do not fit on the stack.
+    ///
+    /// # Errors
+    /// Where a number of the rover is not finite. Then nothing has changed.
+    pub fn restart(&mut self, rover: &Rover<S>) -> Result<(), InvalidNumber> {
+        self.start_sides(rover)?;
+        self.rover = *rover;
+        self.gates = SensorGates::new(&rover.map(Scalar::to_f32));
+        self.attitude = Attitude::new(rover.gravity_m_s2);
+        self.health = EstimatorHealth::default();
+        self.troubles_before = (0, 0);
+        self.last_time_us = None;
+        self.from_the_past = 0;
+        Ok(())
+    }
+
+    fn start_sides(&mut self, rover: &Rover<S>) -> Result<(), InvalidNumber> {
+        start_side(&mut self.sides.left, rover, Side::Left)?;
+        // The same numbers.
+        start_side(&mut self.sides.right, rover, Side::Right)
     }
 
     /// Takes a frame.
@@ -159,9 +179,8 @@ impl<S: Scalar> RoverEstimator<S> {
         self.health.gaps = self.health.gaps.saturating_add(1);
         self.attitude = Attitude::new(self.rover.gravity_m_s2);
         // The same rover made the filters that are there.
-        if let Ok(sides) = Self::sides(&self.rover) {
-            self.sides = sides;
-        }
+        let rover = self.rover;
+        let _ = self.start_sides(&rover);
         self.troubles_before = (0, 0);
     }
 
@@ -174,6 +193,12 @@ impl<S: Scalar> RoverEstimator<S> {
         health.filter_resets = health.filter_resets.saturating_add(now.0.saturating_sub(before.0));
         health.relearned = health.relearned.saturating_add(now.1.saturating_sub(before.1));
     }
+}
+
+/// Never inlined: a side that is being made takes kilobytes, which the stack frame of a caller would keep.
+#[inline(never)]
+fn start_side<S: Scalar>(place: &mut SideEstimator<S>, rover: &Rover<S>, side: Side) -> Result<(), InvalidNumber> {
+    SideEstimator::new(rover, side, *PHASES.of(side)).map(|anew| *place = anew)
 }
 
 fn side_frame<S: Scalar>(readings: &PerSensor<Option<S>>, side: Side) -> SideFrame<S> {

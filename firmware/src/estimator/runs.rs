@@ -35,10 +35,9 @@ impl<S: Scalar, const N: usize> Runs<S, N> {
         }
     }
 
-    /// How many times its stated variance an error has: `base` where innovations are white, and so much more for each unit by
-    /// which their runs are above what is by chance.
-    pub fn doubt(&self, [base, above_chance]: [f64; 2]) -> S {
-        S::constant(base) + S::constant(above_chance) * (self.over_chance() - S::one()).max(S::zero())
+    /// By how much [`Self::over_chance`] is above one; zero below.
+    pub fn above_chance(&self) -> S {
+        (self.over_chance() - S::one()).max(S::zero())
     }
 
     /// Mean of the squared means over what they are by chance: one, give or take, where innovations are white.

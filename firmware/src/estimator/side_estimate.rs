@@ -1,6 +1,7 @@
 //! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
 
 use super::contact_angle;
+use super::doubt::{Doubt, WheelDoubt};
 use super::drawbar_split::{DrawbarSplit, along_contact};
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
@@ -20,22 +21,11 @@ pub struct WheelCovariance<S> {
     pub contact: [[S; 3]; 3],
 }
 
-/// How many times what the filters state the variance of an error is: where innovations are white, and for each unit by which their
-/// runs are above chance, as measured on drives of development. Rates of drift are chosen by innovations; of what moves steadily
-/// rather than at random, with gain k and noise R, that choice leaves k R/4 of lag and k R/2 of noise, and the filter states k R: so
-/// the three quarters. Where the ground changes faster than the rates, innovations come in runs, and the errors are larger.
-const ANGLE_DOUBT: [f64; 2] = [0.75, 0.5];
-const SLIP_DOUBT: [f64; 2] = [0.95, 0.4];
-const FORCE_DOUBT: [f64; 2] = [0.7, 0.2];
-const TORQUE_DOUBT: [f64; 2] = [0.75, 0.15];
-
-/// These factors in a frame: slip and angles go with the runs of how the side moves, torques and forces with those of its forces.
-struct Doubt<S> {
-    angle: S,
-    slip: S,
-    force: S,
-    torque: S,
-}
+/// What of the lag of a contact angle the pull feels: the force along the link lags too, the other way.
+const LAG_IN_FORCES: f64 = 0.7;
+/// What of the stated standard deviation of a force along a link is true. That force comes from moments, of which the drives' noise
+/// is the greater part; it is white, and the filter takes some of it for drift.
+const ALONG_LINK: f64 = 0.85;
 
 /// What is known of the forces on a side's hubs.
 type HubForces<S> = Gaussian<S, { hub_force::STATES }>;
@@ -51,6 +41,8 @@ struct ContactForces<S> {
     by_forces: [[S; hub_force::STATES]; 3],
     /// The same by the split between the wheels of a bogie: one standard deviation, N.
     by_split: [S; 3],
+    /// The same by what the contact angle lags behind.
+    by_lag: [S; 3],
 }
 
 impl<S: Scalar> SideEstimator<S> {
@@ -70,11 +62,12 @@ impl<S: Scalar> SideEstimator<S> {
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
         let bogie_drawbar_pull_n = self.sum_of_pulls(forces, &doubt, &middle, &rear);
         let contacts = PerAxle { front, middle, rear };
-        let wheels = contacts.zip(by_load).zip(self.wheels.as_ref().zip(self.activity)).zip(self.lifted()).map(
-            |(((contact, by_load), (filter, activity)), lifted)| {
+        let filters = self.wheels.as_ref().zip(self.activity);
+        let wheels = contacts.zip(by_load).zip(filters.zip(doubt.wheels)).zip(self.lifted()).map(
+            |(((contact, by_load), ((filter, activity), of_wheel)), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
-                    ..self.wheel(forces, &doubt, &contact, filter, activity)
+                    ..self.wheel(forces, (&doubt, &of_wheel), &contact, filter, activity)
                 };
                 if lifted { in_the_air(&wheel) } else { wheel }
             },
@@ -86,29 +79,34 @@ impl<S: Scalar> SideEstimator<S> {
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
         let entry =
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
-        let Doubt { torque, slip, .. } = self.doubt();
+        let doubt = self.doubt();
+        let Doubt { torque, slip, .. } = doubt;
         let both = (torque * slip).sqrt();
-        self.contacts(forces).zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
-            torque_slip: [
-                [torque * entry(filter, 1, 1), both * entry(filter, 1, 2)],
-                [both * entry(filter, 2, 1), slip * entry(filter, 2, 2)],
-            ],
-            contact: self.covariance(forces, &contact),
+        self.contacts(forces).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
+            WheelCovariance {
+                torque_slip: [
+                    [torque * entry(filter, 1, 1) + of_wheel.torque_variance, both * entry(filter, 1, 2)],
+                    [both * entry(filter, 2, 1), slip * entry(filter, 2, 2)],
+                ],
+                contact: self.covariance(forces, (&doubt, &of_wheel), &contact),
+            }
         })
     }
 
     fn wheel(
         &self,
         forces: &HubForces<S>,
-        doubt: &Doubt<S>,
+        doubt: (&Doubt<S>, &WheelDoubt<S>),
         contact: &ContactForces<S>,
         filter: &SlipTorqueFilter<S>,
         activity: WheelActivity,
     ) -> WheelEstimate {
         let [angle_std, load_std, pull_std] = self.variances(forces, doubt, contact).map(S::sqrt);
+        let (doubt, of_wheel) = doubt;
         let [_, torque, slip] = *filter.estimate().mean();
         let [_, torque_variance, slip_variance] = filter.estimate().variances();
-        let (torque_std, slip_std) = ((doubt.torque * torque_variance).sqrt(), (doubt.slip * slip_variance).sqrt());
+        let torque_std = (doubt.torque * torque_variance + of_wheel.torque_variance).sqrt();
+        let slip_std = (doubt.slip * slip_variance).sqrt();
         let normal_load_n = published(contact.load_n, load_std);
         let [_, _, split_std] = contact.by_split;
         WheelEstimate {
@@ -139,36 +137,45 @@ impl<S: Scalar> SideEstimator<S> {
     }
 
     fn doubt(&self) -> Doubt<S> {
-        let (motion, forces) = (self.angles.runs(), self.forces.runs());
-        Doubt {
-            angle: motion.doubt(ANGLE_DOUBT),
-            slip: motion.doubt(SLIP_DOUBT),
-            force: forces.doubt(FORCE_DOUBT),
-            torque: forces.doubt(TORQUE_DOUBT),
-        }
+        Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends())
     }
 
-    fn variances(&self, forces: &HubForces<S>, doubt: &Doubt<S>, contact: &ContactForces<S>) -> [S; 3] {
-        let mut variances = contact.by_split.map(|split| split * split);
-        let rows = contact.by_angles.iter().zip(&contact.by_forces);
-        for (variance, (by_angles, by_forces)) in variances.iter_mut().zip(rows) {
-            *variance += doubt.angle * self.angles.estimate().weighted_sum(by_angles).1
-                + doubt.force * forces.weighted_sum(by_forces).1;
+    fn variances(
+        &self,
+        forces: &HubForces<S>,
+        (doubt, of_wheel): (&Doubt<S>, &WheelDoubt<S>),
+        contact: &ContactForces<S>,
+    ) -> [S; 3] {
+        let mut variances = [S::zero(), of_wheel.load_variance, S::zero()];
+        let rows = contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split.iter().zip(&contact.by_lag));
+        for (variance, ((by_angles, by_forces), (split, lag))) in variances.iter_mut().zip(rows) {
+            *variance += of_wheel.angle * self.angles.estimate().weighted_sum(by_angles).1
+                + doubt.force * forces.weighted_sum(by_forces).1
+                + *split * *split
+                + of_wheel.angle_variance * *lag * *lag;
         }
         variances
     }
 
-    fn covariance(&self, estimate: &HubForces<S>, contact: &ContactForces<S>) -> [[S; 3]; 3] {
-        let rows = || contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split);
-        let Doubt { angle, force, .. } = self.doubt();
+    fn covariance(
+        &self,
+        estimate: &HubForces<S>,
+        (doubt, of_wheel): (&Doubt<S>, &WheelDoubt<S>),
+        contact: &ContactForces<S>,
+    ) -> [[S; 3]; 3] {
+        let rows =
+            || contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split.iter().zip(&contact.by_lag));
         let mut covariance = [[S::zero(); 3]; 3];
-        for (line, ((angles, forces), split)) in covariance.iter_mut().zip(rows()) {
-            for (place, ((other_angles, other_forces), other_split)) in line.iter_mut().zip(rows()) {
-                *place = angle * self.angles.estimate().covariance_of_sums(angles, other_angles)
-                    + force * estimate.covariance_of_sums(forces, other_forces)
-                    + split * other_split;
+        for (line, ((angles, forces), (split, lag))) in covariance.iter_mut().zip(rows()) {
+            for (place, ((other_angles, other_forces), (other_split, other_lag))) in line.iter_mut().zip(rows()) {
+                *place = of_wheel.angle * self.angles.estimate().covariance_of_sums(angles, other_angles)
+                    + doubt.force * estimate.covariance_of_sums(forces, other_forces)
+                    + *split * *other_split
+                    + of_wheel.angle_variance * *lag * *other_lag;
             }
         }
+        let [_, [_, of_load, _], _] = &mut covariance;
+        *of_load += of_wheel.load_variance;
         covariance
     }
 
@@ -186,7 +193,9 @@ impl<S: Scalar> SideEstimator<S> {
         let by_angles = self.angles.estimate().weighted_sum(&sums(middle_angles, rear_angles)).1;
         let by_forces = forces.weighted_sum(&sums(middle_forces, rear_forces)).1;
         let split = middle_split + rear_split;
-        let variance = doubt.angle * by_angles + doubt.force * by_forces + split * split;
+        let lag = |doubt: &WheelDoubt<S>, [.., pull]: [S; 3]| doubt.angle_variance * pull * pull;
+        let lags = lag(&doubt.wheels.middle, middle.by_lag) + lag(&doubt.wheels.rear, rear.by_lag);
+        let variance = doubt.wheels.middle.angle * by_angles + doubt.force * by_forces + split * split + lags;
         published(middle.pull_n + rear.pull_n, variance.sqrt())
     }
 }
@@ -209,16 +218,18 @@ fn contact_forces<S: Scalar>(axle: Axle, contact: S, pitch: S, force: Planar<S>,
     let (zero, one, half) = (S::zero(), S::one(), S::constant(0.5));
     let (sine, cosine) = (contact - pitch).sin_cos();
     let (load_n, pull_n) = along_contact(force, (sine, cosine));
+    let felt = S::constant(LAG_IN_FORCES);
     // A contact that is steeper by dγ sees W + DP dγ·(−1) as load and DP + W dγ as pull.
     let (angle, against_link) = match axle {
         Axle::Front => ([zero, one, zero, zero, zero, zero, zero], [zero, one, zero, zero, -one, zero, zero]),
         Axle::Middle => ([zero, zero, one, zero, zero, zero, zero], [zero, zero, one, zero, zero, -one, zero]),
         Axle::Rear => ([zero, zero, zero, one, zero, zero, zero], [zero, zero, zero, one, zero, -one, zero]),
     };
+    let known = S::constant(ALONG_LINK);
     let by_hub = |across: S, along: S| match axle {
-        Axle::Front => [across, zero, zero, along, zero],
-        Axle::Middle => [zero, across, zero, zero, half * along],
-        Axle::Rear => [zero, zero, across, zero, half * along],
+        Axle::Front => [across, zero, zero, known * along, zero],
+        Axle::Middle => [zero, across, zero, zero, known * half * along],
+        Axle::Rear => [zero, zero, across, zero, known * half * along],
     };
     ContactForces {
         contact_angle_rad: contact,
@@ -227,6 +238,7 @@ fn contact_forces<S: Scalar>(axle: Axle, contact: S, pitch: S, force: Planar<S>,
         by_angles: [angle, against_link.map(|entry| -pull_n * entry), against_link.map(|entry| load_n * entry)],
         by_forces: [by_hub(zero, zero), by_hub(cosine, -sine), by_hub(sine, cosine)],
         by_split: [zero, -sine * split, cosine * split],
+        by_lag: [one, -felt * pull_n, felt * load_n],
     }
 }
 

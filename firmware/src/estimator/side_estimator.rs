@@ -173,6 +173,7 @@ impl<S: Scalar> SideEstimator<S> {
             velocity_std_m_s: Planar { x: joint(yaw_std), z: joint(roll_std) },
             rocker_angle_rad: frame.rocker_angle_rad,
             bogie_angle_rad: frame.bogie_angle_rad,
+            runs_of_forces: self.forces.runs().over_chance(),
         }
     }
 
@@ -307,9 +308,9 @@ impl<S: Scalar> SideEstimator<S> {
             ),
         };
         let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
-        self.forces.split(self.split_along_bogie_n(bogie_pitch));
+        let split = self.split_along_bogie_n(bogie_pitch);
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
-        self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, &readings);
+        self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, split, &readings);
         surprises.of_cells(&self.told.forces);
     }
 

@@ -3,6 +3,7 @@
 //! State: absolute rate ω, resistive torque T, slip s. J ω̇ = τ − T; T and s drift with travel. Measured are the encoder,
 //! with the rate of its link added, and the speed of the hub along its contact.
 
+use super::trend::{Trends, restlessness};
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
@@ -85,6 +86,15 @@ const UNSETTLED_TORQUE_NM: f64 = 1.0;
 /// What is added to what is not known of a state that has moved, as standard deviations: where the rims change speed, torque
 /// and slip follow within a second.
 const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
+/// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
+const BESIDE_TREND: f64 = 0.6;
+/// The share of an update's way that counts as the trend's, over the gain of the filter.
+const LEARNED: f64 = 0.25;
+/// These parts of how fast torque and slip wander count as restless. A torque's rate is learned over a short way, and a slip's from a
+/// velocimeter whose noise is the size of what it is to tell: on plane ground, too, they seem to drift by some hundredths of
+/// the nominal rate.
+const TORQUE_AT_REST: f64 = 0.4;
+const SLIP_AT_REST: f64 = 0.15;
 /// The slip that a wheel starts with, and its standard deviation.
 const STARTING_SLIP: [f64; 2] = [0.2, 0.4];
 
@@ -97,6 +107,10 @@ pub(super) struct SlipTorqueFilter<S> {
     slip_rate: WalkRate<S>,
     shared_slip_variance: S,
     watch: Watch,
+    /// Of torque and slip.
+    trends: Trends<S, 2>,
+    /// Variances of what these drift by in a step.
+    drift_variances: [S; 2],
 }
 
 impl<S: Scalar> SlipTorqueFilter<S> {
@@ -115,6 +129,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             slip_rate: WalkRate::new(phase + 2),
             shared_slip_variance: S::zero(),
             watch: Watch::default(),
+            trends: Trends::new(),
+            drift_variances: [S::zero(); 2],
         })
     }
 
@@ -144,11 +160,13 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     }
 
     fn loosen(&mut self, stds: &[f64; STATES]) {
+        self.trends.forget();
         let _ = self.filter.random_walk(&stds.map(S::constant));
     }
 
     /// The wheel rolls as it will: what it was like before is of no account for how fast it wanders.
     pub fn settle(&mut self) {
+        self.trends.forget();
         self.torque_rate.restart();
         self.slip_rate.restart();
     }
@@ -157,6 +175,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     pub fn start(&mut self) {
         let [mean, std] = STARTING_SLIP.map(S::constant);
         let _ = self.filter.forget(2, mean, std);
+        self.trends.forget();
         self.shared_slip_variance = S::zero();
     }
 
@@ -164,6 +183,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     pub fn tick(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
         self.learn_rates(travel_m, readings);
         self.predict(step_s, travel_m, readings);
+        let [_, torque, slip] = *self.filter.estimate().mean();
         let model = self.model;
         let told = self.filter.update(
             |state| model.measure(state),
@@ -172,6 +192,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             Gate::one_in_a_thousand(),
         );
         self.share_camera_error(readings);
+        self.follow_trends(travel_m, [torque, slip]);
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
             Contradiction::Moved => self.loosen(&LOOSENED),
@@ -183,23 +204,44 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     fn predict(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) {
         self.model.motor_torque_nm = readings.motor_torque_nm;
         let model = self.model;
+        let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
+        let torque_factor = self.torque_rate.factor();
+        let restless = [
+            restlessness(S::constant(TORQUE_AT_REST) * torque_factor),
+            restlessness(S::constant(SLIP_AT_REST) * slip_factor),
+        ];
+        self.trends.expect(restless);
+        let trends = self.trends.per_m();
         let process = |state: &[S; STATES]| {
             let mut next = *state;
             next.iter_mut().zip(model.rates(state)).for_each(|(number, rate)| *number += step_s * rate);
+            next.iter_mut().skip(1).zip(trends).for_each(|(number, trend)| *number += travel_m * trend);
             next
         };
-        let root_travel = travel_m.sqrt();
         let torque_std = match readings.motor_torque_nm {
             Some(_) => readings.motor_torque_std_nm,
             None => S::constant(UNSEEN_TORQUE_NM),
         };
-        let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
-        let noise = [
-            step_s * torque_std * self.model.inverse_inertia,
-            S::constant(TORQUE_DRIFT_NM) * self.torque_rate.factor().sqrt() * root_travel,
-            S::constant(SLIP_DRIFT) * slip_factor.sqrt() * root_travel,
-        ];
+        let drift = |nominal: f64, factor: S, restless: S| {
+            let beside = S::one() - S::constant(1.0 - BESIDE_TREND) * restless;
+            S::constant(nominal * nominal) * travel_m * factor * beside
+        };
+        let [restless_torque, restless_slip] = restless;
+        self.drift_variances =
+            [drift(TORQUE_DRIFT_NM, torque_factor, restless_torque), drift(SLIP_DRIFT, slip_factor, restless_slip)];
+        let [torque, slip] = self.drift_variances.map(S::sqrt);
+        let noise = [step_s * torque_std * self.model.inverse_inertia, torque, slip];
         let _ = self.filter.predict(process, &noise);
+    }
+
+    fn follow_trends(&mut self, travel_m: S, before: [S; 2]) {
+        let [_, torque, slip] = *self.filter.estimate().mean();
+        let [_, torque_variance, slip_variance] = self.filter.estimate().variances();
+        let [of_torque, of_slip] = self.drift_variances.map(|variance| S::constant(LEARNED) * variance);
+        let [torque_before, slip_before] = before;
+        let moved =
+            [(torque - torque_before, of_torque / torque_variance), (slip - slip_before, of_slip / slip_variance)];
+        self.trends.follow(travel_m, &moved);
     }
 
     /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds.

@@ -48,13 +48,14 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     }
 
     /// As [`Self::random_walk`], with noise that is independent in other coordinates: `to` brings a deviation of the state to these, and
-    /// `back` undoes it. Both are linear.
+    /// `back` brings one from them to the state as it is a step later, whose mean is `mean`. Both are linear.
     ///
     /// Cost: as [`Self::random_walk`], and N evaluations of each.
     pub fn random_walk_in(
         &mut self,
         to: impl Fn(&[T; N]) -> [T; N],
         back: impl Fn(&[T; N]) -> [T; N],
+        mean: [T; N],
         noise_std: &[T; N],
     ) -> Prediction {
         self.estimate.root.iter_mut().for_each(|column| *column = to(column));
@@ -63,7 +64,7 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
             return told;
         }
         self.estimate.root.iter_mut().for_each(|column| *column = back(column));
-        self.finish(self.estimate.mean)
+        self.finish(mean)
     }
 
     /// Adds noise that several states share: its covariance is G Gᵀ, with G given by its columns.
@@ -127,8 +128,9 @@ mod tests {
         let start = Gaussian::independent([1.0_f64, 2.0], [0.5, 0.7]).expect("numbers");
         let filter = SigmaPointFilter::new(start, [1.0, 1.0]).expect("numbers");
         let (mut found, mut expected) = (filter, filter);
-        let told = found.random_walk_in(|[a, b]| [*a, 2.0 * a + b], |[a, b]| [*a, b - 2.0 * a], &[0.3, 0.4]);
-        assert_eq!(told, Prediction::Done);
+        let (to, back) = (|[a, b]: &[f64; 2]| [*a, 2.0 * a + b], |[a, b]: &[f64; 2]| [*a, b - 2.0 * a]);
+        let told = found.random_walk_in(to, back, [3.0, 4.0], &[0.3, 0.4]);
+        assert_eq!((told, found.estimate().mean()), (Prediction::Done, &[3.0, 4.0]));
         assert_eq!(expected.add_correlated_noise(&[[0.3, -0.6], [0.0, 0.4]]), Prediction::Done);
         for (one, other) in [(0, 0), (0, 1), (1, 1)] {
             let covariance = |filter: &SigmaPointFilter<f64, 2>| filter.estimate().covariance(one, other);

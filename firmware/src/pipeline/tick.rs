@@ -24,15 +24,19 @@ impl Pipeline {
         rover.check()?;
         // A rover that passes has no number that a filter refuses.
         let estimator = RoverEstimator::new(rover).map_err(|_| GeometryError::Coordinate)?;
-        let wheel_soils = PerSide::both(PerAxle::all(Err(Refusal::NotRolling)));
-        let last = FrameEstimate {
-            time_us: 0,
-            wheels: PerWheel::default(),
-            bogie_drawbar_pull_n: PerSide::default(),
-            wheel_soils,
-            soil: Err(Refusal::NotRolling),
-        };
-        Ok(Self { estimator, soil: SoilOverTime::new(rover), last })
+        Ok(Self { estimator, soil: SoilOverTime::new(rover), last: nothing_yet() })
+    }
+
+    /// Starts anew, for another rover, where this pipeline is: two do not fit on the stack.
+    ///
+    /// # Errors
+    /// Where there can be no such rover. Then nothing has changed.
+    pub fn restart(&mut self, rover: &Rover<f32>) -> Result<(), GeometryError> {
+        rover.check()?;
+        self.estimator.restart(rover).map_err(|_| GeometryError::Coordinate)?;
+        self.soil = SoilOverTime::new(rover);
+        self.last = nothing_yet();
+        Ok(())
     }
 
     /// Takes a frame. Every number that comes out is finite, whatever comes in. A frame that repeats the time of the one
@@ -62,5 +66,60 @@ impl Pipeline {
     /// How sensors and filters do.
     pub fn health(&self) -> &EstimatorHealth {
         self.estimator.health()
+    }
+}
+
+fn nothing_yet() -> FrameEstimate {
+    FrameEstimate {
+        time_us: 0,
+        wheels: PerWheel::default(),
+        bogie_drawbar_pull_n: PerSide::default(),
+        wheel_soils: PerSide::both(PerAxle::all(Err(Refusal::NotRolling))),
+        soil: Err(Refusal::NotRolling),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Pipeline;
+    use crate::rover::{GeometryError, PerAxle, PerSide, Rover};
+    use crate::sensor_frame::{SensorFrame, WheelSensors};
+
+    fn frame(index: u16) -> SensorFrame {
+        let wobble = f32::from(index % 7) - 3.0;
+        let wheel = WheelSensors {
+            rate_rad_s: Some(0.3 + 0.002 * wobble),
+            motor_torque_nm: Some(1.4 + 0.02 * wobble),
+            load_cell_n: Some(67.0 + 0.3 * wobble),
+        };
+        let angle = Some(0.001 * wobble);
+        SensorFrame {
+            time_us: 100_000 * u64::from(index),
+            wheels: PerSide::both(PerAxle::all(wheel)),
+            bogie_angle_rad: PerSide::both(angle),
+            rocker_angle_rad: angle,
+            ..SensorFrame::default()
+        }
+    }
+
+    /// A pipeline that starts anew for a rover must be, to the bit, one that was made for it; and one that is asked for a rover that
+    /// cannot be stays as it is.
+    #[test]
+    fn a_pipeline_that_starts_anew_is_a_new_one() {
+        let small = Rover { mass_kg: 30.0, ..Rover::<f32>::assumed() };
+        let mut made = Pipeline::new(&small).expect("a rover");
+        let mut restarted = Pipeline::new(&Rover::assumed()).expect("a rover");
+        (0..60).for_each(|index| {
+            restarted.tick(&frame(index));
+        });
+        let before = *restarted.last();
+        let none = Rover { mass_kg: f32::NAN, ..small };
+        assert!(matches!(restarted.restart(&none), Err::<(), GeometryError>(_)));
+        assert_eq!(*restarted.last(), before);
+        restarted.restart(&small).expect("a rover");
+        for index in 0..60 {
+            assert_eq!(restarted.tick(&frame(index)), made.tick(&frame(index)), "{index}");
+        }
+        assert_eq!(restarted.health(), made.health());
     }
 }

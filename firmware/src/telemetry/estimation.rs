@@ -25,6 +25,16 @@ impl Estimation {
         Ok(Self { pipeline: Pipeline::new(rover)?, source, watch: Watch::default(), last_sequence: None })
     }
 
+    /// Starts anew, for another rover, where this pipeline is.
+    ///
+    /// # Errors
+    /// Where there can be no such rover. Then nothing has changed.
+    pub fn restart(&mut self, rover: &Rover<f32>, source: RoverSource) -> Result<(), GeometryError> {
+        self.pipeline.restart(rover)?;
+        (self.source, self.watch, self.last_sequence) = (source, Watch::default(), None);
+        Ok(())
+    }
+
     /// Where the rover's dimensions are from.
     pub fn source(&self) -> RoverSource {
         self.source

@@ -92,7 +92,9 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
         self.link.port()
     }
 
-    /// Answers the next frame, if one has arrived. Never waits for one.
+    /// Answers the next frame, if one has arrived. Never waits for one. Never inlined: what is asked and answered takes kilobytes,
+    /// and whoever calls this has called [`Self::start`], for which they would be kept free in vain.
+    #[inline(never)]
     pub fn serve(&mut self) -> Option<Event> {
         let Incoming { sequence, request } = self.link.receive()?;
         let (reply, event) = match request {
@@ -128,10 +130,17 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
         }
     }
 
-    /// Starts the estimates anew. Never inlined: a pipeline that is being made takes kilobytes, which the stack frame of a
-    /// caller would keep.
-    #[inline(never)]
+    /// Starts the estimates anew.
     fn estimate_for(&mut self, rover: &Rover<f32>, source: RoverSource) -> Result<(), GeometryError> {
+        match &mut self.estimation {
+            Some(estimation) => estimation.restart(rover, source),
+            None => self.make_estimation(rover, source),
+        }
+    }
+
+    /// Never inlined: a pipeline that is being made takes kilobytes, which the stack frame of a caller would keep.
+    #[inline(never)]
+    fn make_estimation(&mut self, rover: &Rover<f32>, source: RoverSource) -> Result<(), GeometryError> {
         self.estimation = Some(Estimation::new(rover, source)?);
         Ok(())
     }
@@ -146,7 +155,7 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
         (Reply::Frame(estimate), event)
     }
 
-    /// Never inlined, as [`Self::estimate_for`].
+    /// Never inlined, as [`Self::make_estimation`].
     #[inline(never)]
     fn tick(&mut self, sequence: u16, frame: &SensorFrame) -> Event {
         let taken = match &mut self.estimation {

@@ -43,10 +43,10 @@ pub fn run(arguments: &EstimatorArguments) {
 fn print(trial: &Trial) {
     println!("\n{:?}, {} drives", trial.scenario, trial.drives.len());
     trial.failures.iter().for_each(|failure| println!("  no drive: {failure}"));
-    println!("  {:16} {:>9} {:>9} {:>6} {:>9}   within 1 σ, 2 σ", "", "RMSE", "raw", "ratio", "bias");
+    println!("  {:16} {:>9} {:>9} {:>13} {:>9}   within 1 σ, 2 σ", "", "RMSE", "raw", "ratio", "bias");
     let errors = trial.errors();
     for quantity in Quantity::ALL {
-        print_tally(quantity, errors.of(quantity));
+        print_tally(quantity, errors.of(quantity), trial.over_naive(quantity));
     }
     print_pulls(trial);
     let names = ["NEES filter 1", "NEES filter 2", "NIS filter 1", "NIS angles", "NIS forces"];
@@ -82,7 +82,8 @@ fn print_pulls(trial: &Trial) {
     }
 }
 
-fn print_tally(quantity: Quantity, tally: &Tally) {
+/// The ratio comes with its standard error over drives.
+fn print_tally(quantity: Quantity, tally: &Tally, (ratio, error): (f64, f64)) {
     let (name, unit) = match quantity {
         Quantity::Slip => ("slip", 1.0),
         Quantity::Torque => ("torque, N·m", 1.0),
@@ -94,8 +95,11 @@ fn print_tally(quantity: Quantity, tally: &Tally) {
         Quantity::LoadSplitPull => ("split by load", 1.0),
     };
     let [one, two] = tally.coverage();
-    let ratio = tally.over_naive();
     let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
     let bias = unit * tally.bias();
-    println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.2} {bias:9.4}   {:5.1} {:5.1}", 100.0 * one, 100.0 * two);
+    println!(
+        "  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.3} ±{error:5.3} {bias:9.4}   {:5.1} {:5.1}",
+        100.0 * one,
+        100.0 * two
+    );
 }

@@ -74,7 +74,13 @@ impl Errors {
     }
 
     /// A truth that a file does not tell is NaN, and counts nothing.
-    fn take_one(&mut self, quantity: Quantity, estimate: Estimate, [now, second]: [Option<f64>; 2], truth: f64) {
+    pub(super) fn take_one(
+        &mut self,
+        quantity: Quantity,
+        estimate: Estimate,
+        [now, second]: [Option<f64>; 2],
+        truth: f64,
+    ) {
         if truth.is_finite() {
             self.tallies[quantity as usize].take(estimate, now, second, truth);
         }

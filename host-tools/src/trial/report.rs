@@ -5,8 +5,9 @@ use kapvik_firmware::rover::Rover;
 use rayon::prelude::*;
 
 use super::consistency::NormalisedSquares;
-use super::drive::Drive;
+use super::drive::{Drive, Quantity};
 use super::errors::Errors;
+use super::tally::Tally;
 use super::whiteness::ljung_box;
 use crate::error::HostError;
 use crate::simulate::{Options, Scenario};
@@ -47,6 +48,24 @@ impl Trial {
         })
     }
 
+    /// Root mean square error in a quantity over that of the raw sensors, and one standard error of that: what other drives of the same
+    /// kind would change, by the jackknife (Tukey 1958), leaving out each drive in turn. Frames of a drive belong together.
+    pub fn over_naive(&self, quantity: Quantity) -> (f64, f64) {
+        let without = |left_out: Option<usize>| {
+            let others = self.drives.iter().enumerate().filter(|(place, _)| Some(*place) != left_out);
+            let tally = others.fold(Tally::default(), |mut sum, (_, drive)| {
+                sum.add(drive.errors.of(quantity));
+                sum
+            });
+            tally.over_naive()
+        };
+        let count = self.drives.len() as f64;
+        let ratios: Vec<f64> = (0..self.drives.len()).map(|place| without(Some(place))).collect();
+        let mean = ratios.iter().sum::<f64>() / count;
+        let squares: f64 = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum();
+        (without(None), (squares * (count - 1.0) / count).sqrt())
+    }
+
     /// Squares of all drives, frame by frame: errors of filters 1 and 2, then innovations of filter 1 and of both halves
     /// of filter 2.
     pub fn squares(&self) -> [NormalisedSquares; 5] {
@@ -67,5 +86,32 @@ impl Trial {
             *share = chances.iter().filter(|chance| **chance > 0.05).count() as f64 / chances.len().max(1) as f64;
         }
         shares
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::estimator::Estimate;
+
+    use super::{Drive, Quantity, Trial};
+    use crate::simulate::Scenario;
+
+    /// Of a mean the jackknife gives the usual standard error. Here the raw sensors always err by 1 N, and the estimates of each drive
+    /// by the root of 1, 2, 3, 4 N²: the squared ratio is a mean of these, 2.5 with a standard error of √(5/3)/2, and the ratio has
+    /// that over twice itself, to first order.
+    #[test]
+    fn the_error_of_a_ratio_is_what_other_drives_would_change() {
+        let drive = |square: f64| {
+            let mut drive = Drive::default();
+            let estimate = Estimate { value: square.sqrt() as f32, std: 1.0 };
+            drive.errors.take_one(Quantity::BogiePull, estimate, [Some(1.0), None], 0.0);
+            drive
+        };
+        let drives = [1.0, 2.0, 3.0, 4.0].map(drive).to_vec();
+        let (ratio, error) =
+            Trial { scenario: Scenario::Slope, drives, failures: Vec::new() }.over_naive(Quantity::BogiePull);
+        assert!((ratio - 2.5_f64.sqrt()).abs() < 1.0e-6, "{ratio}");
+        let expected = (5.0_f64 / 3.0).sqrt() / 2.0 / (2.0 * ratio);
+        assert!((error / expected - 1.0).abs() < 0.1, "{error} {expected}");
     }
 }

@@ -1,0 +1,118 @@
+//! How much larger errors are than the filters know.
+//!
+//! Rates of drift are chosen by innovations. Of what moves steadily rather than at random, with gain k and noise R, that choice leaves
+//! k R/4 of lag and k R/2 of noise, and a filter states k R: so some three quarters. Where the ground changes faster than the
+//! rates, innovations come in runs ([`super::runs`]), and errors are larger; where it turns, everything lags ([`super::trend`]). All
+//! numbers are as measured on drives of development, the same for every kind of ground.
+
+use super::runs::Runs;
+use super::trend::Trends;
+use crate::rover::PerAxle;
+use crate::scalar::Scalar;
+
+/// Of the variance that a filter states of contact angles, what is true of the bogie's, and of the front wheel's.
+const BOGIE_ANGLE: f64 = 0.9;
+const FRONT_ANGLE: f64 = 0.85;
+/// What is added to that of the front wheel for each unit by which the runs of how the side moves are above chance: it meets what the
+/// others follow it to.
+const FRONT_ANGLE_BY_MOTION: f64 = 0.5;
+/// The same of the slip, and what runs of the forces add: what a wheel feels anew makes it slip anew.
+const SLIP: f64 = 0.93;
+const SLIP_BY_MOTION: f64 = 0.18;
+const SLIP_BY_FORCES: f64 = 0.3;
+/// Of the forces on the hubs, and of the torques.
+const FORCE: f64 = 0.78;
+const FORCE_BY_FORCES: f64 = 0.38;
+const TORQUE: f64 = 0.8;
+const TORQUE_BY_FORCES: f64 = 0.14;
+/// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
+const ANGLE_LAG: f64 = 0.014;
+const LOAD_LAG: f64 = 0.19;
+const TORQUE_LAG: f64 = 0.005;
+/// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
+/// sink in ways that nothing tells, and a front wheel meets more of them.
+const FRONT_UNTOLD: f64 = 0.008;
+const BOGIE_UNTOLD: f64 = 0.0047;
+
+/// Of one wheel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WheelDoubt<S> {
+    /// How many times what the filter states the variance of a contact angle is.
+    pub angle: S,
+    /// Variance that lag and sinking add to that, rad².
+    pub angle_variance: S,
+    /// Variance that lag adds to the load, N².
+    pub load_variance: S,
+    /// Variance that lag adds to the resistive torque, (N·m)².
+    pub torque_variance: S,
+}
+
+/// Of one side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Doubt<S> {
+    /// Its wheels.
+    pub wheels: PerAxle<WheelDoubt<S>>,
+    /// How many times what the filters state the variances are: of slips, forces on hubs, resistive torques.
+    pub slip: S,
+    /// See there.
+    pub force: S,
+    /// See there.
+    pub torque: S,
+}
+
+impl<S: Scalar> Doubt<S> {
+    /// What the runs of how a side moves and of its forces tell, and the trends of its contact angles.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn of<const N: usize, const M: usize>(motion: &Runs<S, N>, forces: &Runs<S, M>, trends: &Trends<S, 3>) -> Self {
+        let (motion, forces) = (motion.above_chance(), forces.above_chance());
+        let constant = S::constant;
+        // The same of all three: the ground's.
+        let [rough, ..] = trends.restless();
+        let wheel = |trend: S, angle: S, untold: f64| {
+            let lag = |length: f64| constant(length * length) * trend * trend;
+            WheelDoubt {
+                angle,
+                angle_variance: lag(ANGLE_LAG) + constant(untold * untold) * rough,
+                load_variance: lag(LOAD_LAG),
+                torque_variance: lag(TORQUE_LAG),
+            }
+        };
+        let [front, middle, rear] = trends.per_m();
+        let (of_front, of_bogie) =
+            (constant(FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * motion, constant(BOGIE_ANGLE));
+        Self {
+            wheels: PerAxle {
+                front: wheel(front, of_front, FRONT_UNTOLD),
+                middle: wheel(middle, of_bogie, BOGIE_UNTOLD),
+                rear: wheel(rear, of_bogie, BOGIE_UNTOLD),
+            },
+            slip: constant(SLIP) + constant(SLIP_BY_MOTION) * motion + constant(SLIP_BY_FORCES) * forces,
+            force: constant(FORCE) + constant(FORCE_BY_FORCES) * forces,
+            torque: constant(TORQUE) + constant(TORQUE_BY_FORCES) * forces,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Doubt, PerAxle, Runs, Trends};
+
+    fn doubt(trends: &Trends<f64, 3>) -> Doubt<f64> {
+        Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends)
+    }
+
+    /// Of an angle that turns by 0.5 rad over a metre, 14 mm of lag; of one that does not, on the same ground, only what is untold.
+    #[test]
+    fn what_turns_lags_and_plane_ground_adds_nothing() {
+        let mut trends = Trends::<f64, 3>::new();
+        let plane = doubt(&trends).wheels;
+        assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
+        trends.expect([1.0; 3]);
+        trends.follow(0.002, &[(1.0e-3, 1.0), (0.0, 1.0), (0.0, 1.0)]);
+        let [turned, ..] = trends.per_m();
+        let PerAxle { front, middle, .. } = doubt(&trends).wheels;
+        let lag = 0.014 * turned;
+        assert!((front.angle_variance - lag * lag - 0.008 * 0.008).abs() < 1.0e-6 * front.angle_variance);
+        assert!((middle.angle_variance - 0.0047 * 0.0047).abs() < 1.0e-9 && middle.torque_variance == 0.0);
+    }
+}

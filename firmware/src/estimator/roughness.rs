@@ -1,0 +1,141 @@
+//! How rough the ground is, and so how fast the contact angles of a side may wander.
+
+use super::contact_angle::SideReadings;
+use super::walk_rate::WalkRate;
+use crate::rover::{Planar, SensorNoise};
+use crate::scalar::Scalar;
+
+/// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
+pub(super) const RATIO_DRIFT: f64 = 0.2;
+/// See there.
+pub(super) const ANGLE_DRIFT: f64 = 0.32;
+/// Nominal drift of a link's pitch over a metre: a tenth of that, since links are long.
+const LINK_DRIFT: f64 = 0.032;
+/// What the wandering of the direction of travel, and that of the links' pitches, say of the contact angles'.
+const ANGLE_FROM_WANDERING: f64 = 0.1;
+/// Of the bogie's bend squared, what a metre of travel adds to the variance of a contact angle is one over this, m: with the links
+/// of set K0, ground of curvature c bends the bogie against the rocker by 0.233 m times c, and turns by 0.12 m times c within
+/// the way over which the filter averages on such ground; 0.233²/0.12.
+const BEND_LENGTH: f64 = 0.44;
+/// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
+const BEND_BY_SINKING: f64 = 0.02;
+/// What is added to that for each unit by which runs of innovations are above [`RUN`].
+const ANGLE_FROM_RUNS: f64 = 0.1;
+/// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
+const RUN: f64 = 4.0;
+
+/// How fast what is measured of a side's motion wanders.
+#[derive(Debug, Clone)]
+pub(super) struct Roughness<S> {
+    ratio: WalkRate<S>,
+    direction: WalkRate<S>,
+    rocker: WalkRate<S>,
+    bogie: WalkRate<S>,
+}
+
+/// How a side moves in a frame, as its rates are learned from it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motion<S> {
+    /// Speed of the rims, m/s; not zero.
+    pub speed_m_s: S,
+    /// Time since the frame before, s.
+    pub step_s: S,
+    /// Pitch of the body in the plane of the side, rad, then its sine and cosine.
+    pub body_pitch_rad: S,
+    /// See there.
+    pub body_pitch: (S, S),
+}
+
+impl<S: Scalar> Roughness<S> {
+    /// Nothing is known. `phase` spreads costly work over frames.
+    pub fn new(phase: usize) -> Self {
+        Self {
+            ratio: WalkRate::new(phase),
+            direction: WalkRate::new(phase + 1),
+            rocker: WalkRate::new(phase + 2),
+            bogie: WalkRate::new(phase + 3),
+        }
+    }
+
+    /// Forgets what was learned: it was not the ground's doing.
+    pub fn restart(&mut self) {
+        let rates = [&mut self.ratio, &mut self.direction, &mut self.rocker, &mut self.bogie];
+        rates.into_iter().for_each(WalkRate::restart);
+    }
+
+    /// How fast the travel ratio wanders, over its nominal drift, as a variance.
+    pub fn of_ratio(&self) -> S {
+        self.ratio.factor()
+    }
+
+    /// The same of the links' pitches together.
+    pub fn of_links(&self) -> S {
+        self.rocker.factor() + self.bogie.factor()
+    }
+
+    /// The same of the contact angles, of a bogie that is bent against its rocker and runs of innovations that are so much above
+    /// chance. The links feel the ground a wheelbase long, and thirty times more precisely than the velocity does; a wheel feels
+    /// more of it than its link.
+    ///
+    /// A bogie that is bent stands on ground that curves. It tells at once, and still where a wheel is on top of a rock: there its
+    /// angle changes most, and the links hardly move.
+    pub fn of_angles(&self, bend_rad: S, runs: S) -> S {
+        let zero = S::zero();
+        let wandering = S::constant(ANGLE_FROM_WANDERING) * (self.direction.factor() + self.of_links());
+        // Where links and velocity wander fast, so do the angles, and more than in proportion: how slowly they wander on plane
+        // ground, no sensor can tell.
+        let steeper = wandering * wandering.sqrt();
+        let bend = (bend_rad.abs() - S::constant(BEND_BY_SINKING)).max(zero);
+        bend * bend * S::constant(1.0 / (BEND_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT))
+            + steeper
+            + S::constant(ANGLE_FROM_RUNS) * (runs - S::constant(RUN)).max(zero)
+    }
+
+    /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.
+    pub fn learn(&mut self, motion: &Motion<S>, readings: &SideReadings<S>, noise: &SensorNoise<S>) {
+        let Motion { speed_m_s: speed, step_s, body_pitch_rad, body_pitch } = *motion;
+        let travel = speed.abs() * step_s;
+        let nominal = |drift: f64| S::constant(drift * drift) * travel;
+        let pitch = readings.rocker_angle_rad.map(|rocker| body_pitch_rad + rocker);
+        let variance = noise.angle_rad * noise.angle_rad;
+        // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
+        let turned = noise.gyro_rad_s * step_s;
+        let moved = S::constant(2.0) * turned * turned;
+        match pitch {
+            Some(pitch) => self.rocker.see_moved(pitch, variance, nominal(LINK_DRIFT), moved),
+            None => self.rocker.miss(nominal(LINK_DRIFT)),
+        }
+        match (pitch, readings.bogie_angle_rad) {
+            (Some(pitch), Some(bogie)) => {
+                self.bogie.see_moved(pitch + bogie, variance + variance, nominal(LINK_DRIFT), moved);
+            }
+            _ => self.bogie.miss(nominal(LINK_DRIFT)),
+        }
+        if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
+            let velocity = Planar { x, z }.turned(body_pitch);
+            let std = readings.velocity_std_m_s.z / speed.abs();
+            self.ratio.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
+            self.direction.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
+        } else {
+            self.ratio.miss(nominal(RATIO_DRIFT));
+            self.direction.miss(nominal(ANGLE_DRIFT));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Roughness;
+
+    /// A bend that wheels may have sunk to says nothing; one of 0.12 rad, on ground that curves by 0.1 rad over 0.233 m, lets an
+    /// angle drift by what such ground turns by over 0.12 m of travel, within these 0.12 m.
+    #[test]
+    fn a_bent_bogie_lets_the_angles_wander() {
+        let roughness = Roughness::<f64>::new(0);
+        let of_bend = |bend: f64| roughness.of_angles(bend, 0.0) - roughness.of_angles(0.0, 0.0);
+        assert_eq!(of_bend(0.015), 0.0);
+        let turned = 0.12 * 0.1 / 0.233;
+        let drift = of_bend(-0.12) * super::ANGLE_DRIFT * super::ANGLE_DRIFT * 0.12;
+        assert!((drift / (turned * turned) - 1.0).abs() < 0.03, "{drift} {turned}");
+    }
+}
