@@ -25,6 +25,7 @@ const UNKNOWN: f64 = LEAST * STEP * STEP;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WalkRate<S> {
     trials: [Trial<S>; CANDIDATES],
+    last: S,
     factor: S,
     memory: S,
     frame: usize,
@@ -32,10 +33,13 @@ pub(super) struct WalkRate<S> {
 
 #[derive(Debug, Clone, Copy)]
 struct Trial<S> {
+    /// Of the quantity less what was measured last: in a quantity itself single precision would round off what a slow candidate
+    /// learns of it in a frame.
     filter: ScalarFilter<S>,
-    /// ln of the innovation's variance, renewed now and then: it changes slowly.
+    /// ln of the innovation's variance over that of the first candidate, renewed now and then: it changes slowly. The logarithms
+    /// themselves add up to hundreds, in which single precision would lose what tells the candidates apart.
     log_variance: S,
-    /// Twice the negative logarithm of the likelihood of the recent measurements.
+    /// Twice the negative logarithm of the likelihood of the recent measurements, up to what all candidates share.
     misfit: S,
 }
 
@@ -45,7 +49,13 @@ impl<S: Scalar> WalkRate<S> {
     pub fn new(phase: usize) -> Self {
         let filter = ScalarFilter { mean: S::zero(), variance: S::constant(1.0e6) };
         let trial = Trial { filter, log_variance: S::zero(), misfit: S::zero() };
-        Self { trials: [trial; CANDIDATES], factor: S::constant(UNKNOWN), memory: S::constant(MEMORY), frame: phase }
+        Self {
+            trials: [trial; CANDIDATES],
+            last: S::zero(),
+            factor: S::constant(UNKNOWN),
+            memory: S::constant(MEMORY),
+            frame: phase,
+        }
     }
 
     /// The same with another memory: the share of a misfit that is still held against a candidate a frame later.
@@ -65,11 +75,16 @@ impl<S: Scalar> WalkRate<S> {
         let renew = self.frame.is_multiple_of(CANDIDATES);
         let mut factor = S::constant(LEAST);
         let mut slower = S::constant(1.0e30);
+        let mut first_log = None;
+        let moved = measured - self.last;
+        self.last = measured;
         for trial in &mut self.trials {
             trial.filter.variance += factor * nominal_variance + known_variance;
-            let (misfit, variance) = trial.filter.update(measured, noise_variance);
+            trial.filter.mean = trial.filter.mean - moved;
+            let (misfit, variance) = trial.filter.update(S::zero(), noise_variance);
             if renew {
-                trial.log_variance = variance.ln();
+                let log = variance.ln();
+                trial.log_variance = log - *first_log.get_or_insert(log);
             }
             // One wild measurement says that something is wrong with it, and little about the rate.
             let misfit = self.memory * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
