@@ -5,7 +5,7 @@ pub const WHEEL_FEATURES: usize = 5;
 /// Inputs that all wheels share: wheel geometry (2) and how noisy the states are (5).
 pub const CONTEXT_FEATURES: usize = 7;
 /// Inputs of the rover network that say how the wheels' states go with slip and load.
-pub const TREND_FEATURES: usize = 20;
+pub const TREND_FEATURES: usize = 19;
 /// Inputs that all wheels of the rover network share.
 pub const ROVER_CONTEXT: usize = CONTEXT_FEATURES + TREND_FEATURES;
 /// Inputs of the per-wheel network: a wheel's own and the shared ones.

@@ -92,15 +92,22 @@ impl SoilQuery {
         let fifth = self.sinkage_inputs().next().unwrap_or(FifthInput::UNKNOWN);
         let context = context_features(&self.wheel, &self.noise, mean_load_n, fifth);
         let mut wheels = Vec::new();
-        for (state, fifth) in self.wheels.iter().zip(self.sinkage_inputs()) {
+        let seen = fifth != FifthInput::UNKNOWN;
+        for state in &self.wheels {
+            let fifth = if seen { FifthInput::sinkage(&self.wheel, state, &self.noise) } else { FifthInput::UNKNOWN };
             // Not `collect`: heapless panics where it overflows.
             let _ = wheels.push(wheel_features(&self.wheel, state, fifth));
         }
-        let WheelNoise { load_n, torque_nm, slip, .. } = self.noise;
-        let torque = torque_nm / (self.wheel.radius_m * mean_load_n);
-        let noise = TrendNoise { load: load_n / mean_load_n, torque, slip };
-        let trend = trend(&wheels, noise);
-        (joined([&context, trend.coefficients.as_flattened(), &trend.loads]), wheels)
+        let WheelNoise { drawbar_pull_n, load_n, torque_nm, slip, .. } = self.noise;
+        let share = 1.0 / mean_load_n;
+        let noise = TrendNoise {
+            pull: share * drawbar_pull_n,
+            load: share * load_n,
+            torque: share * torque_nm / self.wheel.radius_m,
+            slip,
+            sinkage: seen.then_some(fifth.std),
+        };
+        (joined([&context, &trend(&wheels, noise)]), wheels)
     }
 
     /// The per-wheel network's inputs for one wheel.

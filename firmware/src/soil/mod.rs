@@ -5,6 +5,7 @@ mod estimate;
 mod features;
 mod query;
 pub mod trend;
+pub mod trend_prior;
 
 pub use answer::QueryAnswer;
 pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};

@@ -1,221 +1,390 @@
-//! How resistance, torque and contact angle go with slip and load over the wheels of an instant.
+//! How resistance, sinkage and torque go with slip and load over the wheels of an instant.
 //!
 //! Cohesion differs from friction in how little of the shear strength goes with the load, and K shows in how the torque
 //! goes with slip, the more the heavier the wheel. These are differences among wheels, small beside what the wheels have
 //! in common, and a network learns them slowly from the wheels one by one. A regression over the wheels says them
-//! outright: the mean of the coefficients given the wheels and what is known of T/(rW) beforehand, each wheel counted by
-//! how well its slip, load and torque are known.
+//! outright: the means of the coefficients given the wheels and what is known of soils beforehand ([`super::trend_prior`]),
+//! each wheel counted by how well its slip, load, forces and sinkage are known.
+//!
+//! The three channels hang together, by the soil and by common noise. Resistance comes first, then sinkage given the
+//! resistance, then torque given both: what the channels before leave open of a coefficient narrows what is expected of it,
+//! and the share of the torque's noise that has shown in the resistance is taken off. That the coefficients before are means
+//! themselves, with errors, is left out: it would take one regression of all three channels, of 16 unknowns.
 
 use heapless::Vec;
 
 use crate::math;
+use crate::network::TREND_FEATURES;
 use crate::wheel_state::WHEELS;
 
 use super::WheelFeatures;
+use super::trend_prior::{RESISTANCE, SINKAGE, TORQUE};
 
-/// Regressors: Legendre's polynomials of degree 0 … 3 in a logarithmic measure u of slip; q, ten times the deviation of
+/// Regressors of resistance and torque: 1, u, u² and u³, u being a logarithmic measure of slip; q, ten times the deviation of
 /// ln W from its mean; and u q.
 pub const TERMS: usize = 6;
-/// What is regressed: (T/r − DP)/W, T/(rW), and the contact angle θ₁ (rad; 0 where the sinkage is not known).
-pub const CHANNELS: usize = 3;
+/// Regressors of the sinkage: 1, u, u², q.
+pub const SINKAGE_TERMS: usize = 4;
 
-/// Regressors and values of a wheel in one row.
-pub type Row = [f32; TERMS + CHANNELS];
-
-/// What is known of the coefficients before any wheel is seen: the inverse covariance of those of T/(rW), and its product
-/// with the mean of each channel's; none for θ₁, which may be unknown. Least squares over slips 0.02 … 0.7 under Kapvik's
-/// wheel, soil by soil of the training prior, with as many loads; each variance is a hundredth larger, which keeps the
-/// inverse sound. A test of the host tools draws and fits anew.
-pub static PRIOR: [Row; TERMS] = [
-    [308.5, -53.39, 456.8, -1013.0, 437.5, 9634.0, 114.0, 62.56, 0.0],
-    [-53.39, 2070.0, -4034.0, 24_900.0, 1582.0, -3951.0, 57.84, 122.2, 0.0],
-    [456.8, -4034.0, 25_390.0, -59_480.0, -27_890.0, -29_210.0, -212.9, 51.72, 0.0],
-    [-1013.0, 24_900.0, -59_480.0, 435_800.0, 63_770.0, -97_650.0, 1313.0, 1228.0, 0.0],
-    [437.5, 1582.0, -27_890.0, 63_770.0, 187_600.0, 95_210.0, 2288.0, 898.1, 0.0],
-    [9634.0, -3951.0, -29_210.0, -97_650.0, 95_210.0, 554_600.0, 4170.0, 1096.0, 0.0],
-];
-/// What the regressors leave of T/(rW) without any noise: one standard deviation.
-const MISFIT: f32 = 5e-4;
-/// Variance of T/(rW) by noise of the load: that of W/W̄ times the mean square of T/(rW) over the prior.
-const BY_LOAD: f32 = 0.12;
+/// What the regressors leave of (T/r − DP)/W, T/(rW) and ln(z/r) without any noise: variances.
+const MISFIT: [f32; 3] = [6.7e-7, 5.4e-7, 8.4e-6];
+/// Variance of (T/r − DP)/W and of T/(rW) by noise of the load, which is common to both: that of W/W̄ times the mean square
+/// of how they change with ln W over the prior.
+const BY_LOAD: f32 = 0.18;
+/// The same of ln(z/r).
+const SINKAGE_BY_LOAD: f32 = 0.4;
 /// Variance of T/(rW) by noise of the slip: that of the slip times the square of the mean slope against
 /// ln(slip + [`OFFSET`]), 0.12, over the square of that sum.
-const BY_SLIP: f32 = 0.015;
+const BY_SLIP: f32 = 0.0144;
 /// Added to slip where its logarithm is taken: of the values tried, 0.08 leaves the least misfit.
 pub const OFFSET: f32 = 0.08;
 
 /// One standard deviation of what the wheels show, as the features have it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrendNoise {
+    /// Of DP/W̄.
+    pub pull: f32,
     /// Of W/W̄.
     pub load: f32,
     /// Of T/(rW̄).
     pub torque: f32,
     /// Of the slip.
     pub slip: f32,
+    /// Of z/r; none where the sinkage is not known.
+    pub sinkage: Option<f32>,
 }
 
-/// How the wheels' states go with slip and load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trend {
-    /// Of each term and channel.
-    pub coefficients: [[f32; CHANNELS]; TERMS],
-    /// Logarithm of how much better the coefficient of q is told than the constant, which says how far the loads are
-    /// spread; mean of ln W.
-    pub loads: [f32; 2],
+/// How the wheels' states go with slip and load: six coefficients of (T/r − DP)/W, the same six of T/(rW), four of ln(z/r), and
+/// three numbers about the loads.
+///
+/// The six are those of Legendre's polynomials of degree 3, 0, 1 and 2 in u, of q, and of u q, the four those of degree 0, 1
+/// and 2 and of q; where the sinkage is not known they are what the resistance lets expect. The three are the logarithms of
+/// the standard deviations of the torque's coefficients of q, if that of u q were known, and of u q; and the mean of ln W.
+pub type Trend = [f32; TREND_FEATURES];
+
+/// A wheel's place on the regressors, and what it shows.
+struct Row {
+    u: f32,
+    q: f32,
+    /// Slip + [`OFFSET`].
+    shifted: f32,
+    resistance: f32,
+    torque: f32,
+    sinkage: f32,
+    /// Of the channel that is being fitted.
+    value: f32,
+    /// One over the variance of that.
+    information: f32,
 }
 
 /// Fits the trend over wheels.
 pub fn trend(wheels: &[WheelFeatures], noise: TrendNoise) -> Trend {
-    let ln_loads = wheels.iter().map(|[.., ln_load]| ln_load);
-    let mean_ln_load = ln_loads.sum::<f32>() / wheels.len() as f32;
-    let TrendNoise { load, torque, slip } = noise;
-    let level = torque * torque + BY_LOAD * load * load + MISFIT * MISFIT;
-    let by_slip = BY_SLIP * slip * slip;
-    let mut rows = Vec::<(Row, f32), WHEELS>::new();
+    let share = 1.0 / wheels.len() as f32;
+    let mean_ln_load = share * wheels.iter().map(|[.., ln_load]| ln_load).sum::<f32>();
+    let [of_resistance, of_torque, of_sinkage] = MISFIT;
+    // Variance that the torque has in common with the resistance, and what the resistance has besides.
+    let common = at_most_huge(noise.torque * noise.torque + BY_LOAD * noise.load * noise.load);
+    let besides = at_most_huge(noise.pull * noise.pull + of_resistance);
+    let information = 1.0 / (common + besides);
+    let mut rows = Vec::<Row, WHEELS>::new();
     for wheel in wheels.iter().take(WHEELS) {
-        let (row, shifted) = row(wheel, mean_ln_load);
-        // One over the variance of this wheel's T/(rW).
-        let information = shifted * shifted / (level * shifted * shifted + by_slip);
         // Not `collect`: heapless panics where it overflows.
-        let _ = rows.push((row, information));
+        let _ = rows.push(Row::new(wheel, mean_ln_load, information));
     }
-    let mut equations = [[0.0; TERMS + CHANNELS]; TERMS];
-    normal_equations(&mut equations, &rows);
-    let [[constant, ..], _, _, _, [_, _, _, _, load, ..], _] = equations;
-    let loads = [0.5 * math::ln(load / constant), mean_ln_load];
-    Trend { coefficients: solve(&mut equations), loads }
+    let mut resistance = RESISTANCE.shift;
+    fit_forces(&RESISTANCE.precision, &mut resistance, &rows);
+
+    let mut sinkage = SINKAGE.shift;
+    add_product(&mut sinkage, &SINKAGE.by_resistance, &resistance);
+    let level = SINKAGE_BY_LOAD * noise.load * noise.load + of_sinkage;
+    // Where the sinkage is not known: so uncertain that it is of no account.
+    let variance = noise.sinkage.map_or(1e12, |std| at_most_huge(std * std));
+    fit_sinkage(&SINKAGE.precision, &mut sinkage, &rows, |row| {
+        let square = row.sinkage * row.sinkage;
+        (math::ln(row.sinkage), square / (variance + level * square))
+    });
+
+    let mut torque = TORQUE.shift;
+    add_product(&mut torque, &TORQUE.by_resistance, &resistance);
+    add_product(&mut torque, &TORQUE.by_sinkage, &sinkage);
+    // The share of what is left of the resistance that belongs to the torque, too.
+    let shared = common * information;
+    let level = shared * besides + of_torque;
+    let [constant, first, second, third, load, both] = resistance;
+    let by_slip = BY_SLIP * noise.slip * noise.slip;
+    for row in &mut rows {
+        let fitted = constant + row.u * (first + row.u * (second + row.u * third)) + row.q * (load + row.u * both);
+        let square = row.shifted * row.shifted;
+        row.value = row.torque - shared * (row.resistance - fitted);
+        row.information = square / (level * square + by_slip);
+    }
+    let precisions = fit_forces(&TORQUE.precision, &mut torque, &rows);
+    let [load, both] = precisions.map(|precision| -0.5 * math::ln(precision));
+    let [r0, r1, r2, r3, r4, r5] = by_legendre(resistance);
+    let [t0, t1, t2, t3, t4, t5] = by_legendre(torque);
+    let [s0, s1, s2, s4] = sinkage;
+    let [s0, s2] = [s0 + THIRD * s2, 2.0 * THIRD * s2];
+    [r0, r1, r2, r3, r4, r5, t0, t1, t2, t3, t4, t5, s0, s1, s2, s4, load, both, mean_ln_load]
 }
 
-/// Regressors and values of a wheel, and the slip behind their logarithm.
-fn row(wheel: &WheelFeatures, mean_ln_load: f32) -> (Row, f32) {
-    let [pull, torque, slip, sinkage, ln_load] = *wheel;
-    // Torque rises steeply at small slip and levels off: nearly even in the logarithm. Slips of 0.02 … 0.7 become −1 … 1.
-    let shifted = math::limit(slip, 0.01, 1.0) + OFFSET;
-    let u = (math::ln(shifted) + 1.275_523) * 0.973_651;
-    let square = u * u;
-    let q = 10.0 * (ln_load - mean_ln_load);
-    // A sinkage of zero is one that nobody measured.
-    let angle = if sinkage == 0.0 { 0.0 } else { math::acos(1.0 - math::limit(sinkage, 0.005, 0.9)) };
-    ([1.0, u, 1.5 * square - 0.5, u * (2.5 * square - 1.5), q, u * q, torque - pull, torque, angle], shifted)
-}
-
-/// Fills in the prior, and upon it the sums over the wheels of products of regressors with regressors and values, a row a
-/// regressor.
-fn normal_equations(equations: &mut [Row; TERMS], rows: &[(Row, f32)]) {
-    for ((term, place), prior) in equations.iter_mut().enumerate().zip(&PRIOR) {
-        let mut sums = *prior;
-        for (row, information) in rows {
-            let share = information * row.get(term).copied().unwrap_or(0.0);
-            sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += share * value);
+impl Row {
+    fn new(wheel: &WheelFeatures, mean_ln_load: f32, information: f32) -> Self {
+        let [pull, torque, slip, sinkage, ln_load] = *wheel;
+        // Torque rises steeply at small slip and levels off: nearly even in the logarithm. Slips of 0.02 … 0.7 become −1 … 1.
+        let shifted = at_least(slip, 0.01) + OFFSET;
+        let u = (math::ln(shifted) + 1.275_523) * 0.973_651;
+        Self {
+            u,
+            q: 10.0 * (ln_load - mean_ln_load),
+            shifted,
+            resistance: torque - pull,
+            torque,
+            sinkage: at_least(sinkage, 0.005),
+            value: torque - pull,
+            information,
         }
-        *place = sums;
     }
 }
 
-/// Gauss's elimination. The prior keeps every pivot above zero, so that none has to be looked for.
-fn solve(equations: &mut [Row; TERMS]) -> [[f32; CHANNELS]; TERMS] {
-    eliminate::<0>(equations);
-    eliminate::<1>(equations);
-    eliminate::<2>(equations);
-    eliminate::<3>(equations);
-    eliminate::<4>(equations);
-    let mut coefficients = [[0.0; CHANNELS]; TERMS];
-    substitute::<5>(equations, &mut coefficients);
-    substitute::<4>(equations, &mut coefficients);
-    substitute::<3>(equations, &mut coefficients);
-    substitute::<2>(equations, &mut coefficients);
-    substitute::<1>(equations, &mut coefficients);
-    substitute::<0>(equations, &mut coefficients);
-    coefficients
+/// The greater of two numbers; `least` for one that is none.
+fn at_least(number: f32, least: f32) -> f32 {
+    if number > least { number } else { least }
 }
 
-/// Frees the rows below row `PIVOT` of its unknown; columns up to its own are of no account any more. A constant, because
-/// loops of fixed length cost the target half as much.
+/// A variance; 10¹² in place of a greater one, whose products might be infinite.
+fn at_most_huge(variance: f32) -> f32 {
+    const HUGE: f32 = 1e12;
+    if variance < HUGE { variance } else { HUGE }
+}
+
+/// Adds the coefficients times the rows of a matrix.
+fn add_product<const N: usize, const M: usize>(sums: &mut [f32; N], rows: &[[f32; N]; M], coefficients: &[f32; M]) {
+    for (coefficient, row) in coefficients.iter().zip(rows) {
+        sums.iter_mut().zip(row).for_each(|(sum, change)| *sum += coefficient * change);
+    }
+}
+
+/// One third.
+const THIRD: f32 = 1.0 / 3.0;
+
+/// Coefficients of powers of u turned into those of Legendre's polynomials, which stand apart better: a network learns more
+/// from them.
+fn by_legendre([constant, first, second, third, load, both]: [f32; TERMS]) -> [f32; TERMS] {
+    [0.4 * third, constant + THIRD * second, first + 0.6 * third, 2.0 * THIRD * second, load, both]
+}
+
+/// Mean of the coefficients of resistance or torque given what is known of them and the wheels, in place of `right`, the
+/// product of what is known with the mean. Returns the precisions of the last two, those behind them known.
+// One copy in the image for both channels.
+#[inline(never)]
+fn fit_forces(known: &[[f32; TERMS]; TERMS], right: &mut [f32; TERMS], rows: &[Row]) -> [f32; 2] {
+    // Sums of uᵏ, uᵏ q and uᵏ q² over the wheels: 15 make up the 21 products of terms.
+    let ([mut s0, mut s1, mut s2, mut s3, mut s4, mut s5, mut s6], [mut m0, mut m1, mut m2, mut m3, mut m4]) =
+        ([0.0; 7], [0.0; 5]);
+    let [mut l0, mut l1, mut l2] = [0.0; 3];
+    let [mut r0, mut r1, mut r2, mut r3, mut r4, mut r5] = *right;
+    for Row { u, q, value, information, .. } in rows {
+        let w0 = *information;
+        let (w1, v0) = (w0 * u, w0 * q);
+        let (w2, v1) = (w1 * u, w1 * q);
+        let (w3, v2) = (w2 * u, w2 * q);
+        let w4 = w3 * u;
+        let w5 = w4 * u;
+        (s0, s1, s2, s3) = (s0 + w0, s1 + w1, s2 + w2, s3 + w3);
+        (s4, s5, s6) = (s4 + w4, s5 + w5, s6 + w5 * u);
+        (m0, m1, m2, m3, m4) = (m0 + v0, m1 + v1, m2 + v2, m3 + w3 * q, m4 + w4 * q);
+        (l0, l1, l2) = (l0 + v0 * q, l1 + v1 * q, l2 + v2 * q);
+        (r0, r1, r2, r3) = (r0 + w0 * value, r1 + w1 * value, r2 + w2 * value, r3 + w3 * value);
+        (r4, r5) = (r4 + v0 * value, r5 + v1 * value);
+    }
+    *right = [r0, r1, r2, r3, r4, r5];
+    // Symmetric: below the diagonal nobody looks.
+    let mut left = [
+        [s0, s1, s2, s3, m0, m1],
+        [0.0, s2, s3, s4, m1, m2],
+        [0.0, 0.0, s4, s5, m2, m3],
+        [0.0, 0.0, 0.0, s6, m3, m4],
+        [0.0, 0.0, 0.0, 0.0, l0, l1],
+        [0.0, 0.0, 0.0, 0.0, 0.0, l2],
+    ];
+    solve(&mut left, known, right);
+    let [.., [_, _, _, _, load, _], [.., both]] = left;
+    [load, both]
+}
+
+/// The same for the sinkage, of which `see` tells a wheel's value and one over the variance of that.
+fn fit_sinkage(
+    known: &[[f32; SINKAGE_TERMS]; SINKAGE_TERMS],
+    right: &mut [f32; SINKAGE_TERMS],
+    rows: &[Row],
+    see: impl Fn(&Row) -> (f32, f32),
+) {
+    let ([mut s0, mut s1, mut s2, mut s3, mut s4], [mut m0, mut m1, mut m2], mut l0) = ([0.0; 5], [0.0; 3], 0.0);
+    let [mut r0, mut r1, mut r2, mut r3] = *right;
+    for row in rows {
+        let (value, w0) = see(row);
+        let Row { u, q, .. } = row;
+        let (w1, v0) = (w0 * u, w0 * q);
+        let w2 = w1 * u;
+        let w3 = w2 * u;
+        (s0, s1, s2, s3, s4) = (s0 + w0, s1 + w1, s2 + w2, s3 + w3, s4 + w3 * u);
+        (m0, m1, m2, l0) = (m0 + v0, m1 + w1 * q, m2 + w2 * q, l0 + v0 * q);
+        (r0, r1, r2, r3) = (r0 + w0 * value, r1 + w1 * value, r2 + w2 * value, r3 + v0 * value);
+    }
+    *right = [r0, r1, r2, r3];
+    let mut left = [[s0, s1, s2, m0], [0.0, s2, s3, m1], [0.0, 0.0, s4, m2], [0.0, 0.0, 0.0, l0]];
+    solve(&mut left, known, right);
+}
+
+/// Solves (`left` + `known`) x = `right` for x, in place of `right`; of both matrices the diagonal and what is above it count.
 #[inline(always)]
-fn eliminate<const PIVOT: usize>(equations: &mut [Row; TERMS]) {
-    let (above, below) = equations.split_at_mut(PIVOT + 1);
-    let Some(chosen) = above.last() else { return };
+fn solve<const N: usize>(left: &mut [[f32; N]; N], known: &[[f32; N]; N], right: &mut [f32; N]) {
+    left.as_flattened_mut().iter_mut().zip(known.as_flattened()).for_each(|(sum, known)| *sum += known);
+    eliminate::<0, N>(left, right);
+    eliminate::<1, N>(left, right);
+    eliminate::<2, N>(left, right);
+    eliminate::<3, N>(left, right);
+    eliminate::<4, N>(left, right);
+    substitute::<5, N>(left, right);
+    substitute::<4, N>(left, right);
+    substitute::<3, N>(left, right);
+    substitute::<2, N>(left, right);
+    substitute::<1, N>(left, right);
+    substitute::<0, N>(left, right);
+}
+
+/// Frees the rows below row `PIVOT` of its unknown (Gauss, on the upper triangle alone). What is known beforehand keeps every
+/// pivot above zero, so that none has to be looked for. `PIVOT` is a constant, because loops of fixed length cost the target
+/// half as much.
+#[inline(always)]
+fn eliminate<const PIVOT: usize, const N: usize>(left: &mut [[f32; N]; N], right: &mut [f32; N]) {
+    if PIVOT + 1 >= N {
+        return;
+    }
+    let (above, below) = left.split_at_mut(PIVOT + 1);
+    let (known, unknown) = right.split_at_mut(PIVOT + 1);
+    let (Some(chosen), Some(value)) = (above.last(), known.last()) else { return };
     let inverse = 1.0 / chosen.get(PIVOT).copied().unwrap_or(1.0);
-    let chosen = chosen.split_at(PIVOT + 1).1;
-    for row in below {
-        let factor = inverse * row.get(PIVOT).copied().unwrap_or(0.0);
-        row.split_at_mut(PIVOT + 1).1.iter_mut().zip(chosen).for_each(|(x, p)| *x -= factor * p);
+    for (place, (row, right)) in below.iter_mut().zip(unknown).enumerate() {
+        let column = PIVOT + 1 + place;
+        let factor = inverse * chosen.get(column).copied().unwrap_or(0.0);
+        row.iter_mut().zip(chosen).skip(column).for_each(|(x, p)| *x -= factor * p);
+        *right -= factor * value;
     }
 }
 
 /// The unknown of row `PIVOT` from those behind it.
 #[inline(always)]
-fn substitute<const PIVOT: usize>(equations: &[Row; TERMS], coefficients: &mut [[f32; CHANNELS]; TERMS]) {
-    let (before, behind) = coefficients.split_at_mut(PIVOT + 1);
-    let (Some(row), Some(coefficient)) = (equations.get(PIVOT), before.last_mut()) else { return };
-    let [regressors @ .., resistance, torque, angle] = row;
-    let mut values = [*resistance, *torque, *angle];
-    for (regressor, term) in regressors.split_at(PIVOT + 1).1.iter().zip(behind) {
-        values.iter_mut().zip(term).for_each(|(value, coefficient)| *value -= regressor * *coefficient);
+fn substitute<const PIVOT: usize, const N: usize>(left: &[[f32; N]; N], right: &mut [f32; N]) {
+    if PIVOT >= N {
+        return;
     }
-    let inverse = 1.0 / regressors.get(PIVOT).copied().unwrap_or(1.0);
-    *coefficient = values.map(|value| value * inverse);
+    let (known, behind) = right.split_at_mut(PIVOT + 1);
+    let (Some(row), Some(value)) = (left.get(PIVOT), known.last_mut()) else { return };
+    for (coefficient, unknown) in row.split_at(PIVOT + 1).1.iter().zip(behind) {
+        *value -= coefficient * *unknown;
+    }
+    *value /= row.get(PIVOT).copied().unwrap_or(1.0);
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{OFFSET, TERMS, Trend, TrendNoise, WheelFeatures, trend};
-    use crate::network::{TREND_FEATURES, joined};
+    use super::{OFFSET, SINKAGE_TERMS, TERMS, Trend, TrendNoise, WheelFeatures, trend};
 
-    /// Mean coefficients of T/(rW) over the training prior: least squares, soil by soil, by NumPy in f64.
-    const MEAN: [f32; TERMS] = [0.320_485, 0.124_602, 0.009_646, -0.004_412, 0.008_139, -0.004_370];
+    /// Mean coefficients over the training prior, of Legendre's polynomials of degree 3, 0, 1 and 2, of q, and of u q: least
+    /// squares, soil by soil, in f64.
+    const MEANS: [[f32; TERMS]; 2] = [
+        [0.002_600, 0.331_077, 0.010_708, 0.006_284, 0.010_979, 0.000_702],
+        [-0.004_495, 0.321_455, 0.125_487, 0.009_559, 0.008_123, -0.004_399],
+    ];
+    /// The same of ln(z/r), of degree 0, 1 and 2 and of q.
+    const MEAN_OF_SINKAGE: [f32; SINKAGE_TERMS] = [-1.455_16, 0.021_102, 0.018_406, 0.064_803];
 
-    /// Six wheels whose T/(rW) is a known combination of the regressors; Legendre's polynomials written out anew.
-    fn wheels(coefficients: [f32; TERMS]) -> Vec<WheelFeatures> {
+    /// Six wheels whose channels are known combinations of the regressors; Legendre's polynomials written out anew.
+    fn wheels([resistance, torque]: [[f32; TERMS]; 2], sinkage: Option<[f32; SINKAGE_TERMS]>) -> Vec<WheelFeatures> {
         let ln_loads = [0.20_f32, 0.05, -0.15, 0.10, -0.25, 0.05]; // their mean is 0
         let slips = [0.02_f32, 0.10, 0.20, 0.35, 0.50, 0.70];
         let (least, most) = ((0.02 + OFFSET).ln(), (0.70 + OFFSET).ln());
         let wheel = |(slip, ln_load): (f32, f32)| {
             let u = (2.0 * (slip + OFFSET).ln() - least - most) / (most - least);
             let q = 10.0 * ln_load;
-            let terms = [1.0, u, (3.0 * u * u - 1.0) / 2.0, (5.0 * u * u * u - 3.0 * u) / 2.0, q, u * q];
-            let torque = terms.iter().zip(coefficients).map(|(term, coefficient)| term * coefficient).sum();
-            [0.1, torque, slip, 0.0, ln_load]
+            let terms = [(5.0 * u * u * u - 3.0 * u) / 2.0, 1.0, u, (3.0 * u * u - 1.0) / 2.0, q, u * q];
+            let sum = |coefficients: &[f32], terms: &[f32]| -> f32 {
+                terms.iter().zip(coefficients).map(|(term, coefficient)| term * coefficient).sum()
+            };
+            let torque = sum(&torque, &terms);
+            let sinkage = sinkage.map_or(0.0, |sinkage| sum(&sinkage, &terms[1..]).exp());
+            [torque - sum(&resistance, &terms), torque, slip, sinkage, ln_load]
         };
         slips.into_iter().zip(ln_loads).map(wheel).collect()
     }
 
-    fn noise(share: f32) -> TrendNoise {
-        TrendNoise { load: 0.015 * share, torque: 0.01 * share, slip: 0.01 * share }
+    fn noise(share: f32, sinkage: bool) -> TrendNoise {
+        let sinkage = sinkage.then_some(0.027 * share);
+        TrendNoise { pull: 0.008 * share, load: 0.015 * share, torque: 0.01 * share, slip: 0.01 * share, sinkage }
     }
 
-    /// Of T/(rW), term by term.
-    fn torque_coefficients(trend: &Trend) -> [f32; TERMS] {
-        trend.coefficients.map(|[_, torque, _]| torque)
+    /// The trend's coefficients less others, each over how much it matters: all regressors are at most 1 but for q and u q.
+    fn check(found: &Trend, truth: [[f32; TERMS]; 2], sinkage: [f32; SINKAGE_TERMS], bounds: [f32; 2]) {
+        let (forces, others) = found.split_at(2 * TERMS);
+        for (found, truth) in forces.iter().zip(truth.as_flattened()) {
+            assert!((found - truth).abs() < bounds[0], "{found}, truth {truth}");
+        }
+        for (found, truth) in others.iter().zip(sinkage) {
+            assert!((found - truth).abs() < bounds[1], "sinkage: {found}, truth {truth}");
+        }
     }
 
     #[test]
-    fn finds_the_coefficients_that_made_the_torque() {
-        let truth = [0.4, 0.10, -0.008, -0.006, 0.010, -0.007];
-        let found = torque_coefficients(&trend(&wheels(truth), noise(1e-3)));
-        for (found, truth) in found.into_iter().zip(truth) {
-            assert!((found - truth).abs() < 5e-4, "{found}, truth {truth}");
-        }
+    fn finds_the_coefficients_that_made_the_wheels() {
+        let truth = [[0.0024, 0.36, 0.012, 0.006, 0.012, 0.001], [-0.006, 0.40, 0.10, 0.008, 0.010, -0.007]];
+        let sinkage = [-1.3, 0.03, 0.02, 0.07];
+        let found = trend(&wheels(truth, Some(sinkage)), noise(1e-3, true));
+        // The regression never trusts a wheel further than the misfit of its regressors.
+        check(&found, truth, sinkage, [1e-3, 5e-3]);
     }
 
     #[test]
     fn wheels_that_tell_nothing_leave_the_mean_of_the_prior() {
-        let found = torque_coefficients(&trend(&wheels([0.0; TERMS]), noise(1e6)));
-        for (found, mean) in found.into_iter().zip(MEAN) {
-            assert!((found - mean).abs() < 1e-3 * MEAN[0], "{found}, mean {mean}");
+        let nothing = [[0.0; TERMS]; 2];
+        for sinkage in [false, true] {
+            let seen = sinkage.then_some([0.0; SINKAGE_TERMS]);
+            let found = trend(&wheels(nothing, seen), noise(1e6, sinkage));
+            check(&found, MEANS, MEAN_OF_SINKAGE, [1e-3 * MEANS[1][1], 1e-3]);
         }
     }
 
     #[test]
+    fn an_unseen_sinkage_is_what_the_resistance_lets_expect() {
+        // A soil whose wheels meet twice the resistance sinks in deeper; the features say 0 for the sinkage.
+        let twice = [MEANS[0].map(|coefficient| 2.0 * coefficient), MEANS[1]];
+        let [.., least, _, _, _, _, _, _] = trend(&wheels(MEANS, None), noise(0.1, false));
+        let [.., most, _, _, _, _, _, _] = trend(&wheels(twice, None), noise(0.1, false));
+        assert!((least - MEAN_OF_SINKAGE[0]).abs() < 0.01, "{least}");
+        assert!(most > least + 0.5, "{most}, {least}");
+    }
+
+    #[test]
     fn the_order_of_the_wheels_does_not_matter_and_one_wheel_is_enough() {
-        let mut wheels = wheels([0.4, 0.10, -0.008, -0.006, 0.010, -0.007]);
-        let first = trend(&wheels, noise(0.1));
+        let mut wheels = wheels(MEANS, Some(MEAN_OF_SINKAGE));
+        let first = trend(&wheels, noise(0.1, true));
         wheels.reverse();
-        let numbers = |trend: &Trend| joined::<TREND_FEATURES, 2>([trend.coefficients.as_flattened(), &trend.loads]);
-        for (there, back) in numbers(&first).into_iter().zip(numbers(&trend(&wheels, noise(0.1)))) {
+        for (there, back) in first.into_iter().zip(trend(&wheels, noise(0.1, true))) {
             assert!((there - back).abs() < 1e-4 * (1.0 + there.abs()), "{there}, {back}");
         }
-        assert!(numbers(&trend(&wheels[..1], noise(0.1))).iter().all(|value| value.is_finite()));
+        assert!(trend(&wheels[..1], noise(0.1, true)).iter().all(|value| value.is_finite()));
+    }
+
+    #[test]
+    fn noise_of_any_size_gives_finite_numbers() {
+        let wheels = wheels(MEANS, Some(MEAN_OF_SINKAGE));
+        for share in [1e-30, 1e-6, 1.0, 1e6, 1e12, 1e30] {
+            let sizes = [(share, 1.0), (1.0, share), (share, share)];
+            for (of_torque, of_others) in sizes {
+                let TrendNoise { torque, .. } = noise(of_torque, true);
+                let found = trend(&wheels, TrendNoise { torque, ..noise(of_others, true) });
+                assert!(found.iter().all(|value| value.is_finite()), "{of_torque:e}, {of_others:e}: {found:?}");
+            }
+        }
     }
 }

@@ -104,7 +104,7 @@ mod tests {
         let drive = |square: f64| {
             let mut drive = Drive::default();
             let estimate = Estimate { value: square.sqrt() as f32, std: 1.0 };
-            drive.errors.take_one(Quantity::BogiePull, estimate, [Some(1.0), None], 0.0);
+            drive.errors.take_one(Quantity::BogiePull, estimate, [Some(1.0), Some(1.0)], 0.0);
             drive
         };
         let drives = [1.0, 2.0, 3.0, 4.0].map(drive).to_vec();
