@@ -80,7 +80,7 @@ impl<S: Scalar> WalkRate<S> {
         self.last = measured;
         for trial in &mut self.trials {
             trial.filter.variance += factor * nominal_variance + known_variance;
-            trial.filter.mean = trial.filter.mean - moved;
+            trial.filter.mean -= moved;
             let (misfit, variance) = trial.filter.update(S::zero(), noise_variance);
             if renew {
                 let log = variance.ln();
