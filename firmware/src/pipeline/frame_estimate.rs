@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::estimator::{Estimate, WheelEstimate};
 use crate::fusion::RoverSoil;
-use crate::rover::{PerSide, PerWheel};
+use crate::rover::{PerAxle, PerSide, PerWheel};
 use crate::soil::{Refusal, SoilEstimate};
 
 /// Everything that is known after a frame.
@@ -20,4 +20,17 @@ pub struct FrameEstimate {
     pub wheel_soils: PerWheel<Result<SoilEstimate, Refusal>>,
     /// The soil under the rover.
     pub soil: Result<RoverSoil, Refusal>,
+}
+
+impl FrameEstimate {
+    /// That of a pipeline that has seen nothing yet.
+    pub fn nothing() -> Self {
+        Self {
+            time_us: 0,
+            wheels: PerWheel::default(),
+            bogie_drawbar_pull_n: PerSide::default(),
+            wheel_soils: PerSide::both(PerAxle::all(Err(Refusal::NotRolling))),
+            soil: Err(Refusal::NotRolling),
+        }
+    }
 }

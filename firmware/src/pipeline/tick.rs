@@ -3,9 +3,8 @@
 use super::FrameEstimate;
 use crate::estimator::{Estimate, EstimatorHealth, RoverEstimator, Taken};
 use crate::fusion::SoilOverTime;
-use crate::rover::{GeometryError, PerAxle, PerSide, PerWheel, Rover};
+use crate::rover::{GeometryError, Rover};
 use crate::sensor_frame::SensorFrame;
-use crate::soil::Refusal;
 
 /// The seed's chain, whole: sensor frames to wheel forces to soil.
 #[derive(Debug, Clone)]
@@ -24,7 +23,7 @@ impl Pipeline {
         rover.check()?;
         // A rover that passes has no number that a filter refuses.
         let estimator = RoverEstimator::new(rover).map_err(|_| GeometryError::Coordinate)?;
-        Ok(Self { estimator, soil: SoilOverTime::new(rover), last: nothing_yet() })
+        Ok(Self { estimator, soil: SoilOverTime::new(rover), last: FrameEstimate::nothing() })
     }
 
     /// Starts anew, for another rover, where this pipeline is: two do not fit on the stack.
@@ -35,7 +34,7 @@ impl Pipeline {
         rover.check()?;
         self.estimator.restart(rover).map_err(|_| GeometryError::Coordinate)?;
         self.soil = SoilOverTime::new(rover);
-        self.last = nothing_yet();
+        self.last = FrameEstimate::nothing();
         Ok(())
     }
 
@@ -66,16 +65,6 @@ impl Pipeline {
     /// How sensors and filters do.
     pub fn health(&self) -> &EstimatorHealth {
         self.estimator.health()
-    }
-}
-
-fn nothing_yet() -> FrameEstimate {
-    FrameEstimate {
-        time_us: 0,
-        wheels: PerWheel::default(),
-        bogie_drawbar_pull_n: PerSide::default(),
-        wheel_soils: PerSide::both(PerAxle::all(Err(Refusal::NotRolling))),
-        soil: Err(Refusal::NotRolling),
     }
 }
 

@@ -5,8 +5,7 @@ use std::io::Write;
 
 use kapvik_firmware::estimator::{Estimate, WheelActivity, WheelEstimate};
 use kapvik_firmware::pipeline::FrameEstimate;
-use kapvik_firmware::rover::{PerAxle, PerSide, PerWheel};
-use kapvik_firmware::soil::{ParameterEstimate, Refusal, SoilEstimate};
+use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use crate::data::number_stream::write_seconds;
 use crate::data::sensor_channels::WHEEL_NAMES;
@@ -33,7 +32,7 @@ impl<W: Write> EstimateWriter<W> {
     /// Those of `out`.
     pub fn new(out: W) -> std::io::Result<Self> {
         let mut writer = Self { out, line: Vec::new() };
-        writer.write_line(&nothing(), |line, name, _| write!(line, "{name}"))?;
+        writer.write_line(&FrameEstimate::nothing(), |line, name, _| write!(line, "{name}"))?;
         Ok(writer)
     }
 
@@ -77,17 +76,6 @@ impl Field {
             Self::Word(word) => write!(out, "{word}"),
             Self::Number(None) | Self::Flag(None) | Self::Count(None) => Ok(()),
         }
-    }
-}
-
-/// An estimate that says nothing: for the names of the columns.
-fn nothing() -> FrameEstimate {
-    FrameEstimate {
-        time_us: 0,
-        wheels: PerWheel::default(),
-        bogie_drawbar_pull_n: PerSide::default(),
-        wheel_soils: PerSide::both(PerAxle::all(Err(Refusal::NotRolling))),
-        soil: Err(Refusal::NotRolling),
     }
 }
 
@@ -187,7 +175,7 @@ mod tests {
 
     #[test]
     fn what_is_not_known_is_empty_and_numbers_read_back() {
-        let mut estimate = nothing();
+        let mut estimate = FrameEstimate::nothing();
         estimate.time_us = 12_000_007;
         let tenth = Estimate { value: 0.1, std: 1.0e-9 };
         estimate.wheels.left.front.slip = Some(tenth);
