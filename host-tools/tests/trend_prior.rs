@@ -1,5 +1,7 @@
 //! What the rover network's inputs take for known of the trend over the wheels, against soils drawn and fitted anew.
 
+use std::sync::LazyLock;
+
 use kapvik_firmware::soil::trend::{OFFSET, SINKAGE_TERMS, TERMS};
 use kapvik_firmware::soil::trend_prior::{Known, RESISTANCE, SINKAGE, TORQUE};
 use kapvik_firmware::wheel_state::WheelState;
@@ -58,7 +60,10 @@ fn coefficients(index: usize) -> Option<DVector<f64>> {
     Some(DVector::from_vec(all))
 }
 
-/// Mean and covariance of the drawn coefficients, of powers of u; each variance 0.3 % larger.
+/// What the drawn soils say, for all tests.
+static DISTRIBUTION: LazyLock<(DVector<f64>, DMatrix<f64>, f64)> = LazyLock::new(distribution);
+
+/// Mean and covariance of the drawn coefficients, of powers of u; each variance 0.3 % larger; and how many soils were drawn.
 fn distribution() -> (DVector<f64>, DMatrix<f64>, f64) {
     let fits: Vec<DVector<f64>> = (0..SOILS).filter_map(coefficients).collect();
     let count = fits.len() as f64;
@@ -89,7 +94,7 @@ fn columns<const N: usize, const M: usize>(rows: &[[f32; N]; M]) -> DMatrix<f64>
 
 /// Holds what is known of the channel behind `given` coefficients against the drawn distribution.
 fn check<const N: usize, const R: usize, const S: usize>(known: &Known<N, R, S>, name: &str, given: usize) {
-    let (mean, covariance, count) = distribution();
+    let (mean, covariance, count) = &*DISTRIBUTION;
     // On coordinates in which the drawn coefficients are standard normal precisions are unit matrices, and means zero, but
     // for the sampling errors of two sets of soils: at most √(2/N) each if they are near to normal. Six of both.
     let bound = 6.0 * libm::sqrt(4.0 / count);

@@ -12,7 +12,7 @@
 
 use super::runs::Runs;
 use super::slip_torque::TORQUE_DRIFT_NM;
-use super::trend::{Trends, restlessness};
+use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
@@ -290,7 +290,7 @@ impl<S: Scalar> HubForceFilter<S> {
     fn drifts(&self, travel_m: S) -> [S; MEASUREMENTS] {
         let drift = |nominal: f64, rate: &WalkRate<S>| {
             let factor = rate.factor();
-            let beside = S::one() - S::constant(1.0 - BESIDE_TREND) * restlessness(factor);
+            let beside = beside_trend(BESIDE_TREND, restlessness(factor));
             S::constant(nominal) * (travel_m * factor * beside).sqrt()
         };
         let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, rate));

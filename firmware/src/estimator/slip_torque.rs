@@ -3,7 +3,7 @@
 //! State: absolute rate ω, resistive torque T, slip s. J ω̇ = τ − T; T and s drift with travel. Measured are the encoder,
 //! with the rate of its link added, and the speed of the hub along its contact.
 
-use super::trend::{Trends, restlessness};
+use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::WalkRate;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
@@ -223,8 +223,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             None => S::constant(UNSEEN_TORQUE_NM),
         };
         let drift = |nominal: f64, factor: S, restless: S| {
-            let beside = S::one() - S::constant(1.0 - BESIDE_TREND) * restless;
-            S::constant(nominal * nominal) * travel_m * factor * beside
+            S::constant(nominal * nominal) * travel_m * factor * beside_trend(BESIDE_TREND, restless)
         };
         let [restless_torque, restless_slip] = restless;
         self.drift_variances =

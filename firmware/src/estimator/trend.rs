@@ -22,6 +22,12 @@ pub(super) fn restlessness<S: Scalar>(factor: S) -> S {
     factor / (factor + S::constant(RESTLESS))
 }
 
+/// What is left of a drift, as a variance, beside a trend that is followed: all of it where the quantity is still, `left` where it is
+/// as restless as can be.
+pub(super) fn beside_trend<S: Scalar>(left: f64, restless: S) -> S {
+    S::one() - S::constant(1.0 - left) * restless
+}
+
 /// The trends of `N` quantities.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Trends<S, const N: usize> {

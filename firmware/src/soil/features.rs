@@ -81,9 +81,11 @@ impl SoilQuery {
     /// The fifth input of each wheel in the rover network: unknown for all where it is not known of all.
     pub fn sinkage_inputs(&self) -> impl Iterator<Item = FifthInput> + '_ {
         let seen = self.wheels.iter().all(|state| state.sinkage_m.is_some());
-        self.wheels.iter().map(move |state| {
-            if seen { FifthInput::sinkage(&self.wheel, state, &self.noise) } else { FifthInput::UNKNOWN }
-        })
+        self.wheels.iter().map(move |state| self.sinkage_input(state, seen))
+    }
+
+    fn sinkage_input(&self, state: &WheelState, seen: bool) -> FifthInput {
+        if seen { FifthInput::sinkage(&self.wheel, state, &self.noise) } else { FifthInput::UNKNOWN }
     }
 
     /// The rover network's inputs: the shared ones, then those of each wheel.
@@ -94,9 +96,8 @@ impl SoilQuery {
         let mut wheels = Vec::new();
         let seen = fifth != FifthInput::UNKNOWN;
         for state in &self.wheels {
-            let fifth = if seen { FifthInput::sinkage(&self.wheel, state, &self.noise) } else { FifthInput::UNKNOWN };
             // Not `collect`: heapless panics where it overflows.
-            let _ = wheels.push(wheel_features(&self.wheel, state, fifth));
+            let _ = wheels.push(wheel_features(&self.wheel, state, self.sinkage_input(state, seen)));
         }
         let WheelNoise { drawbar_pull_n, load_n, torque_nm, slip, .. } = self.noise;
         let share = 1.0 / mean_load_n;

@@ -33,24 +33,19 @@ impl Settled {
     /// that of the moved readings, and the fit says where their middle lies.
     pub fn apart_from_residuals(&self, rows: &[Row], fitted: &[Latent]) -> Vec<Latent> {
         let mut latents = fitted.to_vec();
-        let shift = |group: &[usize], reading: Reading, of: fn(&Latent) -> f64| {
-            let moved = group.iter().filter_map(|row| Some(of(&fitted[*row]) - rows[*row].readings[reading.index()]?));
-            moved.sum::<f64>() / group.len() as f64
+        let mut move_all = |groups: &[Vec<usize>], reading: Reading, of: fn(&mut Latent) -> &mut f64| {
+            for group in groups {
+                let read = |row: &usize| Some((*row, rows[*row].readings[reading.index()]?));
+                let known: Vec<(usize, f64)> = group.iter().filter_map(read).collect();
+                let shifts = known.iter().map(|(row, value)| *of(&mut latents[*row]) - value);
+                let shift = shifts.sum::<f64>() / group.len() as f64;
+                for (row, value) in known {
+                    *of(&mut latents[row]) = value + shift;
+                }
+            }
         };
-        for group in &self.slips {
-            let shift = shift(group, Reading::Slip, |latent| latent.slip);
-            for row in group {
-                latents[*row].slip =
-                    rows[*row].readings[Reading::Slip.index()].map_or(fitted[*row].slip, |s| s + shift);
-            }
-        }
-        for group in &self.loads {
-            let shift = shift(group, Reading::Load, |latent| latent.load_n);
-            for row in group {
-                latents[*row].load_n =
-                    rows[*row].readings[Reading::Load.index()].map_or(fitted[*row].load_n, |load_n| load_n + shift);
-            }
-        }
+        move_all(&self.slips, Reading::Slip, |latent| &mut latent.slip);
+        move_all(&self.loads, Reading::Load, |latent| &mut latent.load_n);
         latents
     }
 }

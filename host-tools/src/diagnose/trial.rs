@@ -54,6 +54,9 @@ pub struct Held {
     pub options: Options,
 }
 
+/// A model that is yet to be fitted, and its effects.
+type Extended<'a> = (Specification, CampaignModel<'a>);
+
 /// A campaign as every trial sees it.
 #[derive(Debug, Clone)]
 pub struct Bench<'a> {
@@ -101,13 +104,12 @@ impl<'a> Bench<'a> {
     pub fn with_effect(&self, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
         let extended = self.extended(base, effect);
         let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &self.options);
-        better(self.with_effect_near(base, effect), afresh)
+        better(self.near(base, &extended, &self.measurements.rows, &self.options), afresh)
     }
 
     /// A model with one more effect, from the fit of that without.
     pub fn with_effect_near(&self, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
-        let extended = self.extended(base, effect);
-        self.fitted(&extended, &base.start_of(&extended.1), &self.measurements.rows, &self.options)
+        self.near(base, &self.extended(base, effect), &self.measurements.rows, &self.options)
     }
 
     /// A short look at a model with one more effect: a few steps as of [`Bench::glance_near`], and from a soil as it is expected
@@ -116,7 +118,7 @@ impl<'a> Bench<'a> {
         let extended = self.extended(base, effect);
         let options = Options { most_iterations: AFRESH, ..self.options.clone() };
         let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &options);
-        match (self.glance_near(held, base, effect), afresh) {
+        match (self.few_steps(held, base, &extended), afresh) {
             (Some(near), Some(afresh)) if near.log_posterior() > afresh.log_posterior() => {
                 Some(Glance { better: near, other: Some(afresh) })
             }
@@ -134,12 +136,19 @@ impl<'a> Bench<'a> {
 
     /// A few steps from the model without the effect, with the scales of noise and offsets that this one has.
     pub fn glance_near(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Trial<'a>> {
-        let extended = self.extended(base, effect);
-        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
-        self.fitted(&extended, &base.start_of(&extended.1), &held.rows, &options)
+        self.few_steps(held, base, &self.extended(base, effect))
     }
 
-    fn extended(&self, base: &Trial<'a>, effect: &EffectForm) -> (Specification, CampaignModel<'a>) {
+    fn few_steps(&self, held: &Held, base: &Trial<'a>, extended: &Extended<'a>) -> Option<Trial<'a>> {
+        let options = Options { most_iterations: GLANCE, ..held.options.clone() };
+        self.near(base, extended, &held.rows, &options)
+    }
+
+    fn near(&self, base: &Trial<'a>, extended: &Extended<'a>, rows: &[Row], options: &Options) -> Option<Trial<'a>> {
+        self.fitted(extended, &base.start_of(&extended.1), rows, options)
+    }
+
+    fn extended(&self, base: &Trial<'a>, effect: &EffectForm) -> Extended<'a> {
         let specification = base.specification.with(effect.clone());
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
         (specification, model)
@@ -155,7 +164,7 @@ impl<'a> Bench<'a> {
 
     fn fitted(
         &self,
-        (specification, model): &(Specification, CampaignModel<'a>),
+        (specification, model): &Extended<'a>,
         start: &Start,
         rows: &[Row],
         options: &Options,
