@@ -42,8 +42,9 @@ const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
-/// Frames in which a wheel that has started may still dig in: until its drive has come to its speed.
-const DIGGING_IN: u8 = 13;
+/// Frames in which a wheel that has started may still dig in: until its drive has come to its speed, and some
+/// centimetre beyond. Loads shift from wheel to wheel; what that turns the hubs' paths by is half as much after each centimetre.
+const DIGGING_IN: u8 = 16;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
