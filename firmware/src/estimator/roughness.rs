@@ -1,7 +1,7 @@
 //! How rough the ground is, and so how fast the contact angles of a side may wander.
 
 use super::contact_angle::SideReadings;
-use super::walk_rate::WalkRate;
+use super::walk_rate::{Noise, WalkRate};
 use crate::rover::{Planar, SensorNoise};
 use crate::scalar::Scalar;
 
@@ -101,25 +101,14 @@ impl<S: Scalar> Roughness<S> {
         // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
         let turned = noise.gyro_rad_s * step_s;
         let moved = S::constant(2.0) * turned * turned;
-        match pitch {
-            Some(pitch) => self.rocker.see_moved(pitch, variance, nominal(LINK_DRIFT), moved),
-            None => self.rocker.miss(nominal(LINK_DRIFT)),
-        }
-        match (pitch, readings.bogie_angle_rad) {
-            (Some(pitch), Some(bogie)) => {
-                self.bogie.see_moved(pitch + bogie, variance + variance, nominal(LINK_DRIFT), moved);
-            }
-            _ => self.bogie.miss(nominal(LINK_DRIFT)),
-        }
-        if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
-            let velocity = Planar { x, z }.turned(body_pitch);
-            let std = readings.velocity_std_m_s.z / speed.abs();
-            self.ratio.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
-            self.direction.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
-        } else {
-            self.ratio.miss(nominal(RATIO_DRIFT));
-            self.direction.miss(nominal(ANGLE_DRIFT));
-        }
+        self.rocker.take(pitch, Noise { variance, moved }, nominal(LINK_DRIFT));
+        let bogie = pitch.zip(readings.bogie_angle_rad).map(|(pitch, bogie)| pitch + bogie);
+        self.bogie.take(bogie, Noise { variance: variance + variance, moved }, nominal(LINK_DRIFT));
+        let Planar { x, z } = readings.axis_velocity_m_s;
+        let velocity = x.zip(z).map(|(x, z)| Planar { x, z }.turned(body_pitch));
+        let noise = Noise::white(readings.velocity_std_m_s.z / speed);
+        self.ratio.take(velocity.map(|velocity| velocity.x / speed), noise, nominal(RATIO_DRIFT));
+        self.direction.take(velocity.map(|velocity| velocity.z / speed), noise, nominal(ANGLE_DRIFT));
     }
 }
 
