@@ -109,7 +109,7 @@ const STARTING_SLIP: [f64; 2] = [0.2, 0.4];
 pub(super) struct SlipTorqueFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
     model: SlipTorqueModel<S>,
-    /// Slip that goes with a torque, 1/(N·m).
+    /// Slip that goes with a torque where the wheel rolls forward, 1/(N·m).
     slip_per_torque: S,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
@@ -221,7 +221,9 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         ];
         self.trends.expect(restless);
         let [torque_trend, slip_trend] = self.trends.per_m();
-        let shared = self.slip_per_torque;
+        let [rate, ..] = *self.filter.estimate().mean();
+        // A wheel that drives backward slips more as its torque falls.
+        let shared = if rate < S::zero() { -self.slip_per_torque } else { self.slip_per_torque };
         let process = |state: &[S; STATES]| {
             let [rate, torque, slip] = *state;
             let [acceleration, ..] = model.rates(state);
