@@ -9,7 +9,7 @@
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, Prediction, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
 
@@ -242,8 +242,10 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             [drift(TORQUE_DRIFT_NM, torque_factor, restless_torque), drift(SLIP_DRIFT, slip_factor, restless_slip)];
         let [torque, slip] = self.drift_variances.map(S::sqrt);
         let noise = [step_s * torque_std * self.model.inverse_inertia, torque, S::constant(SLIP_BY_ITSELF) * slip];
-        let _ = self.filter.predict(process, &noise);
-        self.filter.shear(1, 2, shared);
+        // Where it is not done the mean has stayed, slip and all.
+        if self.filter.predict(process, &noise) == Prediction::Done {
+            self.filter.shear(1, 2, shared);
+        }
     }
 
     fn follow_trends(&mut self, travel_m: S, before: [S; 2]) {
@@ -285,5 +287,43 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let kept = S::one() - gain * slope;
         let taken = gain * readings.shared_speed_std_m_s;
         self.shared_slip_variance = (kept * kept * self.shared_slip_variance + taken * taken).min(slip_variance);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Rover, SlipTorqueFilter, WheelReadings};
+
+    /// A wheel at slip 0.2 whose torque grows from 1.5 to 1.8 N·m, while no camera sees it: by how much it is taken to slip more.
+    fn slips_more(direction: f64) -> f64 {
+        let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0).expect("a rover");
+        let slip_after = |filter: &mut SlipTorqueFilter<f64>, torque: f64, seen: bool| {
+            let readings = WheelReadings {
+                rate_rad_s: Some(direction * 0.3),
+                rate_std_rad_s: 0.002,
+                hub_speed_m_s: seen.then_some(direction * 0.8 * 0.3 * 0.075),
+                hub_speed_std_m_s: 5.0e-4,
+                shared_speed_std_m_s: 5.0e-4,
+                roughness: 0.0,
+                motor_torque_nm: Some(direction * torque),
+                motor_torque_std_nm: 0.05,
+            };
+            filter.tick(0.1, 1.8e-3, &readings);
+            let [_, _, slip] = *filter.estimate().mean();
+            slip
+        };
+        let before = (0..100).map(|_| slip_after(&mut filter, 1.5, true)).last().expect("slips");
+        let after =
+            (0..60).map(|frame| slip_after(&mut filter, 1.5 + 0.005 * f64::from(frame), false)).last().expect("slips");
+        assert!((before - 0.2).abs() < 1.0e-3, "{before}");
+        after - before
+    }
+
+    /// A torque that grows by a tenth of load times radius or so is a slip that grows by some hundredths, whichever way the wheel drives.
+    #[test]
+    fn a_torque_that_grows_takes_the_slip_along() {
+        let (forward, backward) = (slips_more(1.0), slips_more(-1.0));
+        assert!(forward > 0.03 && forward < 0.09, "{forward}");
+        assert!((forward - backward).abs() < 1.0e-6, "{forward} {backward}");
     }
 }

@@ -15,7 +15,7 @@ pub struct EstimatorArguments {
     /// Drives of each scenario
     #[arg(long, default_value_t = 20)]
     drives: u64,
-    /// Seed of the first drive; development has used those below 1000
+    /// Seed of the first drive; development has used those below 1000 and from 3000 on
     #[arg(long, default_value_t = 1000)]
     seed: u64,
     /// Scenarios; without: those that the README reports

@@ -60,7 +60,8 @@ impl Trial {
 
     /// Mean of normalised squares over their degrees of freedom, in the order of [`Self::squares`], with one standard error.
     pub fn mean_squares(&self) -> [(f64, f64); 5] {
-        let totals: Vec<[Sum; 5]> = self.drives.iter().map(|drive| parts(drive).map(NormalisedSquares::total)).collect();
+        let totals: Vec<[Sum; 5]> =
+            self.drives.iter().map(|drive| parts(drive).map(NormalisedSquares::total)).collect();
         [0, 1, 2, 3, 4].map(|part| {
             jackknife(totals.len(), |left_out| {
                 let others = totals.iter().enumerate().filter(|(place, _)| Some(*place) != left_out);
