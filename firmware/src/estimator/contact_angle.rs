@@ -78,7 +78,7 @@ pub(super) struct SideReadings<S> {
     pub rocker_angle_rad: Option<S>,
     /// The bogie against the rocker, rad.
     pub bogie_angle_rad: Option<S>,
-    /// How far the innovations of the side's forces come in runs: mean square over what it is by chance.
+    /// How far the innovations of the side's forces come in runs, above chance.
     pub runs_of_forces: S,
 }
 
@@ -99,7 +99,9 @@ const LOST: f64 = 1.5;
 /// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
 /// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
 const FRONT_FROM_FORCES: f64 = 0.15;
-const RUN_OF_FORCES: f64 = 3.2;
+/// Runs up to these are taken for chance, of the forces and of how the side moves: in white noise hardly one frame in fifty has more.
+pub(super) const RUN_OF_FORCES: f64 = 2.8;
+const RUN: f64 = 3.5;
 /// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
 const BESIDE_TREND: f64 = 0.5;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
@@ -335,7 +337,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let model = self.model;
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
-        let factor = self.roughness.of_angles(bogie - rocker, self.runs.over_chance());
+        let factor = self.roughness.of_angles(bogie - rocker, self.runs.above(RUN));
         let restless = restlessness(factor);
         self.trends.expect([restless; 3]);
         let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
@@ -357,7 +359,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
         let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
         self.drift_variance = nominal * factor * beside_trend(BESIDE_TREND, restless);
-        let met = S::constant(FRONT_FROM_FORCES) * (runs_of_forces - S::constant(RUN_OF_FORCES)).max(S::zero());
+        let met = S::constant(FRONT_FROM_FORCES) * runs_of_forces;
         let (front, others) = ((self.drift_variance + nominal * met).sqrt(), self.drift_variance.sqrt());
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
         let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];

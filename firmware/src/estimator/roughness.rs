@@ -19,10 +19,8 @@ const ANGLE_FROM_WANDERING: f64 = 0.1;
 const BEND_LENGTH: f64 = 0.44;
 /// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
 const BEND_BY_SINKING: f64 = 0.02;
-/// What is added to that for each unit by which runs of innovations are above [`RUN`].
+/// What is added to that for each unit by which runs of innovations are above chance.
 const ANGLE_FROM_RUNS: f64 = 0.1;
-/// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
-const RUN: f64 = 4.0;
 
 /// How fast what is measured of a side's motion wanders.
 #[derive(Debug, Clone)]
@@ -88,7 +86,7 @@ impl<S: Scalar> Roughness<S> {
         let bend = (bend_rad.abs() - S::constant(BEND_BY_SINKING)).max(zero);
         bend * bend * S::constant(1.0 / (BEND_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT))
             + steeper
-            + S::constant(ANGLE_FROM_RUNS) * (runs - S::constant(RUN)).max(zero)
+            + S::constant(ANGLE_FROM_RUNS) * runs
     }
 
     /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.

@@ -174,7 +174,7 @@ impl<S: Scalar> SideEstimator<S> {
             velocity_std_m_s: Planar { x: joint(yaw_std), z: joint(roll_std) },
             rocker_angle_rad: frame.rocker_angle_rad,
             bogie_angle_rad: frame.bogie_angle_rad,
-            runs_of_forces: self.forces.runs().over_chance(),
+            runs_of_forces: self.forces.runs().above(contact_angle::RUN_OF_FORCES),
         }
     }
 
