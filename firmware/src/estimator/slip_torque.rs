@@ -308,7 +308,7 @@ mod tests {
                 motor_torque_nm: Some(direction * torque),
                 motor_torque_std_nm: 0.05,
             };
-            filter.tick(0.1, 1.8e-3, &readings);
+            let _ = filter.tick(0.1, 1.8e-3, &readings);
             let [_, _, slip] = *filter.estimate().mean();
             slip
         };
