@@ -99,9 +99,9 @@ const LOST: f64 = 1.5;
 /// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
 /// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
 const FRONT_FROM_FORCES: f64 = 0.15;
-/// Runs up to these are taken for chance, of the forces and of how the side moves: in white noise hardly one frame in fifty has more.
-pub(super) const RUN_OF_FORCES: f64 = 2.8;
-const RUN: f64 = 3.5;
+/// Runs up to these are taken for chance, of the forces and of how the side moves: in white noise one frame in forty has more.
+pub(super) const RUN_OF_FORCES: f64 = 2.5;
+const RUN: f64 = 3.2;
 /// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
 const BESIDE_TREND: f64 = 0.5;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
