@@ -10,7 +10,7 @@
 use super::attitude::Attitude;
 use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness};
 use super::runs::Runs;
-use super::trend::{Trends, restlessness};
+use super::trend::{Trends, beside_trend, restlessness};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
@@ -78,7 +78,7 @@ pub(super) struct SideReadings<S> {
     pub rocker_angle_rad: Option<S>,
     /// The bogie against the rocker, rad.
     pub bogie_angle_rad: Option<S>,
-    /// How far the innovations of the side's forces come in runs: mean square over what it is by chance.
+    /// How far the innovations of the side's forces come in runs, above chance.
     pub runs_of_forces: S,
 }
 
@@ -88,17 +88,21 @@ const UNKNOWN_RATIO: f64 = 0.3;
 const UNKNOWN_ANGLE: f64 = 0.2;
 /// The part of that which is added where the state has moved faster than it drifts.
 const LOOSENED: f64 = 0.2;
-/// One standard deviation by which the path of a hub may turn against the terrain in a frame while its wheel digs in, rad.
-const DUG_IN: f64 = 0.02;
+/// One standard deviation by which the path of a hub may turn against the terrain in a frame while its wheel digs in, rad; and of
+/// what is left of that when it has: the filter took for terrain what was sinking.
+const DIGS_IN: f64 = 0.02;
+const DUG_IN: f64 = 0.1;
 /// A contact angle farther from the pitch of its link is given up, rad; and one whose variance is this many times that of one that
 /// is not known at all: over so wide a spread the model bends so much that no measurement would narrow it.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
 const LOST: f64 = 1.5;
 /// What runs of the forces add to the drift of the front wheel's angle alone, for each unit above what is taken for chance: a wheel that
 /// meets a rock is felt by cells and drives some frames before links and velocity have moved; the others follow where it was.
-const FRONT_FROM_FORCES: f64 = 0.3;
-const RUN_OF_FORCES: f64 = 3.2;
-/// What a trend that is known leaves of the drift, as a variance.
+const FRONT_FROM_FORCES: f64 = 0.15;
+/// Runs up to these are taken for chance, of the forces and of how the side moves: in white noise one frame in forty has more.
+pub(super) const RUN_OF_FORCES: f64 = 2.5;
+const RUN: f64 = 3.2;
+/// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
 const BESIDE_TREND: f64 = 0.5;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
 const LEARNED: f64 = 0.25;
@@ -218,19 +222,23 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     /// A wheel stands or has just started: it digs in, in a way that no load tells, and its hub's path is not the terrain's slope.
     pub fn unsettle(&mut self) {
+        self.loosen_angles(DIGS_IN);
+    }
+
+    /// The wheels have dug in: how the links moved meanwhile tells nothing of the terrain, nor of how rough it is.
+    pub fn settle(&mut self) {
+        self.loosen_angles(DUG_IN);
+        self.roughness.restart();
+    }
+
+    fn loosen_angles(&mut self, std: f64) {
         self.trends.forget();
         let [_, front, middle, rear, ..] = self.filter.estimate().variances();
         // However long it stands, an angle does not become less known than one of which nothing is known.
         let unknown = S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE);
         let zero = S::zero();
-        let angle = |variance: S| if variance < unknown { S::constant(DUG_IN) } else { zero };
+        let angle = |variance: S| if variance < unknown { S::constant(std) } else { zero };
         let _ = self.filter.random_walk(&[zero, angle(front), angle(middle), angle(rear), zero, zero, zero]);
-    }
-
-    /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the ground is.
-    pub fn settle(&mut self) {
-        self.trends.forget();
-        self.roughness.restart();
     }
 
     /// How often the filter fell back to its floor.
@@ -329,8 +337,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let model = self.model;
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
-        let factor = self.roughness.of_angles(bogie - rocker, self.runs.over_chance());
-        self.trends.expect([restlessness(factor); 3]);
+        let factor = self.roughness.of_angles(bogie - rocker, self.runs.above(RUN));
+        let restless = restlessness(factor);
+        self.trends.expect([restless; 3]);
         let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
             let [ratio, front, middle, rear, links_and_body @ ..] = *state;
@@ -348,9 +357,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         };
         let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
         let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
-        let nominal = S::constant(BESIDE_TREND * ANGLE_DRIFT * ANGLE_DRIFT) * travel;
-        self.drift_variance = nominal * factor;
-        let met = S::constant(FRONT_FROM_FORCES) * (runs_of_forces - S::constant(RUN_OF_FORCES)).max(S::zero());
+        let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
+        self.drift_variance = nominal * factor * beside_trend(BESIDE_TREND, restless);
+        let met = S::constant(FRONT_FROM_FORCES) * runs_of_forces;
         let (front, others) = ((self.drift_variance + nominal * met).sqrt(), self.drift_variance.sqrt());
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
         let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];

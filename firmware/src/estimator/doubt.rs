@@ -23,7 +23,7 @@ const SLIP_BY_FORCES: f64 = 0.3;
 /// Of the forces on the hubs, and of the torques.
 const FORCE: f64 = 0.78;
 const FORCE_BY_FORCES: f64 = 0.38;
-const TORQUE: f64 = 0.8;
+const TORQUE: f64 = 0.87;
 const TORQUE_BY_FORCES: f64 = 0.14;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
 const ANGLE_LAG: f64 = 0.014;

@@ -13,7 +13,7 @@
 use super::runs::Runs;
 use super::slip_torque::TORQUE_DRIFT_NM;
 use super::trend::{Trends, beside_trend, restlessness};
-use super::walk_rate::WalkRate;
+use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, Rover, Suspension};
@@ -318,25 +318,17 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// Learns how fast the cells' forces and the moments wander. Where a stop holds the bogie the moments are not the soil's.
     fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, held: bool) {
-        let square = |value: S| value * value;
         let nominal = |drift: f64| S::constant(drift * drift) * travel_m;
         let of_cell = nominal(CELL_DRIFT_N);
         for (rate, cell) in self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array()) {
-            match cell {
-                Some(force) => rate.see(*force, square(readings.cell_std_n), of_cell),
-                None => rate.miss(of_cell),
-            }
+            rate.take(*cell, Noise::white(readings.cell_std_n), of_cell);
         }
         let moments = [
             (&mut self.bogie_rate, readings.bogie_moment_nm, nominal(BOGIE_DRIFT_NM)),
             (&mut self.rocker_rate, readings.rocker_moment_nm, nominal(ROCKER_DRIFT_NM)),
         ];
         for (rate, (moment, std), nominal) in moments {
-            if held {
-                rate.miss(nominal);
-            } else {
-                rate.see(moment, square(std), nominal);
-            }
+            rate.take(Some(moment).filter(|_| !held), Noise::white(std), nominal);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! How rough the ground is, and so how fast the contact angles of a side may wander.
 
 use super::contact_angle::SideReadings;
-use super::walk_rate::WalkRate;
+use super::walk_rate::{Noise, WalkRate};
 use crate::rover::{Planar, SensorNoise};
 use crate::scalar::Scalar;
 
@@ -19,10 +19,8 @@ const ANGLE_FROM_WANDERING: f64 = 0.1;
 const BEND_LENGTH: f64 = 0.44;
 /// Bends up to this may be wheels that sink unalike on plane ground, rad: 7 mm over a bogie.
 const BEND_BY_SINKING: f64 = 0.02;
-/// What is added to that for each unit by which runs of innovations are above [`RUN`].
+/// What is added to that for each unit by which runs of innovations are above chance.
 const ANGLE_FROM_RUNS: f64 = 0.1;
-/// Runs of innovations up to this are taken for chance: in white noise hardly one frame in a hundred has more.
-const RUN: f64 = 4.0;
 
 /// How fast what is measured of a side's motion wanders.
 #[derive(Debug, Clone)]
@@ -88,7 +86,7 @@ impl<S: Scalar> Roughness<S> {
         let bend = (bend_rad.abs() - S::constant(BEND_BY_SINKING)).max(zero);
         bend * bend * S::constant(1.0 / (BEND_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT))
             + steeper
-            + S::constant(ANGLE_FROM_RUNS) * (runs - S::constant(RUN)).max(zero)
+            + S::constant(ANGLE_FROM_RUNS) * runs
     }
 
     /// Learns how fast the ratio and the direction of travel wander, from the velocity, and how fast the links' pitches do.
@@ -101,25 +99,14 @@ impl<S: Scalar> Roughness<S> {
         // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
         let turned = noise.gyro_rad_s * step_s;
         let moved = S::constant(2.0) * turned * turned;
-        match pitch {
-            Some(pitch) => self.rocker.see_moved(pitch, variance, nominal(LINK_DRIFT), moved),
-            None => self.rocker.miss(nominal(LINK_DRIFT)),
-        }
-        match (pitch, readings.bogie_angle_rad) {
-            (Some(pitch), Some(bogie)) => {
-                self.bogie.see_moved(pitch + bogie, variance + variance, nominal(LINK_DRIFT), moved);
-            }
-            _ => self.bogie.miss(nominal(LINK_DRIFT)),
-        }
-        if let Planar { x: Some(x), z: Some(z) } = readings.axis_velocity_m_s {
-            let velocity = Planar { x, z }.turned(body_pitch);
-            let std = readings.velocity_std_m_s.z / speed.abs();
-            self.ratio.see(velocity.x / speed, std * std, nominal(RATIO_DRIFT));
-            self.direction.see(velocity.z / speed, std * std, nominal(ANGLE_DRIFT));
-        } else {
-            self.ratio.miss(nominal(RATIO_DRIFT));
-            self.direction.miss(nominal(ANGLE_DRIFT));
-        }
+        self.rocker.take(pitch, Noise { variance, moved }, nominal(LINK_DRIFT));
+        let bogie = pitch.zip(readings.bogie_angle_rad).map(|(pitch, bogie)| pitch + bogie);
+        self.bogie.take(bogie, Noise { variance: variance + variance, moved }, nominal(LINK_DRIFT));
+        let Planar { x, z } = readings.axis_velocity_m_s;
+        let velocity = x.zip(z).map(|(x, z)| Planar { x, z }.turned(body_pitch));
+        let noise = Noise::white(readings.velocity_std_m_s.z / speed);
+        self.ratio.take(velocity.map(|velocity| velocity.x / speed), noise, nominal(RATIO_DRIFT));
+        self.direction.take(velocity.map(|velocity| velocity.z / speed), noise, nominal(ANGLE_DRIFT));
     }
 }
 

@@ -40,6 +40,13 @@ impl<S: Scalar, const N: usize> Runs<S, N> {
         (self.over_chance() - S::one()).max(S::zero())
     }
 
+    /// By how much [`Self::over_chance`] is above a level that chance hardly reaches: nothing at first, all but two in the end. What
+    /// has just passed the level is told by the last digits of single precision, and may not weigh yet.
+    pub fn above(&self, level: f64) -> S {
+        let above = (self.over_chance() - S::constant(level)).max(S::zero());
+        above * above / (above + S::constant(2.0))
+    }
+
     /// Mean of the squared means over what they are by chance: one, give or take, where innovations are white.
     pub fn over_chance(&self) -> S {
         let sum = self.means.iter().fold(S::zero(), |sum, mean| sum + *mean * *mean);
@@ -78,6 +85,8 @@ mod tests {
         runs.take(&told(1.0e6), 1);
         let once = runs.over_chance();
         assert!(once < 4.0, "{once}");
+        assert_eq!(runs.above(once + 0.1), 0.0);
+        assert!((runs.above(once - 2.0) - 1.0).abs() < 1.0e-12);
         runs.take(&Innovation::<f64, 2>::nothing(), 1);
         assert_eq!(runs.over_chance(), once);
     }

@@ -42,8 +42,9 @@ const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
-/// Frames in which a wheel that has started may still dig in: until its drive has come to its speed.
-const DIGGING_IN: u8 = 13;
+/// Frames in which a wheel that has started may still dig in: until its drive has come to its speed, and some
+/// centimetre beyond. Loads shift from wheel to wheel; what that turns the hubs' paths by is half as much after each centimetre.
+const DIGGING_IN: u8 = 16;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
@@ -173,7 +174,7 @@ impl<S: Scalar> SideEstimator<S> {
             velocity_std_m_s: Planar { x: joint(yaw_std), z: joint(roll_std) },
             rocker_angle_rad: frame.rocker_angle_rad,
             bogie_angle_rad: frame.bogie_angle_rad,
-            runs_of_forces: self.forces.runs().over_chance(),
+            runs_of_forces: self.forces.runs().above(contact_angle::RUN_OF_FORCES),
         }
     }
 

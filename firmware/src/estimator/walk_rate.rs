@@ -31,6 +31,22 @@ pub(super) struct WalkRate<S> {
     frame: usize,
 }
 
+/// Noise of a measurement, as variances.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Noise<S> {
+    /// Of the measurement.
+    pub variance: S,
+    /// Of what the sensor itself has wandered by since the measurement before.
+    pub moved: S,
+}
+
+impl<S: Scalar> Noise<S> {
+    /// That of a sensor that stays what it is.
+    pub fn white(std: S) -> Self {
+        Self { variance: std * std, moved: S::zero() }
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 struct Trial<S> {
     /// Of the quantity less what was measured last: in a quantity itself single precision would round off what a slow candidate
@@ -63,14 +79,16 @@ impl<S: Scalar> WalkRate<S> {
         Self { memory: S::constant(memory), ..self }
     }
 
-    /// Takes a measurement with noise of this variance, where the nominal walk since the one before has `nominal_variance`.
-    pub fn see(&mut self, measured: S, noise_variance: S, nominal_variance: S) {
-        self.see_moved(measured, noise_variance, nominal_variance, S::zero());
+    /// Takes a measurement, or that there is none, where the nominal walk since the one before has `nominal_variance`.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn take(&mut self, measured: Option<S>, noise: Noise<S>, nominal_variance: S) {
+        match measured {
+            Some(measured) => self.see(measured, noise, nominal_variance),
+            None => self.miss(nominal_variance),
+        }
     }
 
-    /// The same of a sensor that itself has wandered since the measurement before, with `known_variance`.
-    #[inline(never)] // flash is scarcer than the time of a call
-    pub fn see_moved(&mut self, measured: S, noise_variance: S, nominal_variance: S, known_variance: S) {
+    fn see(&mut self, measured: S, noise: Noise<S>, nominal_variance: S) {
         self.frame = self.frame.wrapping_add(1);
         let renew = self.frame.is_multiple_of(CANDIDATES);
         let mut factor = S::constant(LEAST);
@@ -79,9 +97,9 @@ impl<S: Scalar> WalkRate<S> {
         let moved = measured - self.last;
         self.last = measured;
         for trial in &mut self.trials {
-            trial.filter.variance += factor * nominal_variance + known_variance;
+            trial.filter.variance += factor * nominal_variance + noise.moved;
             trial.filter.mean -= moved;
-            let (misfit, variance) = trial.filter.update(S::zero(), noise_variance);
+            let (misfit, variance) = trial.filter.update(S::zero(), noise.variance);
             if renew {
                 let log = variance.ln();
                 trial.log_variance = log - *first_log.get_or_insert(log);
@@ -98,8 +116,7 @@ impl<S: Scalar> WalkRate<S> {
     }
 
     /// Lets the quantity wander unseen: nothing tells then that it wanders less than nominally.
-    #[inline(never)] // as above
-    pub fn miss(&mut self, nominal_variance: S) {
+    fn miss(&mut self, nominal_variance: S) {
         let mut factor = S::constant(LEAST);
         for trial in &mut self.trials {
             trial.filter.variance += factor * nominal_variance;
@@ -136,7 +153,7 @@ impl<S: Scalar> WalkRate<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::WalkRate;
+    use super::{Noise, WalkRate};
 
     /// A noise-free staircase of a known rate, and a constant, both with alternating measurement errors.
     #[test]
@@ -146,7 +163,7 @@ mod tests {
             for frame in 0..200_u32 {
                 let error = if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
                 let place = wander * f64::from(frame / 10 % 2);
-                rate.see(place + error, 0.01, 0.01);
+                rate.take(Some(place + error), Noise::white(0.1), 0.01);
             }
             rate.factor()
         };
@@ -160,9 +177,9 @@ mod tests {
     fn smooth_ground_does_not_argue_for_long() {
         let mut rate = WalkRate::<f64>::new(0);
         let noise = |frame: u32| if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
-        (0..400).for_each(|frame| rate.see(noise(frame), 0.01, 0.01));
+        (0..400).for_each(|frame| rate.take(Some(noise(frame)), Noise::white(0.1), 0.01));
         assert!(rate.factor() < 1.0e-2, "{}", rate.factor());
-        (0..10).for_each(|frame| rate.see(0.3 * f64::from(frame) + noise(frame), 0.01, 0.01));
+        (0..10).for_each(|frame| rate.take(Some(0.3 * f64::from(frame) + noise(frame)), Noise::white(0.1), 0.01));
         assert!(rate.factor() > 0.5, "{}", rate.factor());
     }
 }

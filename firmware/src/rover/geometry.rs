@@ -123,8 +123,10 @@ impl<S: Scalar> Rover<S> {
 impl<S: Scalar> Suspension<S> {
     fn is_finite(&self) -> bool {
         let planar = [self.front_hub, self.bogie_pivot, self.middle_hub, self.rear_hub];
-        planar.iter().all(|point| point.x.is_finite() && point.z.is_finite())
-            && self.centre_of_mass.as_array().into_iter().all(|coordinate| coordinate.is_finite())
+        let Axes { x, y, z } = self.centre_of_mass;
+        // Without their signs, so that no infinity hides behind another.
+        let sum = planar.iter().fold(x.abs() + y.abs() + z.abs(), |sum, point| sum + point.x.abs() + point.z.abs());
+        sum.is_finite()
     }
 
     fn hubs_are_in_order(&self, gap: S) -> bool {
@@ -187,6 +189,7 @@ mod tests {
         assert_eq!(with(|rover| rover.mass_kg = -41.0), Err(GeometryError::Weight));
         assert_eq!(with(|rover| rover.wheel.radius_m = f64::NAN), Err(GeometryError::Wheel));
         assert_eq!(with(|rover| rover.suspension.half_track_m = 0.0), Err(GeometryError::Coordinate));
+        assert_eq!(with(|rover| rover.suspension.rear_hub.z = f64::NEG_INFINITY), Err(GeometryError::Coordinate));
         assert_eq!(with(|rover| rover.suspension.front_hub.x = -0.1), Err(GeometryError::HubOrder));
         assert_eq!(with(|rover| rover.suspension.rear_hub.x = 0.1), Err(GeometryError::BogiePivot));
         assert_eq!(with(|rover| rover.suspension.middle_hub.z = 0.0), Err(GeometryError::LeverArm));

@@ -48,7 +48,7 @@ impl<S: Scalar> SensorNoise<S> {
             self.gyro_rad_s,
             self.velocity_m_s,
         ];
-        all.iter().all(|std| *std > S::zero() && std.is_finite())
+        all.iter().all(|std| *std > S::zero()) && all.iter().fold(S::zero(), |sum, std| sum + *std).is_finite()
     }
 }
 

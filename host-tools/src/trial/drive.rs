@@ -132,23 +132,24 @@ impl Drive {
                 let torque = f64::from(wheel.resistive_torque_nm.value) - truth.resistive_torque_nm;
                 let error = [torque, f64::from(slip.value) - true_slip];
                 if let Some(square) = normalised_square(error, &covariance.torque_slip) {
-                    self.filter_1.add(index, square, 2.0);
+                    self.filter_1.add(index, place, square, 2.0);
                 }
             }
             if place % 3 == 0 {
                 let error = errors_of_contact(wheel, truth);
                 if let Some(square) = normalised_square(error, &covariance.contact) {
-                    self.filter_2.add(index, square, 3.0);
+                    self.filter_2.add(index, place, square, 3.0);
                 }
             }
         }
         let innovations = pipeline.estimator().innovations();
-        for side in innovations.as_array() {
-            for wheel in side.wheels.as_array() {
-                add_innovation(&mut self.innovations[0], index, wheel);
+        let [of_wheels, of_angles, of_forces] = &mut self.innovations;
+        for (at, side) in innovations.as_array().into_iter().enumerate() {
+            for (axle, wheel) in side.wheels.as_array().into_iter().enumerate() {
+                add_innovation(of_wheels, (index, 3 * at + axle), wheel);
             }
-            add_innovation(&mut self.innovations[1], index, &side.angles);
-            add_innovation(&mut self.innovations[2], index, &side.forces);
+            add_innovation(of_angles, (index, at), &side.angles);
+            add_innovation(of_forces, (index, at), &side.forces);
         }
         let side = innovations.left;
         let residuals = side.wheels.front.residuals.iter().chain(&side.angles.residuals).chain(&side.forces.residuals);
@@ -166,8 +167,12 @@ fn errors_of_contact(wheel: &WheelEstimate, truth: &WheelTruth) -> [f64; 3] {
     ]
 }
 
-fn add_innovation<const M: usize>(squares: &mut NormalisedSquares, index: usize, told: &Innovation<f32, M>) {
+fn add_innovation<const M: usize>(
+    squares: &mut NormalisedSquares,
+    (frame, place): (usize, usize),
+    told: &Innovation<f32, M>,
+) {
     if told.residuals.iter().any(|residual| residual.fate == Fate::Used) {
-        squares.add(index, f64::from(told.normalised_square), told.degrees_of_freedom as f64);
+        squares.add(frame, place, f64::from(told.normalised_square), told.degrees_of_freedom as f64);
     }
 }

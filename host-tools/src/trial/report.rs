@@ -4,7 +4,7 @@ use indicatif::{ParallelProgressIterator, ProgressBar};
 use kapvik_firmware::rover::Rover;
 use rayon::prelude::*;
 
-use super::consistency::NormalisedSquares;
+use super::consistency::{NormalisedSquares, Sum};
 use super::drive::{Drive, Quantity};
 use super::errors::Errors;
 use super::tally::Tally;
@@ -48,32 +48,43 @@ impl Trial {
         })
     }
 
-    /// Root mean square error in a quantity over that of the raw sensors, and one standard error of that: what other drives of the same
-    /// kind would change, by the jackknife (Tukey 1958), leaving out each drive in turn. Frames of a drive belong together.
+    /// Root mean square error in a quantity over that of the raw sensors, with one standard error.
     pub fn over_naive(&self, quantity: Quantity) -> (f64, f64) {
-        let without = |left_out: Option<usize>| {
-            let others = self.drives.iter().enumerate().filter(|(place, _)| Some(*place) != left_out);
-            let tally = others.fold(Tally::default(), |mut sum, (_, drive)| {
-                sum.add(drive.errors.of(quantity));
-                sum
-            });
-            tally.over_naive()
-        };
-        let count = self.drives.len() as f64;
-        let ratios: Vec<f64> = (0..self.drives.len()).map(|place| without(Some(place))).collect();
-        let mean = ratios.iter().sum::<f64>() / count;
-        let squares: f64 = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum();
-        (without(None), (squares * (count - 1.0) / count).sqrt())
+        self.with_error(|drives| tally(drives, quantity).over_naive())
     }
 
-    /// Squares of all drives, frame by frame: errors of filters 1 and 2, then innovations of filter 1 and of both halves
+    /// Shares of a quantity's errors within one and within two stated standard deviations, each with one standard error.
+    pub fn coverage(&self, quantity: Quantity) -> [(f64, f64); 2] {
+        [0, 1].map(|stds| self.with_error(|drives| tally(drives, quantity).coverage()[stds]))
+    }
+
+    /// Mean of normalised squares over their degrees of freedom, in the order of [`Self::squares`], with one standard error.
+    pub fn mean_squares(&self) -> [(f64, f64); 5] {
+        let totals: Vec<[Sum; 5]> =
+            self.drives.iter().map(|drive| parts(drive).map(NormalisedSquares::total)).collect();
+        [0, 1, 2, 3, 4].map(|part| {
+            jackknife(totals.len(), |left_out| {
+                let others = totals.iter().enumerate().filter(|(place, _)| Some(*place) != left_out);
+                let add = |(squares, degrees), total: &Sum| (squares + total.squares, degrees + total.degrees);
+                let (squares, degrees) = others.fold((0.0, 0.0), |sum, (_, totals)| add(sum, &totals[part]));
+                squares / degrees
+            })
+        })
+    }
+
+    fn with_error(&self, of: impl Fn(&mut dyn Iterator<Item = &Drive>) -> f64) -> (f64, f64) {
+        jackknife(self.drives.len(), |left_out| {
+            let others = self.drives.iter().enumerate().filter(|(place, _)| Some(*place) != left_out);
+            of(&mut others.map(|(_, drive)| drive))
+        })
+    }
+
+    /// Squares of all drives, frame by frame and wheel by wheel: errors of filters 1 and 2, then innovations of filter 1 and of both halves
     /// of filter 2.
     pub fn squares(&self) -> [NormalisedSquares; 5] {
         let mut sums: [NormalisedSquares; 5] = Default::default();
         for drive in &self.drives {
-            let [first, second, third] = &drive.innovations;
-            let parts = [&drive.filter_1, &drive.filter_2, first, second, third];
-            sums.iter_mut().zip(parts).for_each(|(sum, part)| sum.add_run(part));
+            sums.iter_mut().zip(parts(drive)).for_each(|(sum, part)| sum.add_run(part));
         }
         sums
     }
@@ -87,6 +98,28 @@ impl Trial {
         }
         shares
     }
+}
+
+fn parts(drive: &Drive) -> [&NormalisedSquares; 5] {
+    let [wheels, angles, forces] = &drive.innovations;
+    [&drive.filter_1, &drive.filter_2, wheels, angles, forces]
+}
+
+fn tally(drives: &mut dyn Iterator<Item = &Drive>, quantity: Quantity) -> Tally {
+    drives.fold(Tally::default(), |mut sum, drive| {
+        sum.add(drive.errors.of(quantity));
+        sum
+    })
+}
+
+/// A figure of some drives, which `without` gives with one of them left out or with none, and one standard error of it: what other
+/// drives of the same kind would change (Tukey 1958). Frames of a drive belong together.
+fn jackknife(drives: usize, without: impl Fn(Option<usize>) -> f64) -> (f64, f64) {
+    let count = drives as f64;
+    let figures: Vec<f64> = (0..drives).map(|place| without(Some(place))).collect();
+    let mean = figures.iter().sum::<f64>() / count;
+    let squares: f64 = figures.iter().map(|figure| (figure - mean).powi(2)).sum();
+    (without(None), (squares * (count - 1.0) / count).sqrt())
 }
 
 #[cfg(test)]
