@@ -10,8 +10,9 @@ use super::held_out_errors::groups;
 use super::specification::EffectForm;
 use super::trial::{Bench, Glance, Trial};
 
-/// The chance, over all candidates, below which a gain is taken for an effect.
-pub const SIGNIFICANT: f64 = 0.005;
+/// The chance, over all candidates, below which a gain is taken for an effect: less than half of the false alarms that are
+/// allowed, for they come of structure that no effect explains as well.
+pub const SIGNIFICANT: f64 = 0.02;
 /// What a free parameter must gain in ln likelihood to be worth itself.
 pub const PARAMETER_COST: f64 = 1.5;
 /// Difference in ln likelihood below which two candidates are not told apart: odds of one to twenty.
