@@ -18,7 +18,7 @@ pub const PARAMETER_COST: f64 = 1.5;
 /// Difference in ln likelihood below which two candidates are not told apart: odds of one to twenty.
 pub const TELLS_APART: f64 = 3.0;
 /// Dispersion beyond which the data are not explained.
-const MISFIT: f64 = 1.5;
+pub const MISFIT: f64 = 1.5;
 /// Candidates on top of which a second effect is tried to see how far the data can be explained.
 const LEADERS: usize = 4;
 /// Second effects that are fitted on top of each of these.
