@@ -260,3 +260,41 @@ fn stronger_soil_keeps_its_angle_below_upright() {
     assert_eq!(soil.cohesion_pa, 500.0);
     assert!(Scalar::is_finite(soil.friction_angle_rad));
 }
+
+/// ρ b z v² of the swept soil comes off the drawbar pull, and nothing else changes.
+#[test]
+fn excavated_soil_takes_its_momentum() {
+    let conditions = Conditions { speed_m_s: Some(0.5), ..Conditions::default() };
+    let (plain, slowed) =
+        (state(&Effects::none(), &conditions, 0.3), state(&with(&[("rate", "excavation", 1.0)]), &conditions, 0.3));
+    let momentum_n = 1600.0 * WHEEL.width_m * plain.sinkage_m * 0.5 * 0.5;
+    assert!((plain.drawbar_pull_n - slowed.drawbar_pull_n - momentum_n).abs() < 1e-12);
+    assert_eq!((plain.torque_nm, plain.sinkage_m), (slowed.torque_nm, slowed.sinkage_m));
+}
+
+/// A drift that settles is the closed form, and the line where it does not settle.
+#[test]
+fn drift_settles() {
+    let read = |settling_per_h: f64, hours: f64| {
+        let effects = with(&[("force-drift", "load_n_per_h", 2.0), ("force-drift", "settling_per_h", settling_per_h)]);
+        let conditions = Conditions { hours_since_zero: Some(hours), ..Conditions::default() };
+        let truth = state(&Effects::none(), &conditions, 0.3);
+        on_sand(&effects).readings(&conditions, &truth, &mut Memory::start()).load_n - truth.load_n
+    };
+    assert!((read(0.0, 3.0) - 6.0).abs() < 1e-12);
+    assert!((read(1.0, 3.0) - 2.0 * (1.0 - (-3.0_f64).exp())).abs() < 1e-12);
+    // The two ways of computing it meet where one takes over from the other.
+    assert!((read(0.999e-3, 1.0) - read(1.001e-3, 1.0)).abs() < 3e-6);
+}
+
+/// A second pass over soil that gains half its strength in the limit.
+#[test]
+fn strength_grows_with_passes() {
+    let conditions = Conditions { pass: Some(2.0), ..Conditions::default() };
+    let stronger = state(&with(&[("multi-pass", "strength", 0.5)]), &conditions, 0.3);
+    let mut soil = SAND;
+    soil.scale_strength(1.0 + 0.5 * (1.0 - (-1.0_f64).exp()));
+    let nothing = Effects::none();
+    let expected = WheelOnSoil { soil: &soil, ..on_sand(&nothing) }.at_load(&conditions, 0.3, LOAD_N).expect("carried");
+    assert!((stronger.drawbar_pull_n - expected.drawbar_pull_n).abs() < 1e-9);
+}

@@ -7,6 +7,7 @@ use kapvik_firmware::wheel_state::SoilQuery;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
 use crate::identify::{IdentifiedRun, identify};
+use crate::statistics::{quantile, sorted};
 use crate::train::score::rover_posterior;
 
 /// What one network says of a campaign.
@@ -79,10 +80,7 @@ fn estimate(table: &RoverTable, query: &SoilQuery) -> SoilEstimate {
 impl SoilColumn {
     fn of(estimates: &[ParameterEstimate]) -> Self {
         let quantile = |share: f64, pick: &dyn Fn(&ParameterEstimate) -> f32| {
-            let mut values: Vec<f32> = estimates.iter().map(pick).collect();
-            values.sort_by(f32::total_cmp);
-            let place = (share * values.len().saturating_sub(1) as f64).round() as usize;
-            values.get(place).copied().map_or(f64::NAN, f64::from)
+            quantile(&sorted(estimates.iter().map(|estimate| f64::from(pick(estimate)))), share)
         };
         let value = |share| quantile(share, &|estimate| estimate.value);
         Self {

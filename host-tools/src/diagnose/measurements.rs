@@ -6,6 +6,7 @@ use kapvik_firmware::terramechanics::effects::{Conditions, Grousers};
 
 use crate::data::campaign::{Campaign, Channel};
 use crate::error::HostError;
+use crate::statistics;
 
 use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
@@ -165,10 +166,9 @@ impl Measurements {
     }
 }
 
-/// The middle one of some numbers.
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+/// The middle of some numbers; none of none.
+pub fn median(values: Vec<f64>) -> Option<f64> {
+    (!values.is_empty()).then(|| statistics::median(values))
 }
 
 /// The grousers of a campaign's wheel.

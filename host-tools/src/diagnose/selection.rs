@@ -10,14 +10,15 @@ use super::held_out_errors::groups;
 use super::specification::EffectForm;
 use super::trial::{Bench, Glance, Trial};
 
-/// The chance, over all candidates, below which a gain is taken for an effect.
-pub const SIGNIFICANT: f64 = 0.005;
+/// The chance, over all candidates, below which a gain is taken for an effect: less than half of the false alarms that are
+/// allowed, for they come of structure that no effect explains as well.
+pub const SIGNIFICANT: f64 = 0.02;
 /// What a free parameter must gain in ln likelihood to be worth itself.
 pub const PARAMETER_COST: f64 = 1.5;
 /// Difference in ln likelihood below which two candidates are not told apart: odds of one to twenty.
 pub const TELLS_APART: f64 = 3.0;
 /// Dispersion beyond which the data are not explained.
-const MISFIT: f64 = 1.5;
+pub const MISFIT: f64 = 1.5;
 /// Candidates on top of which a second effect is tried to see how far the data can be explained.
 const LEADERS: usize = 4;
 /// Second effects that are fitted on top of each of these.

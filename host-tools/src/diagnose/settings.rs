@@ -14,6 +14,8 @@ const ROWS_OF_RUN: usize = 3;
 const OF_LEVEL: usize = 4;
 /// True scatter over that of the noise below which runs hold still.
 const STILL: f64 = 1.0;
+/// Standard deviations of χ² beyond which scatter is more than chance.
+const BEYOND_CHANCE: f64 = 3.0;
 /// A gap between levels, in standard deviations of the noise.
 const GAP: f64 = 4.0;
 
@@ -68,39 +70,80 @@ pub fn settle(rows: &mut [Row], rows_of_run: &[Vec<usize>]) -> Settled {
 /// The same for any quantity that a rig may hold at levels: for each row what was read of it, and one standard deviation of
 /// that. The rows that were moved towards each other.
 pub fn settle_values(values: &mut [Option<(f64, f64)>], rows_of_run: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    let still = hold_still(values, rows_of_run);
-    for run in rows_of_run {
-        let known: Vec<usize> = run.iter().copied().filter(|row| values[*row].is_some()).collect();
-        if still && known.len() >= ROWS_OF_RUN {
-            shrink(values, &known.iter().map(|row| vec![*row]).collect::<Vec<_>>());
-            groups.push(known);
-        } else {
-            groups.extend(known.into_iter().map(|row| vec![row]));
-        }
+    let rows_known = |run: &Vec<usize>| run.iter().copied().filter(|row| values[*row].is_some()).collect::<Vec<_>>();
+    let runs: Vec<Vec<usize>> = rows_of_run.iter().map(rows_known).collect();
+    let rows: Vec<Vec<Vec<usize>>> = runs.iter().map(|run| run.iter().map(|row| vec![*row]).collect()).collect();
+    let within = Scatter::within(values, rows.iter().filter(|rows| rows.len() >= ROWS_OF_RUN));
+    let still = within.is_still();
+    let (held, loose): (Vec<_>, Vec<_>) = rows.into_iter().partition(|rows| still && rows.len() >= ROWS_OF_RUN);
+    for rows in &held {
+        shrink(values, rows, &within);
     }
-    let mut moved = Vec::new();
-    for level in levels(values, groups) {
-        if level.len() >= OF_LEVEL {
-            shrink(values, &level);
-            moved.push(level.concat());
-        } else {
-            moved.extend(level.into_iter().filter(|group| group.len() > 1));
-        }
+    let groups = held.iter().map(|rows| rows.concat()).chain(loose.into_iter().flatten()).collect();
+    let levels = levels(values, groups);
+    let (common, few): (Vec<_>, Vec<_>) = levels.into_iter().partition(|level| level.len() >= OF_LEVEL);
+    // Loads that were set one by one make a level by chance, and say nothing of how well others were held.
+    let is_held = |level: &&Vec<Vec<usize>>| {
+        let own = Scatter::about_the_middle(values, level);
+        !own.exceeds(STILL * own.noise / own.freedom)
+    };
+    let between = Scatter::within(values, common.iter().filter(is_held));
+    for level in &common {
+        shrink(values, level, &between);
     }
-    moved
+    let held_alone = few.into_iter().flatten().filter(|group| group.len() > 1);
+    common.iter().map(|level| level.concat()).chain(held_alone).collect()
 }
 
-/// Whether the scatter within runs is mostly noise.
-fn hold_still(values: &[Option<(f64, f64)>], rows_of_run: &[Vec<usize>]) -> bool {
-    let (mut scatter, mut noise) = (0.0, 0.0);
-    for run in rows_of_run.iter().filter(|run| run.len() >= ROWS_OF_RUN) {
-        let known: Vec<(f64, f64)> = run.iter().filter_map(|row| values[*row]).collect();
-        let mean = known.iter().map(|(value, _)| value).sum::<f64>() / known.len().max(1) as f64;
-        scatter += known.iter().map(|(value, _)| (value - mean).powi(2)).sum::<f64>();
-        noise += known.iter().map(|(_, std)| std * std).sum::<f64>() - known.first().map_or(0.0, |(_, std)| std * std);
+/// How far readings scatter about the middle of theirs, and how far they would by noise alone.
+#[derive(Debug, Clone, Copy, Default)]
+struct Scatter {
+    /// Sum of squares about the middle.
+    squares: f64,
+    /// What is expected of that sum.
+    noise: f64,
+    /// Degrees of freedom of both.
+    freedom: f64,
+}
+
+impl Scatter {
+    /// That within runs, or within levels, all together: a few readings alone hardly tell it.
+    fn within<'a>(values: &[Option<(f64, f64)>], all: impl Iterator<Item = &'a Vec<Vec<usize>>>) -> Self {
+        all.map(|groups| Self::about_the_middle(values, groups)).fold(Self::default(), |sum, own| Self {
+            squares: sum.squares + own.squares,
+            noise: sum.noise + own.noise,
+            freedom: sum.freedom + own.freedom,
+        })
     }
-    noise > 0.0 && scatter < (1.0 + STILL) * noise
+
+    /// That of the means of groups.
+    fn about_the_middle(values: &[Option<(f64, f64)>], groups: &[Vec<usize>]) -> Self {
+        let means: Vec<(f64, f64)> = groups.iter().map(|group| mean(values, group)).collect();
+        let count = means.len().max(1) as f64;
+        let common = means.iter().map(|(mean, _)| mean).sum::<f64>() / count;
+        let variance = means.iter().map(|(_, std)| std * std).sum::<f64>() / count;
+        Self {
+            squares: means.iter().map(|(mean, _)| (mean - common).powi(2)).sum(),
+            noise: variance * (count - 1.0),
+            freedom: count - 1.0,
+        }
+    }
+
+    /// The variance of the true values, as far as the scatter is more than that of noise.
+    fn true_variance(&self) -> f64 {
+        ((self.squares - self.noise) / self.freedom.max(1.0)).max(0.0)
+    }
+
+    /// Whether the true values hold still.
+    fn is_still(&self) -> bool {
+        self.noise > 0.0 && self.squares < (1.0 + STILL) * self.noise
+    }
+
+    /// Whether it is more than one of a true variance beyond chance.
+    fn exceeds(&self, true_variance: f64) -> bool {
+        let expected = self.noise + self.freedom * true_variance;
+        self.squares > expected * (1.0 + BEYOND_CHANCE * (2.0 / self.freedom.max(1.0)).sqrt())
+    }
 }
 
 /// Groups whose means lie closer than a gap, in one level each.
@@ -127,14 +170,15 @@ fn mean(values: &[Option<(f64, f64)>], group: &[usize]) -> (f64, f64) {
     (sum / f64::max(count, 1.0), (squares / f64::max(count, 1.0)).sqrt())
 }
 
-/// Moves groups towards their common mean, as far as their scatter is that of their noise.
-fn shrink(values: &mut [Option<(f64, f64)>], groups: &[Vec<usize>]) {
+/// Moves groups towards their common mean, as far as the scatter of all such is that of noise; of groups that scatter more
+/// than the others beyond chance, as far as their own is.
+fn shrink(values: &mut [Option<(f64, f64)>], groups: &[Vec<usize>], of_all: &Scatter) {
     let count = groups.len() as f64;
     let means: Vec<(f64, f64)> = groups.iter().map(|group| mean(values, group)).collect();
     let common = means.iter().map(|(mean, _)| mean).sum::<f64>() / count;
-    let scatter = means.iter().map(|(mean, _)| (mean - common).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
     let noise = means.iter().map(|(_, std)| std * std).sum::<f64>() / count;
-    let true_variance = (scatter - noise).max(0.0);
+    let own = Scatter::about_the_middle(values, groups);
+    let true_variance = if own.exceeds(of_all.true_variance()) { own.true_variance() } else { of_all.true_variance() };
     let kept = true_variance / (true_variance + noise).max(f64::MIN_POSITIVE);
     let std = (kept * noise + noise / count).sqrt().min(noise.sqrt());
     for (group, (mean, _)) in groups.iter().zip(&means) {
@@ -193,6 +237,29 @@ mod tests {
         settle(&mut rows, &runs);
         assert!(rows.iter().all(|row| (load(row).0 - if row.run % 2 == 0 { 30.0 } else { 60.0 }).abs() < 1e-9));
         assert!(rows.iter().all(|row| load(row).1 < 0.5));
+    }
+
+    /// The scatter of a few rows by themselves is now more, now less than that of the noise; what all runs together show counts for
+    /// each. A run that ramps is none of them.
+    #[test]
+    fn runs_share_what_they_tell_of_the_noise() {
+        let (quiet, lively, ramp) = ([-0.3, 0.0, 0.3, 0.0], [-1.9, 1.9, -1.9, 1.9], [-3.0, -1.0, 1.0, 3.0]);
+        let mut rows = Vec::new();
+        for run in 0..20 {
+            let noise = if run == 19 {
+                ramp
+            } else if run % 4 == 0 {
+                lively
+            } else {
+                quiet
+            };
+            rows.extend(noise.map(|noise| row(run, 100.0 * (run + 1) as f64 + noise)));
+        }
+        let runs: Vec<Vec<usize>> = (0..20).map(|run| (4 * run..4 * run + 4).collect()).collect();
+        settle(&mut rows, &runs);
+        let spread = |run: usize| load(&rows[4 * run + 3]).0 - load(&rows[4 * run + 2]).0;
+        assert!(spread(4) < 1.6, "by its own scatter 3.0 would be left: {}", spread(4));
+        assert!(spread(19) > 1.5, "{}", spread(19));
     }
 
     /// Where loads were moved to a level, what the fit made of each by its own forces counts no more than the level's mean does;

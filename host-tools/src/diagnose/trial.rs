@@ -6,6 +6,7 @@ use super::fit::{
     scattered_starts,
 };
 use super::measurements::Measurements;
+use super::selection::MISFIT;
 use super::specification::{EffectForm, Specification};
 use crate::data::campaign::Campaign;
 
@@ -15,6 +16,8 @@ const STARTS: usize = 4;
 const GLANCE: usize = 5;
 /// The same from a soil as it is expected, which is further off.
 const AFRESH: usize = 8;
+/// The same where the model without the candidate leaves the data unexplained: its soil is bent the further.
+const AFRESH_OF_A_MISFIT: usize = 24;
 /// Steps of a fit to most of the runs from that to all.
 const SHORTLY: usize = 10;
 /// Times that a fit which ran out of steps may go on.
@@ -116,7 +119,8 @@ impl<'a> Bench<'a> {
     /// with scales of its own.
     pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Glance<'a>> {
         let extended = self.extended(base, effect);
-        let options = Options { most_iterations: AFRESH, ..self.options.clone() };
+        let most_iterations = if base.fit.dispersion > MISFIT { AFRESH_OF_A_MISFIT } else { AFRESH };
+        let options = Options { most_iterations, ..self.options.clone() };
         let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &options);
         match (self.few_steps(held, base, &extended), afresh) {
             (Some(near), Some(afresh)) if near.log_posterior() > afresh.log_posterior() => {

@@ -125,9 +125,14 @@ impl<S: Scalar> Circumstances<'_, S> {
         (S::one() + sine) / (S::one() - sine)
     }
 
-    /// Weight of a volume of soil, N/m³, at an assumed density of 1600 kg/m³ (the simulants of the catalogue: 1330 … 1650).
+    /// Density of the soil, kg/m³: assumed (the simulants of the catalogue: 1330 … 1650).
+    pub fn density_kg_m3(&self) -> S {
+        S::constant(1600.0)
+    }
+
+    /// Weight of a volume of soil, N/m³, at its assumed density.
     pub fn unit_weight_n_m3(&self) -> S {
-        S::constant(1600.0) * self.gravity_m_s2
+        self.density_kg_m3() * self.gravity_m_s2
     }
 }
 

@@ -6,8 +6,9 @@ use super::info::effect_parameters;
 use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
 
 effect_parameters! {
-    /// An offset of a force channel in proportion to the hours since it was zeroed, or to how far the temperature is from
-    /// the one at which it is zero.
+    /// An offset of a force channel that grows with the hours t since it was zeroed, or in proportion to how far the temperature
+    /// is from the one at which it is zero. What a sensor comes to that settles: d (1 − e^(−κt))/κ, of which d t is the limit of
+    /// κ → 0.
     pub struct ForceDrift {
         /// Drift of the drawbar pull, N/h.
         drawbar_pull_n_per_h: "drawbar_pull_n_per_h" ["N/h"] = 0.0, -200.0 to 200.0, about 0.3;
@@ -15,6 +16,8 @@ effect_parameters! {
         load_n_per_h: "load_n_per_h" ["N/h"] = 0.0, -200.0 to 200.0, about 0.3;
         /// Drift of the side force, N/h.
         side_force_n_per_h: "side_force_n_per_h" ["N/h"] = 0.0, -200.0 to 200.0, about 0.3;
+        /// κ, 1/h.
+        settling_per_h: "settling_per_h" ["1/h"] = 0.0, 0.0 to 20.0, about 0.7;
         /// Drift of the drawbar pull, N/K.
         drawbar_pull_n_per_c: "drawbar_pull_n_per_c" ["N/K"] = 0.0, -200.0 to 200.0, about 0.2;
         /// Drift of the load, N/K.
@@ -46,6 +49,24 @@ impl<S: Scalar> Effect<S> for ForceDrift<S> {
         Form {
             name: "side force with hours",
             free: &["side_force_n_per_h"],
+            set: &[],
+            needs: &[Column::SideForce, Column::HoursSinceZero],
+        },
+        Form {
+            name: "drawbar pull, settling",
+            free: &["drawbar_pull_n_per_h", "settling_per_h"],
+            set: &[],
+            needs: &[Column::DrawbarPull, Column::HoursSinceZero],
+        },
+        Form {
+            name: "load, settling",
+            free: &["load_n_per_h", "settling_per_h"],
+            set: &[],
+            needs: &[Column::Load, Column::HoursSinceZero],
+        },
+        Form {
+            name: "side force, settling",
+            free: &["side_force_n_per_h", "settling_per_h"],
             set: &[],
             needs: &[Column::SideForce, Column::HoursSinceZero],
         },
@@ -88,7 +109,7 @@ impl<S: Scalar> Effect<S> for ForceDrift<S> {
     ];
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
-        if let Some(hours) = at.conditions.hours_since_zero {
+        if let Some(hours) = at.conditions.hours_since_zero.map(|hours| self.settled(hours)) {
             readings.drawbar_pull_n += self.drawbar_pull_n_per_h * hours;
             readings.load_n += self.load_n_per_h * hours;
             readings.side_force_n += self.side_force_n_per_h * hours;
@@ -99,5 +120,17 @@ impl<S: Scalar> Effect<S> for ForceDrift<S> {
             readings.load_n += self.load_n_per_c * warmer;
             readings.side_force_n += self.side_force_n_per_c * warmer;
         }
+    }
+}
+
+impl<S: Scalar> ForceDrift<S> {
+    /// (1 − e^(−κt))/κ, h.
+    fn settled(&self, hours: S) -> S {
+        let shares = self.settling_per_h * hours;
+        // Where the difference to one loses its digits, two terms of the series have more.
+        if shares.abs() < S::constant(1e-3) {
+            return hours * (S::one() - S::constant(0.5) * shares);
+        }
+        (S::one() - (-shares).exp()) / self.settling_per_h
     }
 }

@@ -9,6 +9,7 @@ use super::share::Share;
 use super::trial::Trial;
 use super::undeclared::effect_ids;
 use crate::diagnose::document::Verdict;
+use crate::statistics::median;
 
 /// Prints all of it.
 pub fn print(trials: &[Trial]) {
@@ -203,12 +204,11 @@ fn said(trial: &Trial) -> String {
 }
 
 fn print_times(trials: &[Trial]) {
-    let mut seconds: Vec<f64> = trials.iter().map(|trial| trial.seconds).collect();
-    seconds.sort_by(f64::total_cmp);
-    if let Some(most) = seconds.last() {
+    let median_s = median(trials.iter().map(|trial| trial.seconds));
+    if let Some(slowest) = trials.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds)) {
         println!(
-            "\ntime of a campaign, with as many at once as there are cores: median {:.2} s, most {most:.2} s",
-            seconds[seconds.len() / 2]
+            "\ntime of a campaign, with as many at once as there are cores: median {median_s:.2} s, most {:.2} s ({})",
+            slowest.seconds, slowest.name
         );
     }
 }

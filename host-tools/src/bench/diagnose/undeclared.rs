@@ -19,7 +19,7 @@ const VARIANT_SHARE: f64 = 0.2;
 /// Sizes between which an effect is drawn: what no refit explains, in units of the noise.
 pub const SIZES: (f64, f64) = (1.0, 4.0);
 /// Parameters that say how an effect goes and not how large it is.
-const SHAPES: [&str; 5] = ["saturation", "reference_c", "start", "adhesion_pa", "m2"];
+const SHAPES: [&str; 6] = ["saturation", "reference_c", "start", "adhesion_pa", "m2", "settling_per_h"];
 
 /// The ids of all listed effects.
 pub fn effect_ids() -> Vec<&'static str> {

@@ -51,10 +51,10 @@ pub const VARIANTS: [Variant; 19] = [
     signed("load-stiffening", "stiffness linear in load", 0.9, loads, Act::Soil(stiffness_by_load)),
     variant("sinkage-lag", "two stages one after the other", 4.0, travel, Act::Run(two_stage_lag)),
     signed("rate", "stiffness linear in speed", 0.9, speeds, Act::Soil(stiffness_by_speed)),
-    variant("rate", "excavation, ρ b z v²", 100.0, speeds, Act::State(excavation)),
+    variant("rate", "drag of viscous soil, linear in speed", 1.0, speeds, Act::State(viscous_drag)),
     variant("drive-friction", "Stribeck", 1.0, wheel_rates, Act::State(stribeck)),
     variant("drive-friction", "offset and a share of |T|", 1.0, torque, Act::State(loaded_friction)),
-    signed("force-drift", "settling, 1 − e^(−t/τ)", 0.5, hours, Act::State(settling_drift)),
+    signed("force-drift", "creep, ln(1 + t/τ)", 0.5, hours, Act::State(creeping_drift)),
     variant("guide-friction", "rounded at zero", 0.9, Wants::default, Act::State(rounded_guide)),
     signed("rolling-radius", "velocity scale that follows sinkage", 1.0, sinkage, Act::State(camera_height)),
 ];
@@ -184,10 +184,10 @@ fn stiffness_by_speed(place: &Place<'_>, size: f64) -> Soil<f64> {
     stiffer(&place.site.soil, 1.0 + size * place.setting.speed_m_s / 0.2)
 }
 
-fn excavation(place: &Place<'_>, state: &mut State, size: f64) {
-    let speed_m_s = place.setting.speed_m_s;
-    let momentum_n = 1600.0 * place.site.wheel.width_m * place.sinkage_m * speed_m_s * speed_m_s;
-    state.drawbar_pull_n -= size * momentum_n;
+/// Against 0.2 m/s and a sinkage of half a radius.
+fn viscous_drag(place: &Place<'_>, state: &mut State, size: f64) {
+    let depth = 2.0 * place.sinkage_m / place.site.wheel.radius_m;
+    state.drawbar_pull_n -= size * place.site.load_n * depth * place.setting.speed_m_s / 0.2;
 }
 
 fn stribeck(place: &Place<'_>, state: &mut State, size: f64) {
@@ -201,9 +201,8 @@ fn loaded_friction(place: &Place<'_>, state: &mut State, size: f64) {
     state.torque_nm += size * (offset_nm + 0.3 * state.torque_nm.abs());
 }
 
-fn settling_drift(place: &Place<'_>, state: &mut State, size: f64) {
-    let settled = 1.0 - libm::exp(-place.setting.hours_since_zero / 1.5);
-    state.drawbar_pull_n += size * place.site.load_n * settled;
+fn creeping_drift(place: &Place<'_>, state: &mut State, size: f64) {
+    state.drawbar_pull_n += size * place.site.load_n * libm::log1p(place.setting.hours_since_zero / 0.2);
 }
 
 /// The load that friction of a vertical guide takes: |F| rounded off at zero.

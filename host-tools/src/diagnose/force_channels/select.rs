@@ -7,11 +7,14 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::super::chance::over_all;
 use super::super::document::{Estimate, FoundEffect};
-use super::super::selection::{SIGNIFICANT, TELLS_APART};
+use super::super::selection::TELLS_APART;
 use super::ForceChannels;
 use super::jackknife::{Jackknife, first_stage_strength};
 use super::regression::{Problem, Term};
 
+/// The chance, over all terms, below which one is taken for an effect. Less than where forces are fitted by equations: here a
+/// straight line stands for whatever a sensor may do, and the other channels look at the same runs.
+const SIGNIFICANT: f64 = 0.005;
 /// Terms that are added at most.
 const MOST_TERMS: usize = 4;
 /// Runs beyond the coefficients, below which nothing is said.
