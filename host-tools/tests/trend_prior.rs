@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use kapvik_firmware::soil::trend::{OFFSET, SINKAGE_TERMS, TERMS};
-use kapvik_firmware::soil::trend_prior::{Known, RESISTANCE, SINKAGE, TORQUE};
+use kapvik_firmware::soil::trend_prior::{Known, RESISTANCE, SINKAGE, TORQUE, TORQUE_ALONE};
 use kapvik_firmware::wheel_state::WheelState;
 use kapvik_host::train::dataset::stream;
 use kapvik_host::train::prior;
@@ -136,4 +136,43 @@ fn what_is_known_of_the_sinkage_is_that_of_the_soils() {
 #[test]
 fn what_is_known_of_the_torque_is_that_of_the_soils() {
     check(&TORQUE, "torque", PLACES[2]);
+}
+
+/// What is known of the torque given the resistance alone: the sinkage's coefficients integrated out of what is known of
+/// both. Precision, shift, and what the resistance changes of that, a column a coefficient.
+fn torque_alone() -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
+    let column = |shift: &[f32]| DMatrix::from_iterator(shift.len(), 1, shift.iter().map(|&value| f64::from(value)));
+    let (sinkage, torque) = (columns(&SINKAGE.precision), columns(&TORQUE.precision));
+    let by_sinkage = columns(&TORQUE.by_sinkage);
+    let of_sinkage = &by_sinkage * sinkage.try_inverse().expect("positive definite");
+    // Of the product of precision and mean; its covariance is that of the torque given both, and what the sinkage adds.
+    let shift = column(&TORQUE.shift) + &of_sinkage * column(&SINKAGE.shift);
+    let by_resistance = columns(&TORQUE.by_resistance) + &of_sinkage * columns(&SINKAGE.by_resistance);
+    let covariance = &torque + &of_sinkage * by_sinkage.transpose();
+    let gain = &torque * covariance.try_inverse().expect("positive definite");
+    let precision = &gain * &torque;
+    (0.5 * (&precision + precision.transpose()), &gain * shift, &gain * by_resistance)
+}
+
+#[test]
+fn what_is_known_of_the_torque_without_sinkage_is_what_all_channels_say_together() {
+    let (precision, shift, by_resistance) = torque_alone();
+    let near = |found: f32, expected: f64, sizes: [f64; 2]| {
+        (f64::from(found) - expected).abs() < 1e-4 * (sizes[0] * sizes[1]).sqrt()
+    };
+    let mut near_all = true;
+    for row in 0..TERMS {
+        near_all &= near(TORQUE_ALONE.shift[row], shift[row], [shift[row].abs().max(1.0); 2]);
+        for column in 0..TERMS {
+            let sizes = [precision[(row, row)], precision[(column, column)]];
+            near_all &= near(TORQUE_ALONE.precision[row][column], precision[(row, column)], sizes);
+            let moved = by_resistance[(column, row)];
+            near_all &= near(TORQUE_ALONE.by_resistance[row][column], moved, [moved.abs().max(1.0); 2]);
+        }
+    }
+    assert!(
+        near_all,
+        "precision, shift and by_resistance (row by row) are {precision:.8e}{shift:.8e}{}",
+        by_resistance.transpose()
+    );
 }

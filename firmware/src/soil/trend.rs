@@ -7,7 +7,7 @@
 //! each wheel counted by how well its slip, load, forces and sinkage are known.
 //!
 //! The three channels hang together, by the soil and by common noise. Resistance comes first, then sinkage given the
-//! resistance, then torque given both: what the channels before leave open of a coefficient narrows what is expected of it,
+//! resistance, then torque given both, or given the resistance where the sinkage is not seen: what the channels before leave open of a coefficient narrows what is expected of it,
 //! and the share of the torque's noise that has shown in the resistance is taken off. That the coefficients before are means
 //! themselves, with errors, is left out: it would take one regression of all three channels, of 16 unknowns.
 
@@ -18,7 +18,7 @@ use crate::network::TREND_FEATURES;
 use crate::wheel_state::WHEELS;
 
 use super::WheelFeatures;
-use super::trend_prior::{RESISTANCE, SINKAGE, TORQUE};
+use super::trend_prior::{RESISTANCE, SINKAGE, TORQUE, TORQUE_ALONE};
 
 /// Regressors of resistance and torque: 1, u, u² and u³, u being a logarithmic measure of slip; q, ten times the deviation of
 /// ln W from its mean; and u q.
@@ -104,9 +104,15 @@ pub fn trend(wheels: &[WheelFeatures], noise: TrendNoise) -> Trend {
         (math::ln(row.sinkage), square / (variance + level * square))
     });
 
-    let mut torque = TORQUE.shift;
-    add_product(&mut torque, &TORQUE.by_resistance, &resistance);
-    add_product(&mut torque, &TORQUE.by_sinkage, &sinkage);
+    // What the sinkage would tell stays open where nobody sees it.
+    let (known, mut torque, by_resistance) = match noise.sinkage {
+        Some(_) => (&TORQUE.precision, TORQUE.shift, &TORQUE.by_resistance),
+        None => (&TORQUE_ALONE.precision, TORQUE_ALONE.shift, &TORQUE_ALONE.by_resistance),
+    };
+    add_product(&mut torque, by_resistance, &resistance);
+    if noise.sinkage.is_some() {
+        add_product(&mut torque, &TORQUE.by_sinkage, &sinkage);
+    }
     // The share of what is left of the resistance that belongs to the torque, too.
     let shared = common * information;
     let level = shared * besides + of_torque;
@@ -118,7 +124,7 @@ pub fn trend(wheels: &[WheelFeatures], noise: TrendNoise) -> Trend {
         row.value = row.torque - shared * (row.resistance - fitted);
         row.information = square / (level * square + by_slip);
     }
-    let precisions = fit_forces(&TORQUE.precision, &mut torque, &rows);
+    let precisions = fit_forces(known, &mut torque, &rows);
     let [load, both] = precisions.map(|precision| -0.5 * math::ln(precision));
     let [r0, r1, r2, r3, r4, r5] = by_legendre(resistance);
     let [t0, t1, t2, t3, t4, t5] = by_legendre(torque);
