@@ -104,3 +104,35 @@ pub static TORQUE_ALONE: Known<TERMS, TERMS, 0> = Known {
     ],
     by_sinkage: [],
 };
+
+/// Mean of the coefficients of ln(z/r) given those of both forces, where the sinkage is not seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expected {
+    /// The mean where all coefficients of the forces are zero.
+    pub shift: [f32; SINKAGE_TERMS],
+    /// Change of it with each coefficient of the resistance.
+    pub by_resistance: [[f32; SINKAGE_TERMS]; TERMS],
+    /// Change of it with each coefficient of the torque.
+    pub by_torque: [[f32; SINKAGE_TERMS]; TERMS],
+}
+
+/// What [`SINKAGE`] and [`TORQUE`] say together.
+pub static SINKAGE_EXPECTED: Expected = Expected {
+    shift: [-3.0095, 1.4185e-2, 1.70089e-2, 7.6665e-2],
+    by_resistance: [
+        [5.86578, -4.24765e-2, -7.28331e-2, -1.84838e-1],
+        [1.53293e1, 9.46231e-1, 6.08378e-1, -1.25009e-1],
+        [-1.30465e1, 2.08789, 8.45076e-1, -3.33704e-2],
+        [-5.11272, 8.90325e-1, 2.18564, -7.46724e-2],
+        [-3.95407e1, 5.73685e-1, 9.21136e-1, 4.19295],
+        [-6.00013e1, -2.71128, -2.07569, 2.57784],
+    ],
+    by_torque: [
+        [2.57831e-1, -3.11209e-2, -9.25747e-3, 1.84252e-3],
+        [-2.0948, 2.83842e-2, 3.86022e-2, -8.3805e-3],
+        [2.04534, 1.60551e-2, -6.3461e-2, 2.19688e-2],
+        [3.08784e-1, 3.50667e-2, -4.10448e-2, 1.20411e-2],
+        [1.66262e1, -8.1023e-1, -3.94636e-1, 3.59628e-1],
+        [-4.18245e1, 5.93054e-1, -2.27277e-1, 3.11902e-3],
+    ],
+};
