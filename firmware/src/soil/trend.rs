@@ -7,9 +7,10 @@
 //! each wheel counted by how well its slip, load, forces and sinkage are known.
 //!
 //! The three channels hang together, by the soil and by common noise. Resistance comes first, then sinkage given the
-//! resistance, then torque given both, or given the resistance where the sinkage is not seen: what the channels before leave open of a coefficient narrows what is expected of it,
+//! resistance, then torque given both: what the channels before leave open of a coefficient narrows what is expected of it,
 //! and the share of the torque's noise that has shown in the resistance is taken off. That the coefficients before are means
-//! themselves, with errors, is left out: it would take one regression of all three channels, of 16 unknowns.
+//! themselves, with errors, is left out: it would take one regression of all three channels, of 16 unknowns. Where the
+//! sinkage is not seen the torque comes second, given the resistance alone, and the sinkage is what both let expect.
 
 use heapless::Vec;
 
@@ -18,6 +19,7 @@ use crate::network::TREND_FEATURES;
 use crate::wheel_state::WHEELS;
 
 use super::WheelFeatures;
+use super::solve::solve;
 use super::trend_prior::{RESISTANCE, SINKAGE, SINKAGE_EXPECTED, TORQUE, TORQUE_ALONE};
 
 /// Regressors of resistance and torque: 1, u, u² and u³, u being a logarithmic measure of slip; q, ten times the deviation of
@@ -26,10 +28,11 @@ pub const TERMS: usize = 6;
 /// Regressors of the sinkage: 1, u, u², q.
 pub const SINKAGE_TERMS: usize = 4;
 
-/// What the regressors leave of (T/r − DP)/W, T/(rW) and ln(z/r) without any noise under equal loads: variances.
-const MISFIT: [f32; 3] = [1.2e-8, 1.6e-8, 8.4e-6];
-/// What they leave more of the first two under loads that differ, over the square of the mean of q².
-const BENT_BY_LOAD: [f32; 2] = [4.5e-8, 2.4e-8];
+/// What the regressors leave of (T/r − DP)/W, T/(rW) and ln(z/r) without any noise: variances, of the first two under equal
+/// loads and means over soils whose wheels have slips spread as most training scenes have them.
+pub const MISFIT: [f32; 3] = [1.2e-8, 1.6e-8, 8.4e-6];
+/// What they leave more of the first two under loads that differ, over the square of the mean of q²: q² is no regressor.
+pub const BENT_BY_LOAD: [f32; 2] = [4.5e-8, 2.4e-8];
 /// Variance of (T/r − DP)/W and of T/(rW) by noise of the load, which is common to both: that of W/W̄ times the mean square
 /// of how they change with ln W over the prior.
 const BY_LOAD: f32 = 0.18;
@@ -76,7 +79,7 @@ impl LoadSums {
 /// three numbers about the loads.
 ///
 /// The six are those of Legendre's polynomials of degree 3, 0, 1 and 2 in u, of q, and of u q, the four those of degree 0, 1
-/// and 2 and of q; where the sinkage is not known they are what the resistance lets expect. The three are the logarithms of
+/// and 2 and of q; where the sinkage is not known they are what the forces let expect. The three are the logarithms of
 /// the standard deviations of the torque's coefficients of q, if that of u q were known, and of u q; and the mean of ln W.
 pub type Trend = [f32; TREND_FEATURES];
 
@@ -269,57 +272,6 @@ fn fit_sinkage(
     solve(&mut left, known, right);
 }
 
-/// Solves (`left` + `known`) x = `right` for x, in place of `right`; of both matrices the diagonal and what is above it count.
-#[inline(always)]
-fn solve<const N: usize>(left: &mut [[f32; N]; N], known: &[[f32; N]; N], right: &mut [f32; N]) {
-    left.as_flattened_mut().iter_mut().zip(known.as_flattened()).for_each(|(sum, known)| *sum += known);
-    eliminate::<0, N>(left, right);
-    eliminate::<1, N>(left, right);
-    eliminate::<2, N>(left, right);
-    eliminate::<3, N>(left, right);
-    eliminate::<4, N>(left, right);
-    substitute::<5, N>(left, right);
-    substitute::<4, N>(left, right);
-    substitute::<3, N>(left, right);
-    substitute::<2, N>(left, right);
-    substitute::<1, N>(left, right);
-    substitute::<0, N>(left, right);
-}
-
-/// Frees the rows below row `PIVOT` of its unknown (Gauss, on the upper triangle alone). What is known beforehand keeps every
-/// pivot above zero, so that none has to be looked for. `PIVOT` is a constant, because loops of fixed length cost the target
-/// half as much.
-#[inline(always)]
-fn eliminate<const PIVOT: usize, const N: usize>(left: &mut [[f32; N]; N], right: &mut [f32; N]) {
-    if PIVOT + 1 >= N {
-        return;
-    }
-    let (above, below) = left.split_at_mut(PIVOT + 1);
-    let (known, unknown) = right.split_at_mut(PIVOT + 1);
-    let (Some(chosen), Some(value)) = (above.last(), known.last()) else { return };
-    let inverse = 1.0 / chosen.get(PIVOT).copied().unwrap_or(1.0);
-    for (place, (row, right)) in below.iter_mut().zip(unknown).enumerate() {
-        let column = PIVOT + 1 + place;
-        let factor = inverse * chosen.get(column).copied().unwrap_or(0.0);
-        row.iter_mut().zip(chosen).skip(column).for_each(|(x, p)| *x -= factor * p);
-        *right -= factor * value;
-    }
-}
-
-/// The unknown of row `PIVOT` from those behind it.
-#[inline(always)]
-fn substitute<const PIVOT: usize, const N: usize>(left: &[[f32; N]; N], right: &mut [f32; N]) {
-    if PIVOT >= N {
-        return;
-    }
-    let (known, behind) = right.split_at_mut(PIVOT + 1);
-    let (Some(row), Some(value)) = (left.get(PIVOT), known.last_mut()) else { return };
-    for (coefficient, unknown) in row.split_at(PIVOT + 1).1.iter().zip(behind) {
-        *value -= coefficient * *unknown;
-    }
-    *value /= row.get(PIVOT).copied().unwrap_or(1.0);
-}
-
 #[cfg(test)]
 mod tests {
     use super::{LoadSums, OFFSET, SINKAGE_TERMS, TERMS, Trend, TrendNoise, WheelFeatures};
@@ -394,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unseen_sinkage_is_what_the_resistance_lets_expect() {
+    fn an_unseen_sinkage_is_what_the_forces_let_expect() {
         // A soil whose wheels meet twice the resistance sinks in deeper; the features say 0 for the sinkage.
         let twice = [MEANS[0].map(|coefficient| 2.0 * coefficient), MEANS[1]];
         let [.., least, _, _, _, _, _, _] = trend(&wheels(MEANS, None), noise(0.1, false));
