@@ -7,7 +7,7 @@ use crate::network::{CONTEXT_FEATURES, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPU
 use crate::terramechanics::Wheel;
 use crate::wheel_state::{Slope, SoilQuery, WHEELS, WheelNoise, WheelState};
 
-use super::trend::{TrendNoise, trend};
+use super::trend::{LoadSums, TrendNoise, trend};
 
 /// Inputs of one wheel: DP/W, T/(rW), slip, the fifth input and ln(W/(rb) / 10 kPa).
 pub type WheelFeatures = [f32; WHEEL_FEATURES];
@@ -57,19 +57,17 @@ fn wheel_features(wheel: &Wheel<f32>, state: &WheelState, fifth: FifthInput) -> 
     ]
 }
 
+/// Standard deviations of DP/W̄, W/W̄, T/(rW̄) and slip, W̄ being the mean load.
+fn relative_noise(wheel: &Wheel<f32>, noise: &WheelNoise, mean_load_n: f32) -> [f32; 4] {
+    let per_load = 1.0 / mean_load_n;
+    let per_moment = per_load / wheel.radius_m;
+    [per_load * noise.drawbar_pull_n, per_load * noise.load_n, per_moment * noise.torque_nm, noise.slip]
+}
+
 /// The inputs that the wheels share.
-fn context_features(wheel: &Wheel<f32>, noise: &WheelNoise, mean_load_n: f32, fifth: FifthInput) -> ContextFeatures {
+fn context_features(wheel: &Wheel<f32>, [pull, load, torque, slip]: [f32; 4], fifth: FifthInput) -> ContextFeatures {
     let r = wheel.radius_m;
-    [
-        10.0 * r,
-        wheel.width_m / r,
-        noise.drawbar_pull_n / mean_load_n,
-        noise.load_n / mean_load_n,
-        noise.torque_nm / (r * mean_load_n),
-        noise.slip,
-        fifth.std,
-    ]
-    .map(math::ln)
+    [10.0 * r, wheel.width_m / r, pull, load, torque, slip, fifth.std].map(math::ln)
 }
 
 impl SoilQuery {
@@ -90,31 +88,34 @@ impl SoilQuery {
 
     /// The rover network's inputs: the shared ones, then those of each wheel.
     pub fn rover_features(&self) -> (RoverContext, Vec<WheelFeatures, WHEELS>) {
-        let mean_load_n = self.mean_load_n();
-        let fifth = self.sinkage_inputs().next().unwrap_or(FifthInput::UNKNOWN);
-        let context = context_features(&self.wheel, &self.noise, mean_load_n, fifth);
-        let mut wheels = Vec::new();
-        let seen = fifth != FifthInput::UNKNOWN;
+        // One pass for what all wheels say together.
+        let (mut load_n, mut seen) = (0.0, true);
         for state in &self.wheels {
-            // Not `collect`: heapless panics where it overflows.
-            let _ = wheels.push(wheel_features(&self.wheel, state, self.sinkage_input(state, seen)));
+            load_n += state.load_n;
+            seen &= state.sinkage_m.is_some();
         }
-        let WheelNoise { drawbar_pull_n, load_n, torque_nm, slip, .. } = self.noise;
-        let share = 1.0 / mean_load_n;
-        let noise = TrendNoise {
-            pull: share * drawbar_pull_n,
-            load: share * load_n,
-            torque: share * torque_nm / self.wheel.radius_m,
-            slip,
-            sinkage: seen.then_some(fifth.std),
-        };
-        (joined([&context, &trend(&wheels, noise)]), wheels)
+        let relative = relative_noise(&self.wheel, &self.noise, load_n / self.wheels.len() as f32);
+        let mut fifth = FifthInput::UNKNOWN;
+        let (mut wheels, mut loads) = (Vec::new(), LoadSums::default());
+        for state in &self.wheels {
+            if seen {
+                fifth = FifthInput::sinkage(&self.wheel, state, &self.noise);
+            }
+            let features = wheel_features(&self.wheel, state, fifth);
+            loads.add(&features);
+            // Not `collect`: heapless panics where it overflows.
+            let _ = wheels.push(features);
+        }
+        let context = context_features(&self.wheel, relative, fifth);
+        let [pull, load, torque, slip] = relative;
+        let noise = TrendNoise { pull, load, torque, slip, sinkage: seen.then_some(fifth.std) };
+        (joined([&context, &trend(&wheels, loads, noise)]), wheels)
     }
 
     /// The per-wheel network's inputs for one wheel.
     pub fn wheel_inputs(&self, state: &WheelState, fifth: FifthInput) -> [f32; WHEEL_INPUTS] {
         let own = wheel_features(&self.wheel, state, fifth);
-        let shared = context_features(&self.wheel, &self.noise, state.load_n, fifth);
+        let shared = context_features(&self.wheel, relative_noise(&self.wheel, &self.noise, state.load_n), fifth);
         joined([&own, &shared])
     }
 }

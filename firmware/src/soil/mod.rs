@@ -4,6 +4,7 @@ mod answer;
 mod estimate;
 mod features;
 mod query;
+mod solve;
 pub mod trend;
 pub mod trend_prior;
 

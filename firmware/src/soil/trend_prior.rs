@@ -82,3 +82,57 @@ pub static TORQUE: Known<TERMS, TERMS, SINKAGE_TERMS> = Known {
         [8.4398e2, -5.0232e3, 8.18666e3, 3.43688e3, 1.0625e5, -5.3967e4],
     ],
 };
+
+/// Of T/(rW), given those of (T/r − DP)/W alone: where the sinkage is not seen.
+pub static TORQUE_ALONE: Known<TERMS, TERMS, 0> = Known {
+    precision: [
+        [3.796608e2, -2.973694e2, 7.568687e2, -7.525719e2, 1.556886e3, 7.398984e3],
+        [-2.973694e2, 4.222709e3, -5.759502e3, 1.341624e4, -9.340322e3, 1.047303e4],
+        [7.568687e2, -5.759502e3, 1.63814e4, -2.131613e4, -3.192206e3, -4.068086e4],
+        [-7.525719e2, 1.341624e4, -2.131613e4, 9.505186e4, 3.09304e4, -4.732588e4],
+        [1.556886e3, -9.340322e3, -3.192206e3, 3.09304e4, 3.004801e5, -1.763191e4],
+        [7.398984e3, 1.047303e4, -4.068086e4, -4.732588e4, -1.763191e4, 7.571304e5],
+    ],
+    shift: [3.694682e1, 4.857334e2, -4.408222e2, 6.539212e2, -1.548841e3, 3.861833e3],
+    by_resistance: [
+        [3.750243e2, -1.425772e3, 2.621174e3, -1.621667e3, 6.269798e3, -1.099241e4],
+        [-1.25054e3, -1.561869e3, 1.590739e3, -7.072154e3, -2.589139e4, 7.079191e4],
+        [1.393105e3, 3.836572e3, -8.252373e3, 1.105518e4, 2.06294e4, -4.820861e4],
+        [-8.74347e2, 4.437223e3, -1.315259e2, 5.66283e3, 2.213054e4, -1.203338e4],
+        [-7.659399e3, 5.31403e3, -2.380039e4, 3.966072e4, 7.474369e4, 8.24682e3],
+        [7.897428e3, -3.132926e4, 2.26724e4, -4.155138e4, -1.520436e5, -1.340853e5],
+    ],
+    by_sinkage: [],
+};
+
+/// Mean of the coefficients of ln(z/r) given those of both forces, where the sinkage is not seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expected {
+    /// The mean where all coefficients of the forces are zero.
+    pub shift: [f32; SINKAGE_TERMS],
+    /// Change of it with each coefficient of the resistance.
+    pub by_resistance: [[f32; SINKAGE_TERMS]; TERMS],
+    /// Change of it with each coefficient of the torque.
+    pub by_torque: [[f32; SINKAGE_TERMS]; TERMS],
+}
+
+/// What [`SINKAGE`] and [`TORQUE`] say together.
+pub static SINKAGE_EXPECTED: Expected = Expected {
+    shift: [-3.0095, 1.4185e-2, 1.70089e-2, 7.6665e-2],
+    by_resistance: [
+        [5.86578, -4.24765e-2, -7.28331e-2, -1.84838e-1],
+        [1.53293e1, 9.46231e-1, 6.08378e-1, -1.25009e-1],
+        [-1.30465e1, 2.08789, 8.45076e-1, -3.33704e-2],
+        [-5.11272, 8.90325e-1, 2.18564, -7.46724e-2],
+        [-3.95407e1, 5.73685e-1, 9.21136e-1, 4.19295],
+        [-6.00013e1, -2.71128, -2.07569, 2.57784],
+    ],
+    by_torque: [
+        [2.57831e-1, -3.11209e-2, -9.25747e-3, 1.84252e-3],
+        [-2.0948, 2.83842e-2, 3.86022e-2, -8.3805e-3],
+        [2.04534, 1.60551e-2, -6.3461e-2, 2.19688e-2],
+        [3.08784e-1, 3.50667e-2, -4.10448e-2, 1.20411e-2],
+        [1.66262e1, -8.1023e-1, -3.94636e-1, 3.59628e-1],
+        [-4.18245e1, 5.93054e-1, -2.27277e-1, 3.11902e-3],
+    ],
+};
