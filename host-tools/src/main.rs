@@ -14,6 +14,8 @@ struct CommandLine {
 }
 
 fn main() -> ExitCode {
+    // Whoever reads only the first lines of what is printed ends the command, as with other commands, and has no panic.
+    sigpipe::reset();
     match CommandLine::parse().command.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
