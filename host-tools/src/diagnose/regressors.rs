@@ -23,13 +23,15 @@ pub struct Regressor {
     pub factors: Vec<Term>,
     /// Of an angle of the wheel, its sine and its cosine.
     pub turns: Option<[Term; 2]>,
+    /// Different values that it takes: a power as high or higher says nothing more than the lower ones.
+    pub values: usize,
     parts: Vec<String>,
 }
 
 /// Share of the rows that must have a column.
 const KNOWN_SHARE: f64 = 0.8;
 /// Values that a column must take.
-const LEAST_VALUES: usize = 3;
+const LEAST_VALUES: usize = 2;
 /// Correlation beyond which two columns say the same.
 const SAME: f64 = 0.999;
 
@@ -207,6 +209,7 @@ fn standardised(name: String, parts: Vec<String>, column: &Column, at: &Arc<[[f6
         term: Term { values: values.iter().map(scale).collect(), slopes: slopes() },
         factors: Vec::new(),
         turns: None,
+        values: distinct.len(),
         parts,
     })
 }
@@ -221,6 +224,18 @@ pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// First and second pass are two values, which a residual may follow; one value is none.
+    #[test]
+    fn a_column_of_two_values_counts() {
+        let regressor = |values: [f64; 4]| {
+            let column = Column { values: values.map(Some).into(), by: None };
+            standardised("pass".to_owned(), vec!["pass".to_owned()], &column, &Arc::from([]))
+        };
+        let two = regressor([1.0, 2.0, 1.0, 2.0]).expect("a column that varies");
+        assert_eq!((two.values, two.term.values), (2, vec![-1.0, 1.0, -1.0, 1.0]));
+        assert!(regressor([1.0; 4]).is_none());
+    }
 
     /// d(ab) = a db + b da, for a of slip and b of slip and load.
     #[test]

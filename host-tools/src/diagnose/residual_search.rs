@@ -75,7 +75,8 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
     let products = products(&columns);
     let nothing = linearised.fit_with(&no_terms()).ok()?;
     let channels = Reading::JUDGED.into_iter().filter(|channel| measurements.has(*channel));
-    let singles = columns.iter().flat_map(|column| DEGREES.map(|degree| (column, degree)));
+    let bends = |(column, degree): &(&Regressor, usize)| *degree < column.values;
+    let singles = columns.iter().flat_map(|column| DEGREES.map(|degree| (column, degree))).filter(bends);
     let curves = singles.chain(products.iter().map(|product| (product, 1)));
     let curves = curves.map(|(regressor, degree)| (regressor, powers(regressor, degree)));
     let all: Vec<_> = curves.chain(columns.iter().filter_map(|column| Some((column, wave(column)?)))).collect();
