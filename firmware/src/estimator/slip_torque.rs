@@ -222,8 +222,13 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.trends.expect(restless);
         let [torque_trend, slip_trend] = self.trends.per_m();
         let [rate, ..] = *self.filter.estimate().mean();
-        // A wheel that drives backward slips more as its torque falls.
-        let shared = if rate < S::zero() { -self.slip_per_torque } else { self.slip_per_torque };
+        // A wheel that drives backward slips more as its torque falls. While the drive does not say its torque, nothing tells how the
+        // two go together, and the torque's return would throw the slip off.
+        let (shared, by_itself) = match readings.motor_torque_nm {
+            Some(_) if rate < S::zero() => (-self.slip_per_torque, S::constant(SLIP_BY_ITSELF)),
+            Some(_) => (self.slip_per_torque, S::constant(SLIP_BY_ITSELF)),
+            None => (S::zero(), S::one()),
+        };
         let process = |state: &[S; STATES]| {
             let [rate, torque, slip] = *state;
             let [acceleration, ..] = model.rates(state);
@@ -241,7 +246,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.drift_variances =
             [drift(TORQUE_DRIFT_NM, torque_factor, restless_torque), drift(SLIP_DRIFT, slip_factor, restless_slip)];
         let [torque, slip] = self.drift_variances.map(S::sqrt);
-        let noise = [step_s * torque_std * self.model.inverse_inertia, torque, S::constant(SLIP_BY_ITSELF) * slip];
+        let noise = [step_s * torque_std * self.model.inverse_inertia, torque, by_itself * slip];
         // Where it is not done the mean has stayed, slip and all.
         if self.filter.predict(process, &noise) == Prediction::Done {
             self.filter.shear(1, 2, shared);
