@@ -1,7 +1,7 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
 use super::mimicry::{is_mimic, is_own_law};
-use super::pairs::{Known, Pair, from_ahead, from_known};
+use super::pairs::{Known, Pair, alone, from_ahead, from_known};
 use super::residual_search::{Structure, search};
 use super::selection::{Judged, Step, TELLS_APART, look_ahead};
 use super::steps::Steps;
@@ -64,7 +64,12 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
         }
         let won = winner(bench, &here, &selected.left);
-        if let Some(both) = together(&steps, &selected, &here, won.as_ref().map(|(place, _)| *place)) {
+        let place = won.as_ref().map(|(place, _)| *place);
+        if let Some(instead) = instead_of_both(&steps, &selected, &here, place) {
+            selected.found = vec![instead];
+            continue;
+        }
+        if let Some(both) = together(&steps, &selected, &here, place) {
             // What was tried without any effect is what the first was found among, whichever it became.
             let step = selected.found.pop().map_or(here, |found| found.step);
             selected.found.extend([FoundStep { step, ..both.first }, both.second]);
@@ -98,6 +103,17 @@ struct Left {
 fn left(bench: &Bench<'_>, model: &Trial<'_>, dispersion: f64, known: Option<Left>) -> Vec<Structure> {
     let same = known.filter(|known| known.dispersion == dispersion);
     same.map_or_else(|| search(bench, model, dispersion), |known| known.structures)
+}
+
+/// The second effect in place of both, where it explains more by itself than the first does.
+fn instead_of_both<'a>(
+    steps: &Steps<'_, 'a>,
+    selected: &Selected<'a>,
+    here: &Step<'a>,
+    place: Option<usize>,
+) -> Option<FoundStep<'a>> {
+    let [first] = selected.found.as_slice() else { return None };
+    alone(steps, &first.step, &here.base, &here.ranking[place?].trial)
 }
 
 /// Two effects in place of the first, or of none: where a second was found, and where none of the effects alone leads on although

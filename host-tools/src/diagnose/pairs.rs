@@ -6,7 +6,7 @@
 
 use super::forward::{FoundStep, found, winner};
 use super::residual_search::search;
-use super::selection::{PARAMETER_COST, Step};
+use super::selection::{PARAMETER_COST, Step, with_better_fit, worth};
 use super::steps::Steps;
 use super::trial::Trial;
 
@@ -34,6 +34,21 @@ pub struct Known<'a> {
 /// The pair that is reached from an effect that was found first.
 pub fn from_known<'a>(steps: &Steps<'_, 'a>, known: Known<'a>) -> Option<Pair<'a>> {
     settled(steps, known.one, Some(known.companion?))
+}
+
+/// The companion of an effect that was found first, where by itself it explains more than that one: its first fit had not found
+/// the way that it found beside the other.
+pub fn alone<'a>(steps: &Steps<'_, 'a>, first: &Step<'a>, one: &Trial<'a>, both: &Trial<'a>) -> Option<FoundStep<'a>> {
+    let bench = steps.bench;
+    let other = bench.finished(bench.without_effect(both, last_id(one))?);
+    let id = last_id(&other);
+    if worth(&other) <= worth(one) {
+        return None;
+    }
+    let again = with_better_fit(bench, first, other);
+    let structures = search(bench, &again.base, again.dispersion);
+    let (place, _) = winner(bench, &again, &structures)?;
+    (again.ranking[place].id() == id).then(|| found(again, place))
 }
 
 /// The best pair that is reached from the two effects that go best together of those `ahead` of a first step, or the one that

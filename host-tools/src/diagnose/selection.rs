@@ -110,6 +110,20 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
     let all = candidates(bench.campaign, bench.measurements, &base.specification);
     let trials = trials(bench, base, &all);
     let base = bench.finished(polished(bench, base, &trials));
+    judged(bench, base, trials, all.len())
+}
+
+/// A step with the fit of one candidate exchanged for a better one that was found later.
+pub fn with_better_fit<'a>(bench: &Bench<'a>, step: &Step<'a>, better: Trial<'a>) -> Step<'a> {
+    let tried = candidates(bench.campaign, bench.measurements, &step.base.specification).len();
+    let mut trials: Vec<_> = step.ranking.iter().map(|judged| judged.trial.clone()).chain([better]).collect();
+    trials = best_forms(trials);
+    trials.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    judged(bench, step.base.clone(), trials, tried)
+}
+
+/// Judges the fits of candidates, the best first, of which there were `tried`.
+fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried: usize) -> Step<'a> {
     let misfit = is_misfit(trials.iter());
     let ahead = if misfit { look_ahead(bench, &trials) } else { Vec::new() };
     let dispersion = dispersion(&base, &trials, &ahead);
@@ -126,7 +140,7 @@ pub fn step<'a>(bench: &Bench<'a>, base: &Trial<'a>) -> Step<'a> {
         };
         let (gain_per_row, gain_std) = gain_over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
-        let p_value = family_chance(gain(&trial), trial.added_parameters(), all.len());
+        let p_value = family_chance(gain(&trial), trial.added_parameters(), tried);
         (Judged { score, p_value, gain_per_row, gain_std, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
@@ -251,7 +265,7 @@ fn finished<'a>(bench: &Bench<'a>, mut fitted: Vec<Trial<'a>>) -> Vec<Trial<'a>>
 }
 
 /// What candidates on top of the same model are compared by: ln posterior, less the cost of what the last effect frees.
-fn worth(trial: &Trial<'_>) -> f64 {
+pub fn worth(trial: &Trial<'_>) -> f64 {
     trial.log_posterior() - PARAMETER_COST * trial.added_parameters() as f64
 }
 
