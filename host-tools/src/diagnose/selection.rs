@@ -32,6 +32,8 @@ const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;
 /// The chance below which any gain on runs that were not seen is enough.
 const BEYOND_DOUBT: f64 = 1e-4;
+/// Standard deviations beyond a bound where a parameter that is held on it is not one that the data support.
+const BEYOND_BOUND: f64 = 2.0;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 /// The same where noise does not explain what is left in any case, so that chances are guesses.
@@ -68,7 +70,7 @@ impl Judged<'_> {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
         let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
-        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_on_bound()
+        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_out_of_bounds()
     }
 
     /// Whether chance does not explain what it gains, whether or not it may be the effect.
@@ -78,7 +80,7 @@ impl Judged<'_> {
 
     /// A size that the data push out of its range is not one that they support; nor is a shape that they push out of it, for
     /// the form then stands for another law. Of a shape that may be absent, and is, the data say just that.
-    fn is_on_bound(&self) -> bool {
+    fn is_out_of_bounds(&self) -> bool {
         let model = &self.trial.model;
         let Some(effect) = self.effect() else { return false };
         let mut own = model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
@@ -87,7 +89,7 @@ impl Judged<'_> {
             let is_size = effect.form.free.first() == Some(name);
             let neutral = effect.info.parameters.iter().find(|info| info.name == *name).map(|info| info.neutral);
             let is_absent = !is_size && neutral == self.trial.fit.parameters.get(place).copied();
-            !is_absent && self.trial.fit.on_bound.get(place).copied().unwrap_or(false)
+            !is_absent && self.trial.fit.beyond_bound(place) > BEYOND_BOUND
         })
     }
 }
@@ -237,8 +239,8 @@ fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
 fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Trial<'a>> {
     let held = bench.held(&base.fit);
     let glances: Vec<_> = all.par_iter().filter_map(|form| bench.glance(&held, base, form)).collect();
-    let mut best = best_forms(glances.iter().map(|glance| glance.better.clone()).collect());
-    best.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    let glances = beside_leader(bench, base, glances);
+    let best = best_glances(&glances);
     let form = |trial: &Trial<'_>| trial.specification.effects.last().cloned();
     let leaders: Vec<_> = best.iter().take(LEADERS).filter_map(form).collect();
     let leads = |candidate: &EffectForm| leaders.iter().any(|leader| leader.info.id == candidate.info.id);
@@ -253,6 +255,27 @@ fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Tr
     let mut fitted: Vec<_> = glances.par_iter().filter(is_chosen).filter_map(|glance| bench.pursued(glance)).collect();
     fitted.extend(others);
     finished(bench, fitted)
+}
+
+/// Of each effect the best short look, the best effect first.
+fn best_glances<'a>(glances: &[Glance<'a>]) -> Vec<Trial<'a>> {
+    let mut best = best_forms(glances.iter().map(|glance| glance.better.clone()).collect());
+    best.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
+    best
+}
+
+/// Short looks, those at the best forms of the other effects repeated from the soil of the best effect: where that explains more
+/// than chance, its soil is nearer to the true one than a soil without any.
+fn beside_leader<'a>(bench: &Bench<'a>, base: &Trial<'a>, glances: Vec<Glance<'a>>) -> Vec<Glance<'a>> {
+    let best = best_glances(&glances);
+    let Some((leader, others)) = best.split_first() else { return glances };
+    if leader.log_posterior() - base.log_posterior() < PROMISING_LESS * base.fit.dispersion.max(1.0) {
+        return glances;
+    }
+    let name = |trial: &Trial<'_>| trial.specification.effects.last().map(EffectForm::name);
+    let is_other = |glance: &Glance<'a>| others.iter().any(|other| name(other) == name(&glance.better));
+    let again = |glance| if is_other(&glance) { bench.glance_beside(glance, base, leader) } else { glance };
+    glances.into_par_iter().map(again).collect()
 }
 
 /// The same, those that may win fitted to the end: of runs that it has not seen only a fit at its optimum says anything.

@@ -18,6 +18,10 @@ const GLANCE: usize = 5;
 const AFRESH: usize = 8;
 /// The same where the model without the candidate leaves the data unexplained: its soil is bent the further.
 const AFRESH_OF_A_MISFIT: usize = 24;
+/// Share of the variance of its bounds beyond which nothing is known of a parameter.
+const SILENT: f64 = 0.9;
+/// Sizes of an effect that are tried where nothing is known of it.
+const SIZES: usize = 8;
 /// Steps of a fit to most of the runs from that to all.
 const SHORTLY: usize = 10;
 /// Times that a fit which ran out of steps may go on.
@@ -46,6 +50,18 @@ pub struct Glance<'a> {
     /// Where the posterior is higher.
     pub better: Trial<'a>,
     other: Option<Trial<'a>>,
+}
+
+impl<'a> Glance<'a> {
+    /// With one from another start; of the three the better two stay.
+    fn beside(self, another: Trial<'a>) -> Self {
+        let Glance { better, other } = self;
+        if another.log_posterior() > better.log_posterior() {
+            return Glance { better: another, other: Some(better) };
+        }
+        let is_next = other.as_ref().is_none_or(|other| another.log_posterior() > other.log_posterior());
+        Glance { better, other: if is_next { Some(another) } else { other } }
+    }
 }
 
 /// Rows and options that hold the scales of noise and offsets.
@@ -116,18 +132,55 @@ impl<'a> Bench<'a> {
     }
 
     /// A short look at a model with one more effect: a few steps as of [`Bench::glance_near`], and from a soil as it is expected
-    /// with scales of its own.
+    /// with scales of its own; where both end where the effect does nothing, one more.
     pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Glance<'a>> {
         let extended = self.extended(base, effect);
         let most_iterations = if base.fit.dispersion > MISFIT { AFRESH_OF_A_MISFIT } else { AFRESH };
         let options = Options { most_iterations, ..self.options.clone() };
         let afresh = self.fitted(&extended, &self.afresh(base, &extended.1), &self.measurements.rows, &options);
-        match (self.few_steps(held, base, &extended), afresh) {
-            (Some(near), Some(afresh)) if near.log_posterior() > afresh.log_posterior() => {
-                Some(Glance { better: near, other: Some(afresh) })
-            }
-            (near, Some(afresh)) => Some(Glance { better: afresh, other: near }),
-            (near, None) => Some(Glance { better: near?, other: None }),
+        let glance = match (self.few_steps(held, base, &extended), afresh) {
+            (Some(near), Some(afresh)) => Glance { better: near, other: None }.beside(afresh),
+            (near, afresh) => Glance { better: near.or(afresh)?, other: None },
+        };
+        let is_silent = glance.better.is_silent_of(base.fit.parameters.len());
+        let roused = if is_silent { self.roused(held, base, &extended, &options) } else { None };
+        Some(match roused {
+            Some(roused) => glance.beside(roused),
+            None => glance,
+        })
+    }
+
+    /// A look from the best of an effect's sizes on a soil as it is expected. Past its onset an effect does nothing, and no slope
+    /// leads back there.
+    fn roused(&self, held: &Held, base: &Trial<'a>, extended: &Extended<'a>, options: &Options) -> Option<Trial<'a>> {
+        let place = base.fit.parameters.len();
+        let Coordinate { low, high, .. } = extended.1.coordinates()[place];
+        let expected = self.afresh(base, &extended.1);
+        let of_size = |size: usize| {
+            let mut start = expected.clone();
+            start.parameters[place] = low + (high - low) * (size as f64 + 0.5) / SIZES as f64;
+            start
+        };
+        let no_step = Options { most_iterations: 0, ..held.options.clone() };
+        let tried = (0..SIZES).filter_map(|size| {
+            let there = self.fitted(extended, &of_size(size), &held.rows, &no_step)?;
+            Some((there.log_posterior(), size))
+        });
+        let (_, best) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        self.fitted(extended, &of_size(best), &self.measurements.rows, options)
+    }
+
+    /// A short look once more, from the soil of a model that another effect was added to.
+    pub fn glance_beside(&self, glance: Glance<'a>, base: &Trial<'a>, leader: &Trial<'a>) -> Glance<'a> {
+        let Glance { better, other } = glance;
+        let options = Options { most_iterations: AFRESH, ..self.options.clone() };
+        let soil = &leader.fit.parameters[..leader.model.soil_count()];
+        let parameters = base.parameters_on(soil, &better.model);
+        let extended = (better.specification.clone(), better.model.clone());
+        let glance = Glance { better, other };
+        match self.fitted(&extended, &leader.fit.place(parameters), &self.measurements.rows, &options) {
+            Some(again) => glance.beside(again),
+            None => glance,
         }
     }
 
@@ -160,10 +213,9 @@ impl<'a> Bench<'a> {
 
     /// The soil as it is expected, effects as a model without the last has them, slips and loads as they were read.
     fn afresh(&self, base: &Trial<'a>, model: &CampaignModel<'_>) -> Start {
-        let (soil, fitted) = (base.model.soil_count(), &base.fit.parameters);
-        let mut parameters: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.start).collect();
-        parameters[soil..fitted.len()].copy_from_slice(&fitted[soil..]);
-        Start::at(parameters, &self.measurements.rows)
+        let expected: Vec<f64> = model.coordinates().iter().map(|coordinate| coordinate.start).collect();
+        let soil = base.model.soil_count();
+        Start::at(base.parameters_on(&expected[..soil], model), &self.measurements.rows)
     }
 
     fn fitted(
@@ -262,11 +314,23 @@ impl Trial<'_> {
             .all(|(p, (one, other))| (one - other).abs() <= NEAR * self.fit.covariance[(p, p)].max(0.0).sqrt())
     }
 
+    /// Whether the data say nothing of a parameter where the fit is: its spread is that of its bounds.
+    fn is_silent_of(&self, place: usize) -> bool {
+        let width = self.model.coordinates()[place].high - self.model.coordinates()[place].low;
+        self.fit.covariance[(place, place)] > SILENT * width * width / 12.0
+    }
+
     /// Where a model with more parameters at the end starts from this one's fit.
     fn start_of(&self, model: &CampaignModel<'_>) -> Start {
-        let mut parameters = self.fit.parameters.clone();
-        parameters.extend(model.coordinates().iter().skip(parameters.len()).map(|coordinate| coordinate.start));
-        self.fit.place(parameters)
+        self.fit.place(self.parameters_on(&self.fit.parameters[..self.model.soil_count()], model))
+    }
+
+    /// Parameters of a model with more effects at the end: on some soil, effects as this fit has them, the others as none.
+    fn parameters_on(&self, soil: &[f64], model: &CampaignModel<'_>) -> Vec<f64> {
+        let starts = model.coordinates().iter().map(|coordinate| coordinate.start);
+        let effects = &self.fit.parameters[soil.len()..];
+        let known = soil.iter().chain(effects).copied();
+        known.chain(starts.skip(self.fit.parameters.len())).collect()
     }
 
     /// ln of likelihood and of the Gaussian priors, up to a constant that every model of a campaign shares.

@@ -15,6 +15,8 @@ mod share;
 mod site;
 mod state;
 mod stress;
+#[cfg(test)]
+mod tests;
 mod trial;
 mod undeclared;
 mod unlisted;

@@ -95,6 +95,16 @@ impl Fit {
         Start { scales: Some(self.scales()), ..self.place(self.parameters.clone()) }
     }
 
+    /// Standard deviations by which the data would carry a coordinate beyond the bound that holds it, to first order; 0 where
+    /// none does.
+    pub fn beyond_bound(&self, place: usize) -> f64 {
+        if !self.on_bound[place] {
+            return 0.0;
+        }
+        let variance = self.covariance[(place, place)].max(0.0);
+        self.pull[place].abs() * (variance / self.dispersion.max(1.0)).sqrt()
+    }
+
     /// Its standard deviations.
     pub(super) fn scales(&self) -> Scales {
         Scales { noise: self.noise_scale, offset: self.offset_std }

@@ -17,6 +17,10 @@ fn a_parameter_on_its_bound_leaves_the_others_at_their_best() {
     assert_eq!(bounded.on_bound, [false, true, false]);
     assert!((bounded.parameters[1] - 0.8).abs() < 1e-12 && unbounded.parameters[1] > 0.8);
     assert!(bounded.covariance[(1, 1)] <= 1.2_f64.powi(2) / 12.0);
+    let std = (unbounded.covariance[(1, 1)] * bounded.dispersion.max(1.0)).sqrt();
+    let beyond = (unbounded.parameters[1] - 0.8) / std;
+    assert!((bounded.beyond_bound(1) / beyond - 1.0).abs() < 0.05, "{} {beyond}", bounded.beyond_bound(1));
+    assert_eq!(bounded.beyond_bound(0), 0.0);
     // The Gaussian of the others given this one, from the unbounded fit.
     let gain = unbounded.covariance.column(1) / unbounded.covariance[(1, 1)];
     for p in [0, 2] {
