@@ -32,7 +32,7 @@ const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;
 /// The chance below which any gain on runs that were not seen is enough.
 const BEYOND_DOUBT: f64 = 1e-4;
-/// Standard deviations beyond a bound where a parameter that is held on it is not one that the data support.
+/// Standard deviations beyond a bound from which a size that is held on it is not one that the data support.
 const BEYOND_BOUND: f64 = 2.0;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
@@ -78,8 +78,9 @@ impl Judged<'_> {
         self.p_value < SIGNIFICANT
     }
 
-    /// A size that the data push out of its range is not one that they support; nor is a shape that they push out of it, for
-    /// the form then stands for another law. Of a shape that may be absent, and is, the data say just that.
+    /// A size that the data push out of its range, by more than they leave open, is not one that they support; nor is a shape that
+    /// they push out of it at all, for the form then stands for another law. Of a shape that may be absent, and is, the data say
+    /// just that.
     fn is_out_of_bounds(&self) -> bool {
         let model = &self.trial.model;
         let Some(effect) = self.effect() else { return false };
@@ -88,8 +89,12 @@ impl Judged<'_> {
             let place = model.soil_count() + place;
             let is_size = effect.form.free.first() == Some(name);
             let neutral = effect.info.parameters.iter().find(|info| info.name == *name).map(|info| info.neutral);
-            let is_absent = !is_size && neutral == self.trial.fit.parameters.get(place).copied();
-            !is_absent && self.trial.fit.beyond_bound(place) > BEYOND_BOUND
+            let beyond = self.trial.fit.beyond_bound(place);
+            if is_size {
+                beyond > BEYOND_BOUND
+            } else {
+                beyond > 0.0 && neutral != Some(self.trial.fit.parameters[place])
+            }
         })
     }
 }
