@@ -121,8 +121,8 @@ pub(super) struct ContactAngleFilter<S> {
     begun: bool,
     runs: Runs<S, RUNS>,
     trends: Trends<S, 3>,
-    /// Variances of what the angles drift by in a step, rad².
-    drift_variances: PerAxle<S>,
+    /// Variances of what the angles of the front wheel and of the bogie's drift by in a step, rad².
+    drift_variances: [S; 2],
     /// The same of what the paths of the hubs turn back to the terrain by.
     turned_back: S,
     /// Variances of the angles after the last frame, rad².
@@ -154,7 +154,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             begun: false,
             runs: Runs::new(),
             trends: Trends::new(),
-            drift_variances: PerAxle::all(zero),
+            drift_variances: [zero; 2],
             turned_back: zero,
             variances: PerAxle::all(S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE)),
             still: [one; 2],
@@ -318,7 +318,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>) {
         // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
-        let learned = S::constant(LEARNED) * self.drift_variances.rear;
+        let [_, drift] = self.drift_variances;
+        let learned = S::constant(LEARNED) * drift;
         let moved = self.angles().zip(*before).zip(*variances);
         let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
         self.trends.follow(self.travel_m(step_s), &moved.into_array());
@@ -330,9 +331,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
     fn follow_still(&mut self, variances: &PerAxle<S>) {
         let truly = core::mem::replace(&mut self.turned_back, S::zero());
         let before = core::mem::replace(&mut self.variances, *variances);
-        let drifts = &self.drift_variances;
-        let angles = [(before.front, drifts.front, variances.front), (before.rear, drifts.rear, variances.rear)];
-        for (still, (before, drift, now)) in self.still.iter_mut().zip(angles) {
+        let angles = [(before.front, variances.front), (before.rear, variances.rear)];
+        for ((still, drift), (before, now)) in self.still.iter_mut().zip(self.drift_variances).zip(angles) {
             let expected = before + truly + drift;
             let kept = (now / expected).min(S::one());
             *still = S::one() - kept + kept * (*still * before + truly) / expected;
@@ -378,9 +378,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
         let met = S::constant(FRONT_FROM_FORCES) * runs_of_forces;
         let drift = nominal * factor * beside_trend(BESIDE_TREND, restless);
-        self.drift_variances = PerAxle { front: drift + nominal * met, middle: drift, rear: drift };
+        self.drift_variances = [drift + nominal * met, drift];
         let truly = self.turned_back;
-        let PerAxle { front, rear: others, .. } = self.drift_variances.map(|drift| (drift + truly).sqrt());
+        let [front, others] = self.drift_variances.map(|drift| (drift + truly).sqrt());
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
         let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
         let _ = self.filter.predict(process, &noise);

@@ -241,6 +241,7 @@ impl<S: Scalar> SideEstimator<S> {
         let roughness = self.angles.roughness();
         let mut unsettles = false;
         let mut settles = false;
+        let mut stands = false;
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
@@ -254,6 +255,7 @@ impl<S: Scalar> SideEstimator<S> {
                 filter.start();
             }
             *activity = now;
+            stands |= now == WheelActivity::Standing;
             *unsettled = if now == WheelActivity::Standing { SETTLED } else { unsettled.saturating_sub(1) };
             if *unsettled > SETTLED - SETTLING {
                 filter.unsettle();
@@ -284,15 +286,15 @@ impl<S: Scalar> SideEstimator<S> {
         if settles {
             self.forces.settle();
         }
-        self.dig_in(step_s);
+        self.dig_in(step_s, stands);
     }
 
     /// Lets wheels dig in that have stood: the path of a hub comes back to the terrain as it travels, and so drifts against it.
     #[inline(never)] // flash is scarcer than the time of a call
-    fn dig_in(&mut self, step_s: S) {
+    fn dig_in(&mut self, step_s: S, stands: bool) {
         let square = |value: f64| S::constant(value * value);
         self.told_by_links = S::zero();
-        if self.unsettled.as_array().into_iter().any(|frames| *frames == SETTLED) {
+        if stands {
             self.digs_in = square(DIGS_IN);
         } else if self.digs_in > S::zero() {
             let speed = self.speed_m_s().max(S::constant(LEAST_SPEED));
