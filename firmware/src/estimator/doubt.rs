@@ -1,9 +1,11 @@
 //! How much larger errors are than the filters know.
 //!
 //! Rates of drift are chosen by innovations. Of what moves steadily rather than at random, with gain k and noise R, that choice leaves
-//! k R/4 of lag and k R/2 of noise, and a filter states k R: so some three quarters. Where the ground changes faster than the
-//! rates, innovations come in runs ([`super::runs`]), and errors are larger; where it turns, everything lags ([`super::trend`]). All
-//! numbers are as measured on drives of development, the same for every kind of ground.
+//! k R/4 of lag and k R/2 of noise, and a filter states k R: so some three quarters. Of what does not move at all, all of it is true as
+//! long as the filter still learns more than it forgets, and half of it in the end; the filter of the contact angles follows that share,
+//! which holds on still ground. Where the ground changes faster than the rates, innovations come in runs ([`super::runs`]), and errors
+//! are larger; where it turns, everything lags ([`super::trend`]). All numbers are as measured on drives of development, the same for
+//! every kind of ground.
 
 use super::contact_angle::UNKNOWN_ANGLE;
 use super::runs::Runs;

@@ -70,8 +70,7 @@ pub(super) struct SideEstimator<S> {
     rim_speed_m_s: S,
     /// Variance of how fast the wheels sink, over the speed of their rims.
     digs_in: S,
-    /// How much of what is known of the contact angles comes from the links' pitches, 0 … 1: nothing where the wheels have dug in, all
-    /// where they sink so fast that their hubs' paths tell nothing of the terrain.
+    /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
     pub(super) told_by_links: S,
     sinking: Sinking<S>,
     told: SideInnovations<S>,
@@ -239,9 +238,7 @@ impl<S: Scalar> SideEstimator<S> {
     ) {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
-        let mut unsettles = false;
-        let mut settles = false;
-        let mut stands = false;
+        let [mut unsettles, mut settles, mut stands] = [false; 3];
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
