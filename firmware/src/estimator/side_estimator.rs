@@ -296,7 +296,7 @@ impl<S: Scalar> SideEstimator<S> {
         } else if self.digs_in > S::zero() {
             let speed = self.speed_m_s().max(S::constant(LEAST_SPEED));
             let came_back = self.digs_in * (S::constant(2.0 / DIGGING_IN_M) * speed * step_s).min(S::one());
-            self.digs_in = self.digs_in - came_back;
+            self.digs_in -= came_back;
             let over_rim = self.rim_speed_m_s / speed;
             let squared = over_rim * over_rim;
             self.angles.dig_in(came_back * squared);
