@@ -85,13 +85,9 @@ pub(super) struct SideReadings<S> {
 /// One standard deviation of a ratio that is not known at all, and of contact angles about the pitch of their link, rad:
 /// wider, and the filter might take a wheel that rolls forward for one that hangs from a ceiling and rolls back.
 const UNKNOWN_RATIO: f64 = 0.3;
-const UNKNOWN_ANGLE: f64 = 0.2;
+pub(super) const UNKNOWN_ANGLE: f64 = 0.2;
 /// The part of that which is added where the state has moved faster than it drifts.
 const LOOSENED: f64 = 0.2;
-/// One standard deviation by which the path of a hub may turn against the terrain in a frame while its wheel digs in, rad; and of
-/// what is left of that when it has: the filter took for terrain what was sinking.
-const DIGS_IN: f64 = 0.02;
-const DUG_IN: f64 = 0.1;
 /// A contact angle farther from the pitch of its link is given up, rad; and one whose variance is this many times that of one that
 /// is not known at all: over so wide a spread the model bends so much that no measurement would narrow it.
 const IMPOSSIBLE_ANGLE: f64 = 1.2;
@@ -125,8 +121,14 @@ pub(super) struct ContactAngleFilter<S> {
     begun: bool,
     runs: Runs<S, RUNS>,
     trends: Trends<S, 3>,
-    /// Variance of what an angle drifts by in a step, rad².
-    drift_variance: S,
+    /// Variances of what the angles of the front wheel and of the bogie's drift by in a step, rad².
+    drift_variances: [S; 2],
+    /// The same of what the paths of the hubs turn back to the terrain by.
+    turned_back: S,
+    /// Variances of the angles after the last frame, rad².
+    variances: PerAxle<S>,
+    /// See [`Self::still`].
+    still: [S; 2],
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
     speed_slopes: PerAxle<[S; STATES]>,
 }
@@ -152,7 +154,10 @@ impl<S: Scalar> ContactAngleFilter<S> {
             begun: false,
             runs: Runs::new(),
             trends: Trends::new(),
-            drift_variance: zero,
+            drift_variances: [zero; 2],
+            turned_back: zero,
+            variances: PerAxle::all(S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE)),
+            still: [one; 2],
             speed_slopes: hub_speed_slopes(rover)
                 .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero, zero]),
         })
@@ -179,7 +184,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// Gives up contact angles that no wheel on the ground has, and those that are lost.
     fn give_up_impossible(&mut self) {
         let [_, front, middle, rear, rocker, bogie, _] = *self.filter.estimate().mean();
-        let [_, of_front, of_middle, of_rear, ..] = self.filter.estimate().variances();
+        let PerAxle { front: of_front, middle: of_middle, rear: of_rear } = self.variances;
         let lost = S::constant(LOST * UNKNOWN_ANGLE * UNKNOWN_ANGLE);
         let places = [(1, front, of_front, rocker), (2, middle, of_middle, bogie), (3, rear, of_rear, bogie)];
         for (index, angle, variance, link) in places {
@@ -220,25 +225,21 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().weighted_sum(&slopes).1)
     }
 
-    /// A wheel stands or has just started: it digs in, in a way that no load tells, and its hub's path is not the terrain's slope.
-    pub fn unsettle(&mut self) {
-        self.loosen_angles(DIGS_IN);
+    /// The wheels dig in, and until the next frame the paths of their hubs turn back to the terrain by an angle of this variance, rad².
+    pub fn dig_in(&mut self, variance: S) {
+        self.trends.forget();
+        self.turned_back = variance.min(S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE));
     }
 
-    /// The wheels have dug in: how the links moved meanwhile tells nothing of the terrain, nor of how rough it is.
+    /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the terrain is.
     pub fn settle(&mut self) {
-        self.loosen_angles(DUG_IN);
         self.roughness.restart();
     }
 
-    fn loosen_angles(&mut self, std: f64) {
-        self.trends.forget();
-        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
-        // However long it stands, an angle does not become less known than one of which nothing is known.
-        let unknown = S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE);
-        let zero = S::zero();
-        let angle = |variance: S| if variance < unknown { S::constant(std) } else { zero };
-        let _ = self.filter.random_walk(&[zero, angle(front), angle(middle), angle(rear), zero, zero, zero]);
+    /// Of the variance of the front wheel's contact angle, and of those of the bogie's, what would be true of angles that have not drifted
+    /// at all.
+    pub fn still(&self) -> &[S; 2] {
+        &self.still
     }
 
     /// How often the filter fell back to its floor.
@@ -295,13 +296,16 @@ impl<S: Scalar> ContactAngleFilter<S> {
             Contradiction::Moved => Some(Self::unknown_std().map(|std| std * S::constant(LOOSENED))),
             Contradiction::Wrong => Some(Self::unknown_std()),
         };
-        match loosened {
-            Some(stds) => {
-                self.trends.forget();
-                let _ = self.filter.random_walk(&stds);
-            }
-            None => self.follow_trends(step_s, &before),
+        if let Some(stds) = &loosened {
+            self.trends.forget();
+            let _ = self.filter.random_walk(stds);
         }
+        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
+        let variances = PerAxle { front, middle, rear };
+        if loosened.is_none() {
+            self.follow_trends(step_s, &before, &variances);
+        }
+        self.follow_still(&variances);
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
@@ -312,13 +316,27 @@ impl<S: Scalar> ContactAngleFilter<S> {
         PerAxle { front, middle, rear }
     }
 
-    fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>) {
-        let [_, front, middle, rear, ..] = self.filter.estimate().variances();
+    fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>) {
         // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
-        let learned = S::constant(LEARNED) * self.drift_variance;
-        let moved = self.angles().zip(*before).zip(PerAxle { front, middle, rear });
+        let [_, drift] = self.drift_variances;
+        let learned = S::constant(LEARNED) * drift;
+        let moved = self.angles().zip(*before).zip(*variances);
         let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
         self.trends.follow(self.travel_m(step_s), &moved.into_array());
+    }
+
+    /// Of an angle that stays what it is, while the filter thinks that it drifts by q in a frame, an update leaves the error
+    /// (1 − k)² ρ P + k² R where P is stated before and (1 − k) (P + q) after it.
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn follow_still(&mut self, variances: &PerAxle<S>) {
+        let truly = core::mem::replace(&mut self.turned_back, S::zero());
+        let before = core::mem::replace(&mut self.variances, *variances);
+        let angles = [(before.front, variances.front), (before.rear, variances.rear)];
+        for ((still, drift), (before, now)) in self.still.iter_mut().zip(self.drift_variances).zip(angles) {
+            let expected = before + truly + drift;
+            let kept = (now / expected).min(S::one());
+            *still = S::one() - kept + kept * (*still * before + truly) / expected;
+        }
     }
 
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
@@ -358,9 +376,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
         let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
         let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
-        self.drift_variance = nominal * factor * beside_trend(BESIDE_TREND, restless);
         let met = S::constant(FRONT_FROM_FORCES) * runs_of_forces;
-        let (front, others) = ((self.drift_variance + nominal * met).sqrt(), self.drift_variance.sqrt());
+        let drift = nominal * factor * beside_trend(BESIDE_TREND, restless);
+        self.drift_variances = [drift + nominal * met, drift];
+        let truly = self.turned_back;
+        let [front, others] = self.drift_variances.map(|drift| (drift + truly).sqrt());
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
         let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
         let _ = self.filter.predict(process, &noise);

@@ -1,16 +1,19 @@
 //! How much larger errors are than the filters know.
 //!
 //! Rates of drift are chosen by innovations. Of what moves steadily rather than at random, with gain k and noise R, that choice leaves
-//! k R/4 of lag and k R/2 of noise, and a filter states k R: so some three quarters. Where the ground changes faster than the
-//! rates, innovations come in runs ([`super::runs`]), and errors are larger; where it turns, everything lags ([`super::trend`]). All
-//! numbers are as measured on drives of development, the same for every kind of ground.
+//! k R/4 of lag and k R/2 of noise, and a filter states k R: so some three quarters. Of what does not move at all, all of it is true as
+//! long as the filter still learns more than it forgets, and half of it in the end; the filter of the contact angles follows that share,
+//! which holds on still ground. Where the ground changes faster than the rates, innovations come in runs ([`super::runs`]), and errors
+//! are larger; where it turns, everything lags ([`super::trend`]). All numbers are as measured on drives of development, the same for
+//! every kind of ground.
 
+use super::contact_angle::UNKNOWN_ANGLE;
 use super::runs::Runs;
 use super::trend::Trends;
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
-/// Of the variance that a filter states of contact angles, what is true of the bogie's, and of the front wheel's.
+/// Of the variance that a filter states of contact angles on restless ground, what is true of the bogie's, and of the front wheel's.
 const BOGIE_ANGLE: f64 = 0.9;
 const FRONT_ANGLE: f64 = 0.85;
 /// What is added to that of the front wheel for each unit by which the runs of how the side moves are above chance: it meets what the
@@ -47,6 +50,16 @@ pub(super) struct WheelDoubt<S> {
     pub torque_variance: S,
 }
 
+/// How the contact angles of a side came to be known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AnglesKnown<'a, S> {
+    /// Of the variances that the filter states of the front wheel's and of the bogie's, what would be true of angles that have not
+    /// drifted at all.
+    pub still: &'a [S; 2],
+    /// How much of what is known comes from the links' pitches, 0 … 1.
+    pub told_by_links: S,
+}
+
 /// Of one side.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doubt<S> {
@@ -63,23 +76,31 @@ pub(super) struct Doubt<S> {
 impl<S: Scalar> Doubt<S> {
     /// What the runs of how a side moves and of its forces tell, and the trends of its contact angles.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn of<const N: usize, const M: usize>(motion: &Runs<S, N>, forces: &Runs<S, M>, trends: &Trends<S, 3>) -> Self {
+    pub fn of<const N: usize, const M: usize>(
+        motion: &Runs<S, N>,
+        forces: &Runs<S, M>,
+        trends: &Trends<S, 3>,
+        angles: &AnglesKnown<'_, S>,
+    ) -> Self {
         let (motion, forces) = (motion.above_chance(), forces.above_chance());
         let constant = S::constant;
         // The same of all three: the ground's.
         let [rough, ..] = trends.restless();
+        let dug = constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * angles.told_by_links;
         let wheel = |trend: S, angle: S, untold: f64| {
             let lag = |length: f64| constant(length * length) * trend * trend;
             WheelDoubt {
                 angle,
-                angle_variance: lag(ANGLE_LAG) + constant(untold * untold) * rough,
+                angle_variance: lag(ANGLE_LAG) + constant(untold * untold) * rough + dug,
                 load_variance: lag(LOAD_LAG),
                 torque_variance: lag(TORQUE_LAG),
             }
         };
         let [front, middle, rear] = trends.per_m();
-        let (of_front, of_bogie) =
-            (constant(FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * motion, constant(BOGIE_ANGLE));
+        let true_of = |still: S, restless: f64| still + rough * (constant(restless) - still);
+        let [of_front, of_bogie] = *angles.still;
+        let of_front = true_of(of_front, FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * motion;
+        let of_bogie = true_of(of_bogie, BOGIE_ANGLE);
         Self {
             wheels: PerAxle {
                 front: wheel(front, of_front, FRONT_UNTOLD),
@@ -95,10 +116,11 @@ impl<S: Scalar> Doubt<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Doubt, PerAxle, Runs, Trends};
+    use super::{AnglesKnown, Doubt, PerAxle, Runs, Trends};
 
     fn doubt(trends: &Trends<f64, 3>) -> Doubt<f64> {
-        Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends)
+        let known = AnglesKnown { still: &[0.7; 2], told_by_links: 0.0 };
+        Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends, &known)
     }
 
     /// Of an angle that turns by 0.5 rad over a metre, 14 mm of lag; of one that does not, on the same ground, only what is untold.
@@ -107,6 +129,7 @@ mod tests {
         let mut trends = Trends::<f64, 3>::new();
         let plane = doubt(&trends).wheels;
         assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
+        assert!(plane.as_array().into_iter().all(|wheel| (wheel.angle - 0.7).abs() < 1.0e-12));
         trends.expect([1.0; 3]);
         trends.follow(0.002, &[(1.0e-3, 1.0), (0.0, 1.0), (0.0, 1.0)]);
         let [turned, ..] = trends.per_m();

@@ -1,7 +1,7 @@
 //! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
 
 use super::contact_angle;
-use super::doubt::{Doubt, WheelDoubt};
+use super::doubt::{AnglesKnown, Doubt, WheelDoubt};
 use super::drawbar_split::{DrawbarSplit, along_contact};
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
@@ -125,19 +125,22 @@ impl<S: Scalar> SideEstimator<S> {
     /// The contacts, with the split of the bogie's pull that the torques tell now.
     fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
+        let told_by_links = self.told_by_links;
+        let contact = |path: S, link: S| path + told_by_links * (link - path);
         let forces = self.forces.forces_at(estimate);
         let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch, &forces);
         let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
         let split = S::constant(0.5) * DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
         PerAxle {
-            front: contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero()),
-            middle: contact_forces(Axle::Middle, middle, bogie_pitch, forces.middle, split),
-            rear: contact_forces(Axle::Rear, rear, bogie_pitch, forces.rear, -split),
+            front: contact_forces(Axle::Front, contact(front, rocker_pitch), rocker_pitch, forces.front, S::zero()),
+            middle: contact_forces(Axle::Middle, contact(middle, bogie_pitch), bogie_pitch, forces.middle, split),
+            rear: contact_forces(Axle::Rear, contact(rear, bogie_pitch), bogie_pitch, forces.rear, -split),
         }
     }
 
     fn doubt(&self) -> Doubt<S> {
-        Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends())
+        let known = AnglesKnown { still: self.angles.still(), told_by_links: self.told_by_links };
+        Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
     }
 
     fn variances(

@@ -1,9 +1,7 @@
 //! The filters of one side, and what they say together.
 
-use core::cmp::Ordering;
-
 use super::attitude::Attitude;
-use super::contact_angle::{self, ContactAngleFilter, SideReadings};
+use super::contact_angle::{self, ContactAngleFilter, SideReadings, UNKNOWN_ANGLE};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
@@ -42,9 +40,14 @@ const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
-/// Frames in which a wheel that has started may still dig in: until its drive has come to its speed, and some
-/// centimetre beyond. Loads shift from wheel to wheel; what that turns the hubs' paths by is half as much after each centimetre.
-const DIGGING_IN: u8 = 16;
+/// How fast the wheels of a side sink as they start, over the speed of their rims, as one standard deviation, and the travel after
+/// which that is down to a third, m: loads shift from wheel to wheel and slips grow.
+const DIGS_IN: f64 = 0.1;
+const DIGGING_IN_M: f64 = 0.013;
+/// Where they sink by less than this they have dug in.
+const DUG_IN: f64 = 0.003;
+/// The least speed that paths are told by while wheels dig in, m/s.
+const LEAST_SPEED: f64 = 3.0e-5;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
@@ -65,6 +68,10 @@ pub(super) struct SideEstimator<S> {
     unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
+    /// Variance of how fast the wheels sink, over the speed of their rims.
+    digs_in: S,
+    /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
+    pub(super) told_by_links: S,
     sinking: Sinking<S>,
     told: SideInnovations<S>,
 }
@@ -106,6 +113,8 @@ impl<S: Scalar> SideEstimator<S> {
             activity: PerAxle::default(),
             unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
+            digs_in: S::zero(),
+            told_by_links: S::zero(),
             sinking: Sinking::new(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
@@ -229,8 +238,7 @@ impl<S: Scalar> SideEstimator<S> {
     ) {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
-        let mut unsettles = false;
-        let mut settles = false;
+        let [mut unsettles, mut settles, mut stands] = [false; 3];
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
@@ -244,6 +252,7 @@ impl<S: Scalar> SideEstimator<S> {
                 filter.start();
             }
             *activity = now;
+            stands |= now == WheelActivity::Standing;
             *unsettled = if now == WheelActivity::Standing { SETTLED } else { unsettled.saturating_sub(1) };
             if *unsettled > SETTLED - SETTLING {
                 filter.unsettle();
@@ -271,14 +280,32 @@ impl<S: Scalar> SideEstimator<S> {
         if unsettles {
             self.forces.unsettle();
         }
-        let latest = self.unsettled.as_array().into_iter().fold(0, |latest: u8, frames| latest.max(*frames));
-        match latest.cmp(&(SETTLED - DIGGING_IN)) {
-            Ordering::Greater => self.angles.unsettle(),
-            Ordering::Equal => self.angles.settle(),
-            Ordering::Less => {}
-        }
         if settles {
             self.forces.settle();
+        }
+        self.dig_in(step_s, stands);
+    }
+
+    /// Lets wheels dig in that have stood: the path of a hub comes back to the terrain as it travels, and so drifts against it.
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn dig_in(&mut self, step_s: S, stands: bool) {
+        let square = |value: f64| S::constant(value * value);
+        self.told_by_links = S::zero();
+        if stands {
+            self.digs_in = square(DIGS_IN);
+        } else if self.digs_in > S::zero() {
+            let speed = self.speed_m_s().max(S::constant(LEAST_SPEED));
+            let came_back = self.digs_in * (S::constant(2.0 / DIGGING_IN_M) * speed * step_s).min(S::one());
+            self.digs_in -= came_back;
+            let over_rim = self.rim_speed_m_s / speed;
+            let squared = over_rim * over_rim;
+            self.angles.dig_in(came_back * squared);
+            let steeper = self.digs_in * squared;
+            self.told_by_links = steeper / (steeper + square(UNKNOWN_ANGLE));
+            if self.digs_in < square(DUG_IN) {
+                self.digs_in = S::zero();
+                self.angles.settle();
+            }
         }
     }
 
