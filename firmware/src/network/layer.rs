@@ -1,6 +1,6 @@
 //! One layer of weighted sums, equation 12.
 
-use super::multiply_accumulate::{TILE, add_to_tile};
+use super::multiply_accumulate::{HALF, TILE, add_to_half, add_to_tile};
 use super::{Numbers, activate};
 
 /// Weights from `I` inputs to `O` sums; one row an input, so that sums run in parallel and their order is fixed.
@@ -17,8 +17,10 @@ impl<const I: usize, const O: usize> Weights<I, O> {
         for (place, tile) in tiles.iter_mut().enumerate() {
             add_to_tile(tile, input, &self.0, place);
         }
+        let (halves, rest) = rest.as_chunks_mut::<HALF>();
+        halves.iter_mut().for_each(|half| add_to_half(half, input, &self.0));
         for (x, row) in input.iter().zip(&self.0) {
-            rest.iter_mut().zip(row.as_chunks::<TILE>().1).for_each(|(sum, weight)| *sum += x * weight);
+            rest.iter_mut().zip(row.as_chunks::<HALF>().1).for_each(|(sum, weight)| *sum += x * weight);
         }
     }
 }

@@ -20,17 +20,18 @@ pub const WHEEL_HIDDEN: usize = 16;
 
 /// The most wheels that the rover network takes.
 pub const ROVER_WHEELS: usize = 6;
-/// Neurons in the layer of each wheel, whose mean and variance over the wheels are pooled.
-pub const ROVER_HIDDEN: usize = 16;
+/// Neurons in the layer of each wheel, whose mean and variance over the wheels are pooled. Few are enough beside the trend:
+/// what they would cost is worth more in the head.
+pub const ROVER_HIDDEN: usize = 8;
 /// Inputs of the layer behind the pool: means, variances, the shared inputs and the number of wheels.
 pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_HIDDEN + ROVER_CONTEXT + 1;
 /// Neurons in the first layer behind the pool.
 pub const ROVER_FIRST_HEAD: usize = 64;
 /// Neurons in the second layer behind the pool.
-pub const ROVER_SECOND_HEAD: usize = 32;
+pub const ROVER_SECOND_HEAD: usize = 48;
 /// Neurons in the third layer behind the pool. Of heads with as many numbers, three layers learn the map to a lower loss
 /// than two.
-pub const ROVER_THIRD_HEAD: usize = 32;
+pub const ROVER_THIRD_HEAD: usize = 40;
 
 /// Layer sizes of the per-wheel network, as its frozen table states them.
 pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];

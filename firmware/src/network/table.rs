@@ -108,7 +108,9 @@ impl<const PAIRS: usize> RoverTable<PAIRS> {
             let wheels = pair.wheels.get(..pair.count as usize).unwrap_or(&pair.wheels);
             self.outputs(&pair.context, wheels.iter().copied())
         };
-        self.golden.iter().filter(|pair| same_bits(&outputs(pair), &pair.output)).count()
+        // Seen as what they are, the compiler makes a network of its own for each pair.
+        let golden = core::hint::black_box(self.golden.as_slice());
+        golden.iter().filter(|pair| same_bits(&outputs(pair), &pair.output)).count()
     }
 }
 

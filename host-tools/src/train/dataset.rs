@@ -43,6 +43,16 @@ pub fn rover_inputs(scenes: &[Scene], seed: u64) -> Vec<RoverInput> {
     seen.map(|(index, scene)| rover_features(&observe(scene, &mut stream(seed, index)))).collect()
 }
 
+/// The same with each scene as this pass of training sees it, [`Scene::seen_anew`].
+pub fn rover_inputs_anew(scenes: &[Scene], seed: u64) -> Vec<RoverInput> {
+    let seen = |(index, scene): (usize, &Scene)| {
+        let mut random = stream(seed, index);
+        let scene = scene.seen_anew(|| random.random());
+        rover_features(&observe(&scene, &mut random))
+    };
+    scenes.par_iter().enumerate().map(seen).collect()
+}
+
 /// Examples of the rover network from its inputs.
 pub fn rover_examples(
     scenes: &[Scene],

@@ -80,13 +80,16 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         (
             "noise",
             format!(
-                "per instant DP/W {:.5}, W/W {:.5}, T/(rW) {:.5}, slip {:.5}, z/r {:.5}; averaging factor {}",
+                "per instant DP/W {:.5}, W/W {:.5}, T/(rW) {:.5}, slip {:.5}, z/r {:.5}; averaging factor {}, in {:.0} % of \
+                 what the rover network is shown {}",
                 noise.drawbar_pull,
                 noise.load,
                 noise.torque,
                 noise.slip,
                 noise.sinkage,
-                range(prior::AVERAGING, "")
+                range(prior::AVERAGING, ""),
+                100.0 * prior::PRECISE_SHARE,
+                range(prior::PRECISE_AVERAGING, "")
             ),
         ),
     ];

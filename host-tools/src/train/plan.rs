@@ -24,9 +24,9 @@ impl Plan {
     pub fn full(seed: u32) -> Self {
         Self {
             seed,
-            scenes: 800_000,
+            scenes: 1_000_000,
             held_out: 60_000,
-            rover_epochs: 300,
+            rover_epochs: 360,
             wheel_epochs: 20,
             comparison_scenes: 16_000,
             comparison_steps: 12,

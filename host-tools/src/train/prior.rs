@@ -124,6 +124,12 @@ pub const INSTANT_NOISE: RelativeNoise = RelativeNoise {
 };
 /// Factor on the noise of all channels: a mean of 400 instants … one instant.
 pub const AVERAGING: Range = Range::logarithmic(0.05, 1.0);
+/// Share of what the rover network is shown in a pass that Kapvik's sensors see, over as many instants as
+/// [`PRECISE_AVERAGING`] says: precise states ask most of a network, and are few without it. What a soil may be stays as it
+/// is, and so do the scenes that networks are judged and their intervals calibrated on.
+pub const PRECISE_SHARE: f64 = 0.5;
+/// Factor on the noise of all channels there: a mean of 400 … 25 instants.
+pub const PRECISE_AVERAGING: Range = Range::logarithmic(0.05, 0.2);
 /// Further factor on the noise of a single channel, for other sensors than Kapvik's.
 pub const OTHER_SENSOR: Range = Range::logarithmic(0.25, 3.0);
 

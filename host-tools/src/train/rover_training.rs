@@ -5,7 +5,7 @@ use kapvik_firmware::network::{GOLDEN_PAIRS, PosteriorScale, ROVER_WHEELS, Rover
 
 use super::calibration::calibrate;
 use super::curve::Curve;
-use super::dataset::{prior_scale, rover_examples, rover_inputs};
+use super::dataset::{prior_scale, rover_examples, rover_inputs, rover_inputs_anew};
 use super::epochs::train_by_epochs;
 use super::example::{RoverInput, RoverNormalisation};
 use super::plan::{Plan, Purpose};
@@ -19,7 +19,7 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
     let watched = rover_examples(held_out, &raw, &normal);
     let curve = Curve::new("rover network");
     let (network, curve) = train_by_epochs(plan, plan.rover_epochs, &watched, curve, progress, |seed| {
-        rover_examples(scenes, &rover_inputs(scenes, seed), &normal)
+        rover_examples(scenes, &rover_inputs_anew(scenes, seed), &normal)
     });
     let mut posterior = prior_scale();
     calibrate(&network, &watched, &mut posterior);

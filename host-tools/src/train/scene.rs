@@ -38,11 +38,27 @@ impl Scene {
         self
     }
 
+    /// The same wheels as another pass of training sees them: in a share of [`prior::PRECISE_SHARE`] by Kapvik's sensors over
+    /// many instants, else as noisily as here; the sinkage seen or not by chance. `share` gives numbers 0 … 1.
+    pub fn seen_anew(&self, mut share: impl FnMut() -> f64) -> Self {
+        let mut scene = self.clone();
+        scene.sinkage_seen = share() < SINKAGE_SEEN_SHARE;
+        if share() < prior::PRECISE_SHARE {
+            let load_n =
+                self.wheels.iter().map(|state| f64::from(state.load_n)).sum::<f64>() / self.wheels.len() as f64;
+            scene.noise = noise(&self.wheel, load_n, [prior::PRECISE_AVERAGING.at(share()); 5]);
+        }
+        scene
+    }
+
     /// What the sensors read but for their noise.
     pub fn read(&self) -> &[WheelState] {
         self.misread.as_ref().unwrap_or(&self.wheels)
     }
 }
+
+/// Share of the scenes for training in which the sinkage is seen.
+const SINKAGE_SEEN_SHARE: f64 = 0.5;
 
 /// The slope, rad, that wheels pull their rover up at steady speed.
 fn slope_rad(wheels: &[WheelState]) -> f32 {
@@ -163,7 +179,7 @@ fn draw_training(shares: &mut Shares, ground: &Ground) -> Option<Scene> {
     let noise = draw_noise(shares, &wheel, load_n);
     let (fewer, count) = (shares.next(), shares.next());
     let count = if fewer < prior::WHOLE_ROVER_SHARE { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
-    let sinkage_seen = shares.next() < 0.5;
+    let sinkage_seen = shares.next() < SINKAGE_SEEN_SHARE;
     let (slope_seen, slope_std) = (shares.next() < 0.7, prior::SLOPE_STD_RAD.at(shares.next()));
     let mut asked = heapless::Vec::new();
     for place in 0..count {

@@ -1,24 +1,27 @@
-//! Mean and spread of the posterior: normal in all directions but those of cohesion and shear modulus, over which it is
-//! summed.
+//! Mean and spread of the posterior: normal in all directions but those of cohesion and of shear modulus or friction angle,
+//! over which it is summed.
 //!
 //! The logarithm of a small cohesion is anything from what the data allow at most downwards, and as the cohesion takes part
 //! of the strength, friction angle and shear modulus go with it: the posterior is a bent ridge with one long end. Where the
-//! slips are alike, another ridge runs from soils that are weak and hold early to ones that are strong and hold late. For a
-//! cohesion and a modulus that are held, the others are nearly normal. So these two are moved in equal steps from the mode
+//! slips are alike, another ridge runs from soils that are weak and hold early to ones that are strong and hold late; of one
+//! instant, friction angle and modulus are known so little that the prior's ends bend them. For a cohesion and a modulus, or
+//! an angle, that are held, the others are nearly normal. So these two are moved in equal steps from the mode
 //! to both sides, the others are fitted anew at each, and the normal distributions are mixed with the weights of their
 //! evidence (Laplace's approximation at each: L. Tierney, J. B. Kadane, J. Am. Stat. Assoc. 81 (1986) 82–86; summed over
 //! the axes that are not normal: H. Rue, S. Martino, N. Chopin, J. R. Stat. Soc. B 71 (2009) 319–392). Equal weights in
-//! equal steps of no more than a standard deviation integrate a smooth bell nearly exactly.
+//! equal steps of no more than one and a half standard deviations integrate a smooth bell to 3e-4.
 
 use crate::scalar::Scalar;
 
 use super::descent::{Patience, descend};
 use super::normal::Normal;
 use super::problem::{Fit, Held, Problem};
-use super::unknowns::{COHESION, MODULUS, Point, UNKNOWNS, Unknowns};
+use super::unknowns::{COHESION, FRICTION, MODULUS, Point, UNKNOWNS, Unknowns};
 
 /// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
-const WIDE: f64 = 0.2;
+const WIDE_MODULUS: f64 = 0.1;
+/// The same of φ, rad, over which it is summed where it is not over ln K.
+const WIDE_ANGLE: f64 = 0.02;
 
 /// Mean and standard deviation of every unknown, in the units of the beliefs.
 #[derive(Debug, Clone, Copy)]
@@ -46,14 +49,19 @@ pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode:
     let unknowns = problem.forward.unknowns;
     let known: Held = core::array::from_fn(|place| unknowns.is_known(place));
     let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
-    let modulus = Line { place: MODULUS, spacing: S::one(), reach: 4, depth: S::constant(5.0) };
+    let modulus = Line { place: MODULUS, spacing: S::constant(1.5), reach: 4, depth: S::constant(4.0) };
+    let friction = Line { place: FRICTION, ..modulus };
     let given_cohesion = holding(&known, COHESION);
-    let two = deviation(unknowns, mode, &given_cohesion, MODULUS) > S::constant(WIDE);
+    let is_wide =
+        |(line, wide): &(Line<S>, f64)| deviation(unknowns, mode, &given_cohesion, line.place) > S::constant(*wide);
+    let second = [(modulus, WIDE_MODULUS), (friction, WIDE_ANGLE)].into_iter().find(is_wide);
+    // Over a plane coarser steps are enough.
+    let cohesion = if second.is_some() { Line { spacing: S::constant(1.5), ..cohesion } } else { cohesion };
     let mut sum = Sum::about(unknowns, &mode.state.point);
     let mut inner_steps = 0;
     let steps = along(problem, mode, &known, &cohesion, |fit, normal, _| {
-        if two {
-            inner_steps += along(problem, fit, &given_cohesion, &modulus, |fit, normal, width| {
+        if let Some((second, _)) = &second {
+            inner_steps += along(problem, fit, &given_cohesion, second, |fit, normal, width| {
                 sum.add(&fit.state.point, normal, width);
             });
         } else {
