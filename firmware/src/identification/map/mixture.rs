@@ -55,8 +55,6 @@ pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode:
     let is_wide =
         |(line, wide): &(Line<S>, f64)| deviation(unknowns, mode, &given_cohesion, line.place) > S::constant(*wide);
     let second = [(modulus, WIDE_MODULUS), (friction, WIDE_ANGLE)].into_iter().find(is_wide);
-    // Over a plane coarser steps are enough.
-    let cohesion = if second.is_some() { Line { spacing: S::constant(1.5), ..cohesion } } else { cohesion };
     let mut sum = Sum::about(unknowns, &mode.state.point);
     let mut inner_steps = 0;
     let steps = along(problem, mode, &known, &cohesion, |fit, normal, _| {
