@@ -91,11 +91,19 @@ fn differences(scenario: Scenario, seed: u64) -> [Differences; 6] {
     differences
 }
 
-/// In the mean over a drive; for a moment they differ by up to twice that.
+/// What is wanted of every moment, in standard deviations, and reached in the mean over a drive.
+const WANTED: f64 = 1.0e-3;
+/// What moments have come to at most: where innovations of forces come in runs by chance, the last digits tell how far the front
+/// wheel's angle is let drift. Not yet what is wanted, and not to grow.
+const REACHED: f64 = 2.2e-3;
+
 #[test]
-fn single_precision_is_within_a_thousandth_of_a_standard_deviation() {
+fn single_precision_is_within_a_thousandth_of_a_standard_deviation_in_the_mean_over_a_drive() {
     for (scenario, seed) in (40..56).flat_map(|seed| [(Scenario::Level, seed), (Scenario::Hills, seed)]) {
-        let found = differences(scenario, seed).map(|found| found.rms());
-        assert!(found.iter().flatten().all(|part| *part <= 1.0e-3), "{scenario:?} {seed}: {found:?}");
+        for (name, found) in QUANTITIES.into_iter().zip(differences(scenario, seed)) {
+            let at = format!("{scenario:?} {seed}, {name}: {found:?}");
+            assert!(found.rms().iter().all(|part| *part <= WANTED), "{at}");
+            assert!(found.greatest.iter().all(|part| *part <= REACHED), "{at}");
+        }
     }
 }
