@@ -172,13 +172,10 @@ impl<'a> Bench<'a> {
 
     /// A short look once more, from the soil of a model that another effect was added to.
     pub fn glance_beside(&self, glance: Glance<'a>, base: &Trial<'a>, leader: &Trial<'a>) -> Glance<'a> {
-        let Glance { better, other } = glance;
         let options = Options { most_iterations: AFRESH, ..self.options.clone() };
         let soil = &leader.fit.parameters[..leader.model.soil_count()];
-        let parameters = base.parameters_on(soil, &better.model);
-        let extended = (better.specification.clone(), better.model.clone());
-        let glance = Glance { better, other };
-        match self.fitted(&extended, &leader.fit.place(parameters), &self.measurements.rows, &options) {
+        let start = leader.fit.place(base.parameters_on(soil, &glance.better.model));
+        match self.fitted_from(&glance.better, &start, &options) {
             Some(again) => glance.beside(again),
             None => glance,
         }
@@ -258,7 +255,7 @@ impl<'a> Bench<'a> {
     /// A model fitted anew from the place where one with more parameters came to: the better of that and the fit it had.
     pub fn polish(&self, base: &Trial<'a>, further: &Trial<'a>) -> Option<Trial<'a>> {
         let parameters = further.fit.parameters.get(..base.fit.parameters.len())?.to_vec();
-        let polished = self.fitted_from(base, further.fit.place(parameters))?;
+        let polished = self.fitted_from(base, &further.fit.place(parameters), &self.options)?;
         Some(polished).filter(|polished| polished.log_posterior() > base.log_posterior())
     }
 
@@ -279,23 +276,19 @@ impl<'a> Bench<'a> {
 
     /// A trial fitted anew to this bench's runs.
     pub fn refit(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
-        self.fitted_from(trial, trial.fit.onward())
+        self.fitted_from(trial, &trial.fit.onward(), &self.options)
     }
 
     /// The same in a few steps, where it lies near.
     pub fn refit_shortly(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
         let options = Options { most_iterations: SHORTLY, ..self.options.clone() };
-        self.fitted(
-            &(trial.specification.clone(), trial.model.clone()),
-            &trial.fit.onward(),
-            &self.measurements.rows,
-            &options,
-        )
+        self.fitted_from(trial, &trial.fit.onward(), &options)
     }
 
-    fn fitted_from(&self, trial: &Trial<'a>, start: Start) -> Option<Trial<'a>> {
-        let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, &start, &self.options).ok()?;
-        Some(Trial { fit, ..trial.clone() })
+    /// A trial's model fitted from another start.
+    fn fitted_from(&self, trial: &Trial<'a>, start: &Start, options: &Options) -> Option<Trial<'a>> {
+        let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, start, options).ok()?;
+        Some(Trial { specification: trial.specification.clone(), model: trial.model.clone(), fit })
     }
 }
 
