@@ -5,6 +5,7 @@ use super::curvature::Curvature;
 use super::normal_equations::NormalEquations;
 use super::problem::Problem;
 use super::state::{Scales, State};
+use super::tempering::Temper;
 use super::variances::{SETTLED, are_estimated, first_scales, reestimate};
 
 const FIRST_DAMPING: f64 = 1e-3;
@@ -25,6 +26,11 @@ const ROUNDS: usize = 15;
 const FIRST_TOLERANCE: f64 = 10.0;
 /// Steps after which it ends at the latest: with wrong variances the way leads elsewhere.
 const FIRST_STEPS: usize = 5;
+/// Rounds with more noise than there is, and steps of each, at most; all of them half of the steps of a fit.
+const TEMPERED_ROUNDS: usize = 4;
+const TEMPERED_STEPS: usize = 6;
+/// Gain at which one ends.
+const TEMPERED_TOLERANCE: f64 = 1.0;
 
 /// Where a fit ended.
 pub(super) struct Optimum {
@@ -50,13 +56,14 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
         bend: None,
         iterations: 0,
     };
+    search.temper(problem, &scales);
+    let most = search.iterations + problem.options.most_iterations;
     let mut converged = false;
     for round in 0..ROUNDS {
         let rough = estimated && round == 0;
         let tolerance = if rough { problem.options.tolerance.max(FIRST_TOLERANCE) } else { problem.options.tolerance };
-        let most =
-            if rough { problem.options.most_iterations.min(FIRST_STEPS) } else { problem.options.most_iterations };
-        let settled = search.descend(problem, &scales, tolerance, most);
+        let until = if rough { most.min(search.iterations + FIRST_STEPS) } else { most };
+        let settled = search.descend(problem, &scales, tolerance, until);
         if !estimated {
             converged = settled;
             break;
@@ -66,13 +73,11 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
             converged = settled;
             break;
         }
-        if search.iterations >= problem.options.most_iterations {
+        if search.iterations >= most {
             break;
         }
         scales = next;
-        search.bend = None;
-        search.curvature.look_away();
-        search.objective = search.state.objective(problem, &scales);
+        search.judge_by(problem, &scales);
     }
     Optimum { state: search.state, scales, objective: search.objective, iterations: search.iterations, converged }
 }
@@ -90,6 +95,37 @@ struct Search {
 }
 
 impl Search {
+    /// From far away to where most readings are within reach of the model.
+    fn temper(&mut self, problem: &Problem<'_>, scales: &Scales) {
+        let mut temper = Temper::of(problem, &self.state, scales);
+        for _ in 0..TEMPERED_ROUNDS {
+            if !temper.is_needed() {
+                break;
+            }
+            let warm = temper.apply(scales);
+            self.begin(problem, &warm);
+            let most = (problem.options.most_iterations / 2).min(self.iterations + TEMPERED_STEPS);
+            self.descend(problem, &warm, TEMPERED_TOLERANCE, most);
+            temper = temper.falling_to(Temper::of(problem, &self.state, scales));
+            self.begin(problem, scales);
+        }
+    }
+
+    /// From the same place on other terms: what was learned of the way there holds no more.
+    fn begin(&mut self, problem: &Problem<'_>, scales: &Scales) {
+        self.curvature = Curvature::default();
+        self.damping = FIRST_DAMPING;
+        self.floor = FIRST_DAMPING;
+        self.judge_by(problem, scales);
+    }
+
+    /// The same place, judged by other standard deviations.
+    fn judge_by(&mut self, problem: &Problem<'_>, scales: &Scales) {
+        self.bend = None;
+        self.curvature.look_away();
+        self.objective = self.state.objective(problem, scales);
+    }
+
     /// Steps until one gains less than `tolerance`; whether that came about.
     fn descend(&mut self, problem: &Problem<'_>, scales: &Scales, tolerance: f64, most: usize) -> bool {
         while self.iterations < most && self.damping < STUCK {
