@@ -14,6 +14,12 @@ use crate::data::campaign::Channel;
 const MORE: f64 = 6.0;
 /// What the effect must still gain beside the dependence to be more than its mimic.
 const OWN: f64 = 6.0;
+/// Effects that are the dependence of a channel on a column, whatever its law: on nothing else of the list could it depend so.
+const NAMED_FOR: [(&str, Reading, Channel); 3] = [
+    ("rate", Reading::Sinkage, Channel::Speed),
+    ("multi-pass", Reading::Sinkage, Channel::Pass),
+    ("lateral-slip", Reading::SideForce, Channel::SlipAngle),
+];
 
 /// Times that a model is linearised, each time about where it came to.
 const ROUNDS: usize = 3;
@@ -51,10 +57,16 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
     gains().is_some_and(|(dependence, effect, is_common)| effect < OWN && is_better(dependence, effect, is_common))
 }
 
-/// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there: then it is the
-/// effect by another law, and no other cause. An angle of the wheel is a column of many laws.
+/// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there, or is what the
+/// effect is named for: then it is the effect by another law, and no other cause. An angle of the wheel is a column of many laws.
 pub fn is_own_law(effect: &EffectForm, structure: &Structure) -> bool {
-    follows(effect, structure.channel, &structure.regressor)
+    let is_named_for = |column: &str| {
+        let named = |&(id, channel, by): &(&str, Reading, Channel)| {
+            id == effect.info.id && channel == structure.channel && Channel::from_name(column) == Some(by)
+        };
+        NAMED_FOR.iter().any(named)
+    };
+    follows(effect, structure.channel, &structure.regressor) || structure.regressor.split('*').any(is_named_for)
 }
 
 /// Whether a form acts on a channel and follows a column there.
