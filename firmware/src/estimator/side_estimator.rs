@@ -344,13 +344,10 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// Which wheels bear no load that their cells can tell from none.
     pub(super) fn lifted(&self) -> PerAxle<bool> {
-        let [front, middle, rear, ..] = *self.forces.estimate().mean();
-        let [front_std, middle_std, rear_std, ..] = self.forces.estimate().stds();
-        PerAxle { front: (front, front_std), middle: (middle, middle_std), rear: (rear, rear_std) }.map(
-            |(force, std)| {
-                force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
-            },
-        )
+        let [front, middle, rear, ..] = self.forces.estimate().stds();
+        self.forces.cells_n().zip(PerAxle { front, middle, rear }).map(|(force, std)| {
+            force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
+        })
     }
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
