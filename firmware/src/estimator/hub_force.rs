@@ -198,7 +198,7 @@ impl<S: Scalar> HubForceFilter<S> {
         self.beyond_rest_n().map(|force| self.at_rest_n + force)
     }
 
-    fn beyond_rest_n(&self) -> PerAxle<S> {
+    pub fn beyond_rest_n(&self) -> PerAxle<S> {
         let [front, middle, rear, ..] = *self.filter.estimate().mean();
         PerAxle { front, middle, rear }
     }

@@ -162,7 +162,7 @@ impl<S: Scalar> SideEstimator<S> {
         let wheels = self.wheel_frames(&readings, self.angles.body_pitch());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
         self.tick_forces(step_s, frame, attitude, &mut surprises);
-        let loads = self.forces.cells_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
+        let loads = self.forces.beyond_rest_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
         self.sinking.follow(self.speed_m_s() * step_s, &loads);
         surprises
     }
