@@ -6,6 +6,9 @@
 //! is not observable where they hang at the same height, so it is no state: it comes in as a split with a spread.
 //! Normal load and drawbar pull are these forces seen along the contact ([`super::drawbar_split`]).
 //!
+//! All this is linear, so that the filter need not know the forces, but what they have beyond those of a rover at rest: in single precision
+//! the moments of some 67 N on each arm, which nearly balance, would leave little of what the drives' noise allows to be told.
+//!
 //! What drifts by itself are the cells' forces and the two moments. The links have no mass to speak of: whatever the ground does,
 //! the moments on them stay what torques and body make them, so that a cell's force that changes takes the forces along the
 //! links with it, and so does a bogie that turns against its rocker. The drift of the state is therefore correlated.
@@ -142,6 +145,8 @@ pub(super) struct HubForceFilter<S> {
     /// The force along each cell of a level rover at rest, N.
     at_rest_n: S,
     model: HubForceModel<S>,
+    /// What [`Self::at_rest_n`] makes the moments on bogie and rocker, N·m.
+    at_rest_nm: [S; 2],
     unknown_n: S,
     cell_rates: PerAxle<WalkRate<S>>,
     rocker_rate: WalkRate<S>,
@@ -162,6 +167,7 @@ impl<S: Scalar> HubForceFilter<S> {
         Ok(Self {
             filter: SigmaPointFilter::new(estimate, [unknown_n; STATES])?,
             at_rest_n: rover.load_at_rest_n(),
+            at_rest_nm: model.moments_of(rover.load_at_rest_n()),
             model,
             unknown_n,
             cell_rates: PerAxle::from_array([phase, phase + 1, phase + 2]).map(WalkRate::new),
@@ -242,16 +248,18 @@ impl<S: Scalar> HubForceFilter<S> {
         let before = self.model;
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
         self.model.difference_n = difference_n;
+        let [_, before_nm] = self.at_rest_nm;
+        self.at_rest_nm = self.model.moments_of(self.at_rest_n);
         let held = readings.bogie_is_held || self.is_impossible(readings);
         if held {
             self.give_up_moments();
         }
         self.learn_rates(travel_m, readings, held);
-        let drifts = self.drift(&before, travel_m, held);
+        let drifts = self.drift(&before, before_nm, travel_m, held);
         let expected = self.beyond_rest_n();
         let model = self.model;
         let cells = readings.cells_n.map(|cell| cell.map(|force| force - self.at_rest_n));
-        let [bogie_at_rest, rocker_at_rest] = model.moments_of(self.at_rest_n);
+        let [bogie_at_rest, rocker_at_rest] = self.at_rest_nm;
         let told = self.filter.update(
             |state| model.measure(state),
             &[
@@ -283,15 +291,14 @@ impl<S: Scalar> HubForceFilter<S> {
     /// Carries the forces to the model of this frame: what lasts as a bogie turns is what the cells feel, which goes on by its trend, and
     /// the moments, not the forces along the links. Where a stop holds the bogie, its moments are nobody's. Gives one standard
     /// deviation of how far each may drift beside that.
-    fn drift(&mut self, before: &HubForceModel<S>, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
+    fn drift(&mut self, before: &HubForceModel<S>, before_nm: S, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
         let restless = self.cell_rates.as_ref().map(|rate| restlessness(rate.factor()));
         self.trends.expect(restless.into_array());
         let (now, mean) = (self.model, *self.filter.estimate().mean());
         let mut expected = before.measure(&mean);
         // What a force at rest does to the rocker hangs on the bogie's angle; to the bogie it does the same at any.
-        let ([.., before_at_rest], [.., at_rest]) = (before.moments_of(self.at_rest_n), now.moments_of(self.at_rest_n));
-        let [.., of_rocker] = &mut expected;
-        *of_rocker += before_at_rest - at_rest;
+        let ([.., of_rocker], [_, now_nm]) = (&mut expected, self.at_rest_nm);
+        *of_rocker += before_nm - now_nm;
         expected.iter_mut().zip(self.trends.per_m()).for_each(|(force, trend)| *force += travel_m * trend);
         let mean = if held { mean } else { now.state_of(&expected) };
         let straight = |model: &HubForceModel<S>| HubForceModel { difference_n: S::zero(), ..*model };
@@ -327,7 +334,7 @@ impl<S: Scalar> HubForceFilter<S> {
     /// then something else holds the bogie.
     fn is_impossible(&self, readings: &ForceReadings<S>) -> bool {
         let PerAxle { middle: Some(middle), rear: Some(rear), .. } = readings.cells_n else { return false };
-        let [bogie_at_rest, _] = self.model.moments_of(self.at_rest_n);
+        let [bogie_at_rest, _] = self.at_rest_nm;
         let beyond = |force: S| force - self.at_rest_n;
         let bogie_nm = readings.bogie_moment_nm.0 - bogie_at_rest;
         let told = [S::zero(), beyond(middle), beyond(rear), bogie_nm, S::zero()];
