@@ -30,7 +30,7 @@ const BOGIE_FORCE: f64 = 0.85;
 const FORCE_BY_FORCES: f64 = 0.4;
 /// Of the torques; what of that is not true of one that is as restless as can be, since it moves rather by its trend than at random; and
 /// what runs of the forces add.
-const TORQUE: f64 = 0.9;
+const TORQUE: f64 = 0.87;
 const TORQUE_RESTLESS: f64 = 0.45;
 const TORQUE_BY_FORCES: f64 = 0.16;
 /// One standard deviation of what a torque may have done on rough ground that its rate, learned over a short way, does not tell yet, N·m.

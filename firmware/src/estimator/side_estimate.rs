@@ -130,7 +130,7 @@ impl<S: Scalar> SideEstimator<S> {
     /// The contacts, with the split of the bogie's pull that the torques tell now.
     fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
-        let told_by_links = self.told_by_links;
+        let told_by_links = self.digging_in.told_by_links();
         let [_, of_front, of_middle, of_rear, ..] = self.angles.estimate().variances();
         let contact = |path: S, variance: S, link: S| (path + told_by_links * (link - path), variance);
         let (front, middle, rear) = (
@@ -151,7 +151,7 @@ impl<S: Scalar> SideEstimator<S> {
     fn doubt(&self) -> Doubt<S> {
         let known = HowKnown {
             still: self.angles.still(),
-            told_by_links: self.told_by_links,
+            told_by_links: self.digging_in.told_by_links(),
             restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
         };
         Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
