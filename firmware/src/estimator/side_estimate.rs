@@ -2,7 +2,7 @@
 
 use super::contact_angle;
 use super::doubt::{Doubt, HowKnown, WheelDoubt};
-use super::drawbar_split::{DrawbarSplit, along_contact};
+use super::drawbar_split::{DrawbarSplit, OF_TORQUE, along_contact};
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
 use super::side_estimator::{BLOCKED, SideEstimator};
@@ -141,7 +141,14 @@ impl<S: Scalar> SideEstimator<S> {
         let forces = self.forces.forces_at(estimate);
         let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch, &forces);
         let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
-        let split = S::constant(0.5) * DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
+        let form = DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
+        let torque_variance = |filter: &SlipTorqueFilter<S>| {
+            let [_, torque, _] = filter.estimate().variances();
+            torque
+        };
+        let per_torque = S::constant(OF_TORQUE) / self.rover.wheel.radius_m;
+        let of_torques = torque_variance(&self.wheels.middle) + torque_variance(&self.wheels.rear);
+        let split = S::constant(0.5) * (form * form + per_torque * per_torque * of_torques).sqrt();
         let mut middle = contact_forces(Axle::Middle, middle, bogie_pitch, forces.middle, split);
         let mut rear = contact_forces(Axle::Rear, rear, bogie_pitch, forces.rear, -split);
         share_along_bogie(&mut middle, &mut rear);

@@ -51,7 +51,7 @@ const UNSEEN_TURN: f64 = 0.03;
 /// The estimators of one side.
 #[derive(Debug, Clone)]
 pub(super) struct SideEstimator<S> {
-    rover: Rover<S>,
+    pub(super) rover: Rover<S>,
     y_m: S,
     pub(super) angles: ContactAngleFilter<S>,
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
