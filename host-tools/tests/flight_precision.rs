@@ -93,19 +93,11 @@ fn differences(scenario: Scenario, seed: u64) -> [Differences; 6] {
 
 /// What is wanted of every moment, in standard deviations.
 const WANTED: f64 = 1.0e-3;
-/// What moments of the contact angle have come to at most: where innovations of forces come in runs by chance, the last digits tell
-/// how far the front wheel's is let drift. Not yet what is wanted, and not to grow.
-const REACHED_OF_ANGLE: f64 = 2.2e-3;
-
 #[test]
-fn single_precision_is_within_a_thousandth_of_a_standard_deviation_but_for_moments_of_the_contact_angle() {
+fn single_precision_is_within_a_thousandth_of_a_standard_deviation_at_every_moment() {
     for (scenario, seed) in (40..56).flat_map(|seed| [(Scenario::Level, seed), (Scenario::Hills, seed)]) {
         for (name, found) in QUANTITIES.into_iter().zip(differences(scenario, seed)) {
-            let at = format!("{scenario:?} {seed}, {name}: {found:?}");
-            let [of_value, of_std] = found.greatest;
-            let bound = if name == "contact angle" { REACHED_OF_ANGLE } else { WANTED };
-            assert!(of_value <= bound && of_std <= WANTED, "{at}");
-            assert!(found.rms().iter().all(|part| *part <= WANTED), "{at}");
+            assert!(found.greatest.iter().all(|part| *part <= WANTED), "{scenario:?} {seed}, {name}: {found:?}");
         }
     }
 }

@@ -8,7 +8,7 @@
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
-use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness};
+use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_unlike};
 use super::runs::Runs;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::watch::{Contradiction, Watch};
@@ -355,7 +355,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let model = self.model;
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
-        let factor = self.roughness.of_angles(bogie - rocker, self.runs.above(RUN));
+        let factor =
+            self.roughness.of_angles(bogie - rocker, self.runs.above(RUN)) + of_unlike(&self.angles(), &self.variances);
         let restless = restlessness(factor);
         self.trends.expect([restless; 3]);
         let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);

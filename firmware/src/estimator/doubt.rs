@@ -4,8 +4,8 @@
 //! k R/4 of lag and k R/2 of noise, and a filter states k R: so some three quarters. Of what does not move at all, all of it is true as
 //! long as the filter still learns more than it forgets, and half of it in the end; the filter of the contact angles follows that share,
 //! which holds on still ground. Where the ground changes faster than the rates, innovations come in runs ([`super::runs`]), and errors
-//! are larger; where it turns, everything lags ([`super::trend`]). All numbers are as measured on drives of development, the same for
-//! every kind of ground.
+//! are larger; where it turns, everything lags ([`super::trend`]). All numbers are as fitted to squared errors on drives of development
+//! (of each kind of ground as many), the same for every kind of ground.
 
 use super::contact_angle::UNKNOWN_ANGLE;
 use super::runs::Runs;
@@ -14,50 +14,63 @@ use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
 /// Of the variance that a filter states of contact angles on restless ground, what is true of the bogie's, and of the front wheel's.
-const BOGIE_ANGLE: f64 = 0.9;
-const FRONT_ANGLE: f64 = 0.85;
-/// What is added to that of the front wheel for each unit by which the runs of how the side moves are above chance: it meets what the
-/// others follow it to.
-const FRONT_ANGLE_BY_MOTION: f64 = 0.5;
-/// The same of the slip, and what runs of the forces add: what a wheel feels anew makes it slip anew.
-const SLIP: f64 = 0.93;
-const SLIP_BY_MOTION: f64 = 0.18;
-const SLIP_BY_FORCES: f64 = 0.3;
-/// Of the forces on the hubs, and of the torques.
-const FORCE: f64 = 0.78;
-const FORCE_BY_FORCES: f64 = 0.38;
+const BOGIE_ANGLE: f64 = 0.65;
+const FRONT_ANGLE: f64 = 0.5;
+/// What is added to that of the front wheel for each unit by which the runs of how the side moves, and those of its forces, are above
+/// chance: it meets what the others follow it to, and cells and drives feel that first.
+const FRONT_ANGLE_BY_MOTION: f64 = 0.65;
+const FRONT_ANGLE_BY_FORCES: f64 = 0.1;
+/// The same of the slip: what a wheel feels anew makes it slip anew.
+const SLIP: f64 = 0.89;
+const SLIP_BY_MOTION: f64 = 0.25;
+const SLIP_BY_FORCES: f64 = 0.22;
+/// Of the forces on the front hub, on those of the bogie, and what runs of the forces add to both.
+const FRONT_FORCE: f64 = 0.71;
+const BOGIE_FORCE: f64 = 0.85;
+const FORCE_BY_FORCES: f64 = 0.4;
+/// Of the torques; what of that is not true of one that is as restless as can be, since it moves rather by its trend than at random; and
+/// what runs of the forces add.
 const TORQUE: f64 = 0.87;
-const TORQUE_BY_FORCES: f64 = 0.14;
+const TORQUE_RESTLESS: f64 = 0.45;
+const TORQUE_BY_FORCES: f64 = 0.16;
+/// One standard deviation of what a torque may have done on rough ground that its rate, learned over a short way, does not tell yet, N·m.
+const TORQUE_UNTOLD: f64 = 0.012;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
-const ANGLE_LAG: f64 = 0.014;
+const ANGLE_LAG: f64 = 0.0205;
 const LOAD_LAG: f64 = 0.19;
-const TORQUE_LAG: f64 = 0.005;
+const TORQUE_LAG: f64 = 0.009;
 /// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
 /// sink in ways that nothing tells, and a front wheel meets more of them.
-const FRONT_UNTOLD: f64 = 0.008;
-const BOGIE_UNTOLD: f64 = 0.0047;
+const FRONT_UNTOLD: f64 = 0.0084;
+const BOGIE_UNTOLD: f64 = 0.003;
 
 /// Of one wheel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WheelDoubt<S> {
     /// How many times what the filter states the variance of a contact angle is.
     pub angle: S,
-    /// Variance that lag and sinking add to that, rad².
+    /// The same of the forces on its hub.
+    pub force: S,
+    /// The same of its resistive torque.
+    pub torque: S,
+    /// Variance that lag and sinking add to that of the contact angle, rad².
     pub angle_variance: S,
     /// Variance that lag adds to the load, N².
     pub load_variance: S,
-    /// Variance that lag adds to the resistive torque, (N·m)².
+    /// Variance that lag, and what is not told yet, add to the resistive torque, (N·m)².
     pub torque_variance: S,
 }
 
-/// How the contact angles of a side came to be known.
+/// How what is known of a side came to be known.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct AnglesKnown<'a, S> {
+pub(super) struct HowKnown<'a, S> {
     /// Of the variances that the filter states of the front wheel's and of the bogie's, what would be true of angles that have not
     /// drifted at all.
     pub still: &'a [S; 2],
-    /// How much of what is known comes from the links' pitches, 0 … 1.
+    /// How much of what is known of the contact angles comes from the links' pitches, 0 … 1.
     pub told_by_links: S,
+    /// How restless the torque of each wheel is, 0 … 1.
+    pub restless_torques: PerAxle<S>,
 }
 
 /// Of one side.
@@ -65,12 +78,8 @@ pub(super) struct AnglesKnown<'a, S> {
 pub(super) struct Doubt<S> {
     /// Its wheels.
     pub wheels: PerAxle<WheelDoubt<S>>,
-    /// How many times what the filters state the variances are: of slips, forces on hubs, resistive torques.
+    /// How many times what the filters state the variances of slips are.
     pub slip: S,
-    /// See there.
-    pub force: S,
-    /// See there.
-    pub torque: S,
 }
 
 impl<S: Scalar> Doubt<S> {
@@ -80,62 +89,73 @@ impl<S: Scalar> Doubt<S> {
         motion: &Runs<S, N>,
         forces: &Runs<S, M>,
         trends: &Trends<S, 3>,
-        angles: &AnglesKnown<'_, S>,
+        known: &HowKnown<'_, S>,
     ) -> Self {
-        let (motion, forces) = (motion.above_chance(), forces.above_chance());
+        let (of_motion, motion, forces) = (motion.above(1.0), motion.above_chance(), forces.above_chance());
         let constant = S::constant;
         // The same of all three: the ground's.
         let [rough, ..] = trends.restless();
-        let dug = constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * angles.told_by_links;
-        let wheel = |trend: S, angle: S, untold: f64| {
+        let dug = constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * known.told_by_links;
+        let of_force = constant(FORCE_BY_FORCES) * forces;
+        let of_torque = constant(TORQUE) + constant(TORQUE_BY_FORCES) * forces;
+        let wheel = |trend: S, restless_torque: S, angle: S, [force, untold]: [f64; 2]| {
             let lag = |length: f64| constant(length * length) * trend * trend;
+            let unseen = |std: f64| constant(std * std) * rough;
             WheelDoubt {
                 angle,
-                angle_variance: lag(ANGLE_LAG) + constant(untold * untold) * rough + dug,
+                force: constant(force) + of_force,
+                torque: of_torque - constant(TORQUE_RESTLESS) * restless_torque,
+                angle_variance: lag(ANGLE_LAG) + unseen(untold) + dug,
                 load_variance: lag(LOAD_LAG),
-                torque_variance: lag(TORQUE_LAG),
+                torque_variance: lag(TORQUE_LAG) + unseen(TORQUE_UNTOLD),
             }
         };
+        let torques = &known.restless_torques;
+        let of_bogies = [BOGIE_FORCE, BOGIE_UNTOLD];
         let [front, middle, rear] = trends.per_m();
         let true_of = |still: S, restless: f64| still + rough * (constant(restless) - still);
-        let [of_front, of_bogie] = *angles.still;
-        let of_front = true_of(of_front, FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * motion;
+        let [of_front, of_bogie] = *known.still;
+        let of_front = true_of(of_front, FRONT_ANGLE)
+            + constant(FRONT_ANGLE_BY_MOTION) * of_motion
+            + constant(FRONT_ANGLE_BY_FORCES) * forces;
         let of_bogie = true_of(of_bogie, BOGIE_ANGLE);
         Self {
             wheels: PerAxle {
-                front: wheel(front, of_front, FRONT_UNTOLD),
-                middle: wheel(middle, of_bogie, BOGIE_UNTOLD),
-                rear: wheel(rear, of_bogie, BOGIE_UNTOLD),
+                front: wheel(front, torques.front, of_front, [FRONT_FORCE, FRONT_UNTOLD]),
+                middle: wheel(middle, torques.middle, of_bogie, of_bogies),
+                rear: wheel(rear, torques.rear, of_bogie, of_bogies),
             },
             slip: constant(SLIP) + constant(SLIP_BY_MOTION) * motion + constant(SLIP_BY_FORCES) * forces,
-            force: constant(FORCE) + constant(FORCE_BY_FORCES) * forces,
-            torque: constant(TORQUE) + constant(TORQUE_BY_FORCES) * forces,
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{AnglesKnown, Doubt, PerAxle, Runs, Trends};
+    use super::{Doubt, HowKnown, PerAxle, Runs, Trends};
 
     fn doubt(trends: &Trends<f64, 3>) -> Doubt<f64> {
-        let known = AnglesKnown { still: &[0.7; 2], told_by_links: 0.0 };
+        let known = HowKnown { still: &[0.7; 2], told_by_links: 0.0, restless_torques: PerAxle::all(0.0) };
         Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends, &known)
     }
 
-    /// Of an angle that turns by 0.5 rad over a metre, 14 mm of lag; of one that does not, on the same ground, only what is untold.
+    /// Of an angle that turns by 0.5 rad over a metre, 20 mm of lag; of one that does not, on the same ground, only what is untold.
     #[test]
     fn what_turns_lags_and_plane_ground_adds_nothing() {
         let mut trends = Trends::<f64, 3>::new();
         let plane = doubt(&trends).wheels;
         assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
         assert!(plane.as_array().into_iter().all(|wheel| (wheel.angle - 0.7).abs() < 1.0e-12));
+        assert!(plane.as_array().into_iter().all(|wheel| wheel.torque_variance == 0.0));
         trends.expect([1.0; 3]);
         trends.follow(0.002, &[(1.0e-3, 1.0), (0.0, 1.0), (0.0, 1.0)]);
         let [turned, ..] = trends.per_m();
         let PerAxle { front, middle, .. } = doubt(&trends).wheels;
-        let lag = 0.014 * turned;
-        assert!((front.angle_variance - lag * lag - 0.008 * 0.008).abs() < 1.0e-6 * front.angle_variance);
-        assert!((middle.angle_variance - 0.0047 * 0.0047).abs() < 1.0e-9 && middle.torque_variance == 0.0);
+        let lag = 0.0205 * turned;
+        assert!((front.angle_variance - lag * lag - 0.0084 * 0.0084).abs() < 1.0e-6 * front.angle_variance);
+        assert!((middle.angle_variance - 0.003 * 0.003).abs() < 1.0e-12);
+        assert!((middle.torque_variance - 0.012 * 0.012).abs() < 1.0e-12);
+        let lag = 0.009 * turned;
+        assert!((front.torque_variance - lag * lag - 0.012 * 0.012).abs() < 1.0e-12);
     }
 }

@@ -11,7 +11,7 @@ use crate::rover::Planar;
 use crate::scalar::Scalar;
 
 /// The factors a, b, c, d.
-const OF_TORQUE: f64 = 1.065;
+pub(super) const OF_TORQUE: f64 = 1.065;
 const OF_PULL: f64 = 1.362;
 const OF_TORQUES: f64 = 1.395;
 const OF_SLIP: f64 = 0.0549;

@@ -6,6 +6,9 @@
 //! is not observable where they hang at the same height, so it is no state: it comes in as a split with a spread.
 //! Normal load and drawbar pull are these forces seen along the contact ([`super::drawbar_split`]).
 //!
+//! All this is linear, so that the filter need not know the forces, but what they have beyond those of a rover at rest: in single precision
+//! the moments of some 67 N on each arm, which nearly balance, would leave little of what the drives' noise allows to be told.
+//!
 //! What drifts by itself are the cells' forces and the two moments. The links have no mass to speak of: whatever the ground does,
 //! the moments on them stay what torques and body make them, so that a cell's force that changes takes the forces along the
 //! links with it, and so does a bogie that turns against its rocker. The drift of the state is therefore correlated.
@@ -66,6 +69,16 @@ impl<S: Scalar> HubForceModel<S> {
         [front, middle, rear, bogie, rocker]
     }
 
+    /// Moments on bogie and rocker, N·m, of this force along each cell and none along the links: what [`Self::measure`] gives, without the
+    /// difference of large arms, of which single precision would keep little.
+    fn moments_of(&self, force_n: S) -> [S; 2] {
+        let two = S::constant(2.0);
+        let (sine, cosine) = self.bogie_angle;
+        let (pivot, level) = (self.bogie_pivot, self.front_hub.x + two * self.bogie_pivot.x);
+        let turned = pivot.x * sine * sine / (S::one() + cosine) - pivot.z * sine;
+        [-(self.middle_hub.x + self.rear_hub.x) * force_n, (two * turned - level) * force_n]
+    }
+
     /// The state that such cells' forces, N, and moments on bogie and rocker, N·m, make necessary: [`Self::measure`] turned round.
     fn state_of(&self, &[front, middle, rear, bogie_nm, rocker_nm]: &[S; MEASUREMENTS]) -> [S; STATES] {
         let (zero, one) = (S::zero(), S::one());
@@ -124,11 +137,16 @@ const GREATEST_SHARE: f64 = 0.8;
 /// What is known of a pull of which nothing is told: none, give or take this much, N.
 const FORGOTTEN_PULL_N: f64 = 15.0;
 
-/// The filter of one side.
+/// The filter of one side. It knows the cells' forces, and what is measured, less what a level rover at rest has: these are an order of
+/// magnitude smaller, and so is what single precision rounds off them.
 #[derive(Debug, Clone)]
 pub(super) struct HubForceFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
+    /// The force along each cell of a level rover at rest, N.
+    at_rest_n: S,
     model: HubForceModel<S>,
+    /// What [`Self::at_rest_n`] makes the moments on bogie and rocker, N·m.
+    at_rest_nm: [S; 2],
     unknown_n: S,
     cell_rates: PerAxle<WalkRate<S>>,
     rocker_rate: WalkRate<S>,
@@ -143,11 +161,13 @@ impl<S: Scalar> HubForceFilter<S> {
     /// A filter that knows the rover's weight.
     pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
         let weight = rover.mass_kg * rover.gravity_m_s2;
-        let (load, unknown_n) = (weight * S::constant(1.0 / 6.0), weight * S::constant(UNKNOWN_SHARE));
-        let estimate = Gaussian::independent([load, load, load, S::zero(), S::zero()], [unknown_n; STATES])?;
+        let unknown_n = weight * S::constant(UNKNOWN_SHARE);
+        let estimate = Gaussian::independent([S::zero(); STATES], [unknown_n; STATES])?;
         let model = HubForceModel::new(&rover.suspension, (S::zero(), S::one()));
         Ok(Self {
             filter: SigmaPointFilter::new(estimate, [unknown_n; STATES])?,
+            at_rest_n: rover.load_at_rest_n(),
+            at_rest_nm: model.moments_of(rover.load_at_rest_n()),
             model,
             unknown_n,
             cell_rates: PerAxle::from_array([phase, phase + 1, phase + 2]).map(WalkRate::new),
@@ -159,7 +179,7 @@ impl<S: Scalar> HubForceFilter<S> {
         })
     }
 
-    /// What is known of the state.
+    /// What is known of the state, less [`Self::at_rest_n`] of the cells' forces.
     pub fn estimate(&self) -> &Gaussian<S, STATES> {
         self.filter.estimate()
     }
@@ -176,11 +196,15 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// The same of another estimate of its state.
     pub fn forces_at(&self, estimate: &Gaussian<S, STATES>) -> PerAxle<Planar<S>> {
-        self.model.forces(estimate.mean())
+        self.model.forces(estimate.mean()).map(|force| Planar { z: self.at_rest_n + force.z, ..force })
     }
 
     /// The force along each cell at the mean, N.
     pub fn cells_n(&self) -> PerAxle<S> {
+        self.beyond_rest_n().map(|force| self.at_rest_n + force)
+    }
+
+    pub fn beyond_rest_n(&self) -> PerAxle<S> {
         let [front, middle, rear, ..] = *self.filter.estimate().mean();
         PerAxle { front, middle, rear }
     }
@@ -224,22 +248,26 @@ impl<S: Scalar> HubForceFilter<S> {
         let before = self.model;
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
         self.model.difference_n = difference_n;
+        let [_, before_nm] = self.at_rest_nm;
+        self.at_rest_nm = self.model.moments_of(self.at_rest_n);
         let held = readings.bogie_is_held || self.is_impossible(readings);
         if held {
             self.give_up_moments();
         }
         self.learn_rates(travel_m, readings, held);
-        let drifts = self.drift(&before, travel_m, held);
-        let expected = self.cells_n();
+        let drifts = self.drift(&before, before_nm, travel_m, held);
+        let expected = self.beyond_rest_n();
         let model = self.model;
+        let cells = readings.cells_n.map(|cell| cell.map(|force| force - self.at_rest_n));
+        let [bogie_at_rest, rocker_at_rest] = self.at_rest_nm;
         let told = self.filter.update(
             |state| model.measure(state),
             &[
-                readings.cells_n.front,
-                readings.cells_n.middle,
-                readings.cells_n.rear,
-                Some(readings.bogie_moment_nm.0).filter(|_| !held),
-                Some(readings.rocker_moment_nm.0).filter(|_| !held),
+                cells.front,
+                cells.middle,
+                cells.rear,
+                Some(readings.bogie_moment_nm.0 - bogie_at_rest).filter(|_| !held),
+                Some(readings.rocker_moment_nm.0 - rocker_at_rest).filter(|_| !held),
             ],
             &[
                 readings.cell_std_n,
@@ -263,11 +291,14 @@ impl<S: Scalar> HubForceFilter<S> {
     /// Carries the forces to the model of this frame: what lasts as a bogie turns is what the cells feel, which goes on by its trend, and
     /// the moments, not the forces along the links. Where a stop holds the bogie, its moments are nobody's. Gives one standard
     /// deviation of how far each may drift beside that.
-    fn drift(&mut self, before: &HubForceModel<S>, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
+    fn drift(&mut self, before: &HubForceModel<S>, before_nm: S, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
         let restless = self.cell_rates.as_ref().map(|rate| restlessness(rate.factor()));
         self.trends.expect(restless.into_array());
         let (now, mean) = (self.model, *self.filter.estimate().mean());
         let mut expected = before.measure(&mean);
+        // What a force at rest does to the rocker hangs on the bogie's angle; to the bogie it does the same at any.
+        let ([.., of_rocker], [_, now_nm]) = (&mut expected, self.at_rest_nm);
+        *of_rocker += before_nm - now_nm;
         expected.iter_mut().zip(self.trends.per_m()).for_each(|(force, trend)| *force += travel_m * trend);
         let mean = if held { mean } else { now.state_of(&expected) };
         let straight = |model: &HubForceModel<S>| HubForceModel { difference_n: S::zero(), ..*model };
@@ -281,7 +312,7 @@ impl<S: Scalar> HubForceFilter<S> {
         let [front, middle, rear, ..] = *drifts;
         // With a steady gain well below one, the drift's standard deviation is to that of the noise as that gain is to one.
         let learned = S::constant(LEARNED) / cell_std_n;
-        let moved = self.cells_n().zip(*expected).zip(PerAxle { front, middle, rear });
+        let moved = self.beyond_rest_n().zip(*expected).zip(PerAxle { front, middle, rear });
         let moved = moved.map(|((now, before), drift)| (now - before, learned * drift));
         self.trends.follow(travel_m, &moved.into_array());
     }
@@ -303,7 +334,10 @@ impl<S: Scalar> HubForceFilter<S> {
     /// then something else holds the bogie.
     fn is_impossible(&self, readings: &ForceReadings<S>) -> bool {
         let PerAxle { middle: Some(middle), rear: Some(rear), .. } = readings.cells_n else { return false };
-        let told = [S::zero(), middle, rear, readings.bogie_moment_nm.0, readings.rocker_moment_nm.0];
+        let [bogie_at_rest, _] = self.at_rest_nm;
+        let beyond = |force: S| force - self.at_rest_n;
+        let bogie_nm = readings.bogie_moment_nm.0 - bogie_at_rest;
+        let told = [S::zero(), beyond(middle), beyond(rear), bogie_nm, S::zero()];
         let [.., along_bogie] = self.model.state_of(&told);
         let loads = middle.abs() + rear.abs();
         along_bogie.abs() > S::constant(GREATEST_SHARE) * loads.max(S::constant(FORGOTTEN_PULL_N))
@@ -347,5 +381,17 @@ mod tests {
         let told = [70.0, 55.0, 80.0, 3.0, -1.5];
         let measured = model.measure(&model.state_of(&told));
         assert!(measured.iter().zip(told).all(|(found, told)| (found - told).abs() < 1.0e-9), "{measured:?}");
+    }
+
+    #[test]
+    fn a_force_at_rest_has_the_moments_that_are_measured_of_it() {
+        let rover = Rover::<f64>::assumed();
+        let mut suspension = rover.suspension;
+        (suspension.front_hub.x, suspension.rear_hub.x) = (0.31, -0.2);
+        let bogie_angle: f64 = -0.3;
+        let model = HubForceModel::new(&suspension, bogie_angle.sin_cos());
+        let [.., bogie, rocker] = model.measure(&[67.0, 67.0, 67.0, 0.0, 0.0]);
+        let [of_bogie, of_rocker] = model.moments_of(67.0);
+        assert!((of_bogie - bogie).abs() < 1.0e-12 && (of_rocker - rocker).abs() < 1.0e-12, "{of_bogie} {of_rocker}");
     }
 }

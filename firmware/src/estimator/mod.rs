@@ -17,6 +17,7 @@
 
 mod attitude;
 pub mod contact_angle;
+mod digging_in;
 mod doubt;
 pub mod drawbar_split;
 mod estimate;

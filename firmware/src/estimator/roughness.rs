@@ -2,7 +2,7 @@
 
 use super::contact_angle::SideReadings;
 use super::walk_rate::{Noise, WalkRate};
-use crate::rover::{Planar, SensorNoise};
+use crate::rover::{PerAxle, Planar, SensorNoise};
 use crate::scalar::Scalar;
 
 /// Nominal drift over a metre of travel: a twentieth of the ratio, and 5° of contact angle, over a wheel radius.
@@ -21,6 +21,32 @@ const BEND_LENGTH: f64 = 0.44;
 const BEND_BY_SINKING: f64 = 0.02;
 /// What is added to that for each unit by which runs of innovations are above chance.
 const ANGLE_FROM_RUNS: f64 = 0.1;
+
+/// Of the squared difference of two neighbouring contact angles, what a metre of travel adds to the variance of one is one over this,
+/// m: with the wheels of set K0, ground of curvature c makes them differ by 0.35 m times c, and turns by 0.12 m times c within the
+/// way over which the filter averages on such ground; 0.35²/0.12.
+const UNLIKE_LENGTH: f64 = 1.02;
+/// Angles that differ by less than two standard deviations may be one angle: so much of their variances is taken off.
+const UNLIKE_BY_ERRORS: f64 = 4.0;
+/// That angles differ says that the ground is not plane, and little of how fast they go on: it counts for no more than this, over the
+/// nominal drift, as a variance.
+const MOST_BY_UNLIKE: f64 = 0.03;
+
+/// How fast contact angles drift that differ from wheel to wheel, over the nominal drift, as a variance. Angles and their variances, rad²,
+/// front to rear.
+///
+/// Wheels that sink unalike bend the bogie on plane ground, but all roll along the same slope. Where a wheel's angle is another than that
+/// of the wheel behind, or ahead, the ground curves: it tells when the front wheel first meets a slope, while links and velocity still
+/// seem calm.
+pub(super) fn of_unlike<S: Scalar>(angles: &PerAxle<S>, variances: &PerAxle<S>) -> S {
+    let of_pair = |ahead: S, behind: S, variance: S| {
+        let difference = ahead - behind;
+        (difference * difference - S::constant(UNLIKE_BY_ERRORS) * variance).max(S::zero())
+    };
+    let unlike = of_pair(angles.front, angles.middle, variances.front + variances.middle)
+        + of_pair(angles.middle, angles.rear, variances.middle + variances.rear);
+    (S::constant(1.0 / (UNLIKE_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT)) * unlike).min(S::constant(MOST_BY_UNLIKE))
+}
 
 /// How fast what is measured of a side's motion wanders.
 #[derive(Debug, Clone)]
@@ -112,7 +138,21 @@ impl<S: Scalar> Roughness<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::Roughness;
+    use super::{MOST_BY_UNLIKE, PerAxle, Roughness, of_unlike};
+
+    /// On ground that curves by 0.02 rad over 0.35 m the front wheel's angle turns by 0.12/0.35 of that within 0.12 m; angles that their
+    /// errors may make differ say nothing, and a wall says no more than that the ground is not plane.
+    #[test]
+    fn wheels_on_unlike_slopes_let_the_angles_wander() {
+        let known = PerAxle::all(1.0e-12);
+        let of_front =
+            |front: f64, variances: &PerAxle<f64>| of_unlike(&PerAxle { front, middle: 0.1, rear: 0.1 }, variances);
+        let turned = 0.02 * 0.12 / 0.35;
+        let drift = of_front(0.12, &known) * super::ANGLE_DRIFT * super::ANGLE_DRIFT * 0.12;
+        assert!((drift / (turned * turned) - 1.0).abs() < 0.01, "{drift} {turned}");
+        assert_eq!(of_front(0.12, &PerAxle::all(1.0e-4)), 0.0);
+        assert_eq!(of_front(1.0, &known), MOST_BY_UNLIKE);
+    }
 
     /// A bend that wheels may have sunk to says nothing; one of 0.12 rad, on ground that curves by 0.1 rad over 0.233 m, lets an
     /// angle drift by what such ground turns by over 0.12 m of travel, within these 0.12 m.

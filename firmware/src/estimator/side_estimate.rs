@@ -1,8 +1,8 @@
 //! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
 
 use super::contact_angle;
-use super::doubt::{AnglesKnown, Doubt, WheelDoubt};
-use super::drawbar_split::{DrawbarSplit, along_contact};
+use super::doubt::{Doubt, HowKnown, WheelDoubt};
+use super::drawbar_split::{DrawbarSplit, OF_TORQUE, along_contact};
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
 use super::side_estimator::{BLOCKED, SideEstimator};
@@ -33,16 +33,22 @@ type HubForces<S> = Gaussian<S, { hub_force::STATES }>;
 /// Forces along one contact, and how they hang on the states of filter 2.
 struct ContactForces<S> {
     contact_angle_rad: S,
+    /// What the filter states of it, rad².
+    angle_variance: S,
     load_n: S,
     pull_n: S,
-    /// Contact angle, load and pull by the states of the contact-angle filter.
-    by_angles: [[S; contact_angle::STATES]; 3],
+    /// Sine and cosine of the contact angle less the pitch of the link.
+    angle: (S, S),
+    /// Which state of the contact-angle filter the contact angle is.
+    state: usize,
+    /// Load and pull by the states of the contact-angle filter.
+    by_angles: [[S; contact_angle::STATES]; 2],
     /// The same by the states of the hub-force filter.
-    by_forces: [[S; hub_force::STATES]; 3],
+    by_forces: [[S; hub_force::STATES]; 2],
     /// The same by the split between the wheels of a bogie: one standard deviation, N.
-    by_split: [S; 3],
+    by_split: [S; 2],
     /// The same by what the contact angle lags behind.
-    by_lag: [S; 3],
+    by_lag: [S; 2],
 }
 
 impl<S: Scalar> SideEstimator<S> {
@@ -67,7 +73,7 @@ impl<S: Scalar> SideEstimator<S> {
             |(((contact, by_load), ((filter, activity), of_wheel)), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
-                    ..self.wheel(forces, (&doubt, &of_wheel), &contact, filter, activity)
+                    ..self.wheel(forces, (doubt.slip, &of_wheel), &contact, filter, activity)
                 };
                 if lifted { in_the_air(&wheel) } else { wheel }
             },
@@ -80,15 +86,15 @@ impl<S: Scalar> SideEstimator<S> {
         let entry =
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
         let doubt = self.doubt();
-        let Doubt { torque, slip, .. } = doubt;
-        let both = (torque * slip).sqrt();
         self.contacts(forces).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
+            let (slip, torque) = (doubt.slip, of_wheel.torque);
+            let both = (torque * slip).sqrt();
             WheelCovariance {
                 torque_slip: [
                     [torque * entry(filter, 1, 1) + of_wheel.torque_variance, both * entry(filter, 1, 2)],
                     [both * entry(filter, 2, 1), slip * entry(filter, 2, 2)],
                 ],
-                contact: self.covariance(forces, (&doubt, &of_wheel), &contact),
+                contact: self.covariance(forces, &of_wheel, &contact),
             }
         })
     }
@@ -96,19 +102,18 @@ impl<S: Scalar> SideEstimator<S> {
     fn wheel(
         &self,
         forces: &HubForces<S>,
-        doubt: (&Doubt<S>, &WheelDoubt<S>),
+        (doubt_of_slip, of_wheel): (S, &WheelDoubt<S>),
         contact: &ContactForces<S>,
         filter: &SlipTorqueFilter<S>,
         activity: WheelActivity,
     ) -> WheelEstimate {
-        let [angle_std, load_std, pull_std] = self.variances(forces, doubt, contact).map(S::sqrt);
-        let (doubt, of_wheel) = doubt;
+        let [angle_std, load_std, pull_std] = self.variances(forces, of_wheel, contact).map(S::sqrt);
         let [_, torque, slip] = *filter.estimate().mean();
         let [_, torque_variance, slip_variance] = filter.estimate().variances();
-        let torque_std = (doubt.torque * torque_variance + of_wheel.torque_variance).sqrt();
-        let slip_std = (doubt.slip * slip_variance).sqrt();
+        let torque_std = (of_wheel.torque * torque_variance + of_wheel.torque_variance).sqrt();
+        let slip_std = (doubt_of_slip * slip_variance).sqrt();
         let normal_load_n = published(contact.load_n, load_std);
-        let [_, _, split_std] = contact.by_split;
+        let [_, split_std] = contact.by_split;
         WheelEstimate {
             activity,
             slip: published_slip(slip, slip_std, activity),
@@ -125,56 +130,71 @@ impl<S: Scalar> SideEstimator<S> {
     /// The contacts, with the split of the bogie's pull that the torques tell now.
     fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
-        let told_by_links = self.told_by_links;
-        let contact = |path: S, link: S| path + told_by_links * (link - path);
+        let told_by_links = self.digging_in.told_by_links();
+        let [_, of_front, of_middle, of_rear, ..] = self.angles.estimate().variances();
+        let contact = |path: S, variance: S, link: S| (path + told_by_links * (link - path), variance);
+        let (front, middle, rear) = (
+            contact(front, of_front, rocker_pitch),
+            contact(middle, of_middle, bogie_pitch),
+            contact(rear, of_rear, bogie_pitch),
+        );
         let forces = self.forces.forces_at(estimate);
         let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch, &forces);
         let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
-        let split = S::constant(0.5) * DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
-        PerAxle {
-            front: contact_forces(Axle::Front, contact(front, rocker_pitch), rocker_pitch, forces.front, S::zero()),
-            middle: contact_forces(Axle::Middle, contact(middle, bogie_pitch), bogie_pitch, forces.middle, split),
-            rear: contact_forces(Axle::Rear, contact(rear, bogie_pitch), bogie_pitch, forces.rear, -split),
-        }
+        let form = DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
+        let torque_variance = |filter: &SlipTorqueFilter<S>| {
+            let [_, torque, _] = filter.estimate().variances();
+            torque
+        };
+        let per_torque = S::constant(OF_TORQUE) / self.rover.wheel.radius_m;
+        let of_torques = torque_variance(&self.wheels.middle) + torque_variance(&self.wheels.rear);
+        let split = S::constant(0.5) * (form * form + per_torque * per_torque * of_torques).sqrt();
+        let mut middle = contact_forces(Axle::Middle, middle, bogie_pitch, forces.middle, split);
+        let mut rear = contact_forces(Axle::Rear, rear, bogie_pitch, forces.rear, -split);
+        share_along_bogie(&mut middle, &mut rear);
+        PerAxle { front: contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero()), middle, rear }
     }
 
     fn doubt(&self) -> Doubt<S> {
-        let known = AnglesKnown { still: self.angles.still(), told_by_links: self.told_by_links };
+        let known = HowKnown {
+            still: self.angles.still(),
+            told_by_links: self.digging_in.told_by_links(),
+            restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
+        };
         Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
     }
 
-    fn variances(
-        &self,
-        forces: &HubForces<S>,
-        (doubt, of_wheel): (&Doubt<S>, &WheelDoubt<S>),
-        contact: &ContactForces<S>,
-    ) -> [S; 3] {
-        let mut variances = [S::zero(), of_wheel.load_variance, S::zero()];
+    fn variances(&self, forces: &HubForces<S>, of_wheel: &WheelDoubt<S>, contact: &ContactForces<S>) -> [S; 3] {
+        let mut variances = [of_wheel.load_variance, S::zero()];
         let rows = contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split.iter().zip(&contact.by_lag));
         for (variance, ((by_angles, by_forces), (split, lag))) in variances.iter_mut().zip(rows) {
             *variance += of_wheel.angle * self.angles.estimate().weighted_sum(by_angles).1
-                + doubt.force * forces.weighted_sum(by_forces).1
+                + of_wheel.force * forces.weighted_sum(by_forces).1
                 + *split * *split
                 + of_wheel.angle_variance * *lag * *lag;
         }
-        variances
+        let [load, pull] = variances;
+        [of_wheel.angle * contact.angle_variance + of_wheel.angle_variance, load, pull]
     }
 
-    fn covariance(
-        &self,
-        estimate: &HubForces<S>,
-        (doubt, of_wheel): (&Doubt<S>, &WheelDoubt<S>),
-        contact: &ContactForces<S>,
-    ) -> [[S; 3]; 3] {
-        let rows =
-            || contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split.iter().zip(&contact.by_lag));
+    fn covariance(&self, estimate: &HubForces<S>, of_wheel: &WheelDoubt<S>, contact: &ContactForces<S>) -> [[S; 3]; 3] {
+        let (zero, one) = (S::zero(), S::one());
+        let ([load_angles, pull_angles], [load_forces, pull_forces]) = (&contact.by_angles, &contact.by_forces);
+        let ([load_split, pull_split], [load_lag, pull_lag]) = (contact.by_split, contact.by_lag);
+        let mut by_itself = [zero; contact_angle::STATES];
+        by_itself.iter_mut().skip(contact.state).take(1).for_each(|entry| *entry = one);
+        let rows = [
+            (&by_itself, &[zero; hub_force::STATES], zero, one),
+            (load_angles, load_forces, load_split, load_lag),
+            (pull_angles, pull_forces, pull_split, pull_lag),
+        ];
         let mut covariance = [[S::zero(); 3]; 3];
-        for (line, ((angles, forces), (split, lag))) in covariance.iter_mut().zip(rows()) {
-            for (place, ((other_angles, other_forces), (other_split, other_lag))) in line.iter_mut().zip(rows()) {
+        for (line, (angles, forces, split, lag)) in covariance.iter_mut().zip(rows) {
+            for (place, (other_angles, other_forces, other_split, other_lag)) in line.iter_mut().zip(rows) {
                 *place = of_wheel.angle * self.angles.estimate().covariance_of_sums(angles, other_angles)
-                    + doubt.force * estimate.covariance_of_sums(forces, other_forces)
-                    + *split * *other_split
-                    + of_wheel.angle_variance * *lag * *other_lag;
+                    + of_wheel.force * estimate.covariance_of_sums(forces, other_forces)
+                    + split * other_split
+                    + of_wheel.angle_variance * lag * other_lag;
             }
         }
         let [_, [_, of_load, _], _] = &mut covariance;
@@ -190,15 +210,17 @@ impl<S: Scalar> SideEstimator<S> {
         middle: &ContactForces<S>,
         rear: &ContactForces<S>,
     ) -> Estimate {
-        let ([.., middle_angles], [.., rear_angles]) = (&middle.by_angles, &rear.by_angles);
-        let ([.., middle_forces], [.., rear_forces]) = (&middle.by_forces, &rear.by_forces);
-        let ([.., middle_split], [.., rear_split]) = (middle.by_split, rear.by_split);
+        let ([_, middle_angles], [_, rear_angles]) = (&middle.by_angles, &rear.by_angles);
+        let ([_, middle_forces], [_, rear_forces]) = (&middle.by_forces, &rear.by_forces);
+        let ([_, middle_split], [_, rear_split]) = (middle.by_split, rear.by_split);
         let by_angles = self.angles.estimate().weighted_sum(&sums(middle_angles, rear_angles)).1;
         let by_forces = forces.weighted_sum(&sums(middle_forces, rear_forces)).1;
         let split = middle_split + rear_split;
-        let lag = |doubt: &WheelDoubt<S>, [.., pull]: [S; 3]| doubt.angle_variance * pull * pull;
-        let lags = lag(&doubt.wheels.middle, middle.by_lag) + lag(&doubt.wheels.rear, rear.by_lag);
-        let variance = doubt.wheels.middle.angle * by_angles + doubt.force * by_forces + split * split + lags;
+        let lag = |doubt: &WheelDoubt<S>, [_, pull]: [S; 2]| doubt.angle_variance * pull * pull;
+        // Each wheel feels half of its own lag and of the other's; both together feel all of both.
+        let lags = S::constant(2.0) * (lag(&doubt.wheels.middle, middle.by_lag) + lag(&doubt.wheels.rear, rear.by_lag));
+        let variance =
+            doubt.wheels.middle.angle * by_angles + doubt.wheels.middle.force * by_forces + split * split + lags;
         published(middle.pull_n + rear.pull_n, variance.sqrt())
     }
 }
@@ -216,17 +238,23 @@ fn in_the_air(wheel: &WheelEstimate) -> WheelEstimate {
     }
 }
 
-/// Forces along a contact of a hub, with the force on it in the coordinates of its link at a pitch.
-fn contact_forces<S: Scalar>(axle: Axle, contact: S, pitch: S, force: Planar<S>, split: S) -> ContactForces<S> {
+/// Forces along a contact of a hub, known with a variance, with the force on it in the coordinates of its link at a pitch.
+fn contact_forces<S: Scalar>(
+    axle: Axle,
+    (contact, angle_variance): (S, S),
+    pitch: S,
+    force: Planar<S>,
+    split: S,
+) -> ContactForces<S> {
     let (zero, one, half) = (S::zero(), S::one(), S::constant(0.5));
     let (sine, cosine) = (contact - pitch).sin_cos();
     let (load_n, pull_n) = along_contact(force, (sine, cosine));
     let felt = S::constant(LAG_IN_FORCES);
     // A contact that is steeper by dγ sees W + DP dγ·(−1) as load and DP + W dγ as pull.
-    let (angle, against_link) = match axle {
-        Axle::Front => ([zero, one, zero, zero, zero, zero, zero], [zero, one, zero, zero, -one, zero, zero]),
-        Axle::Middle => ([zero, zero, one, zero, zero, zero, zero], [zero, zero, one, zero, zero, -one, zero]),
-        Axle::Rear => ([zero, zero, zero, one, zero, zero, zero], [zero, zero, zero, one, zero, -one, zero]),
+    let (state, against_link) = match axle {
+        Axle::Front => (1, [zero, one, zero, zero, -one, zero, zero]),
+        Axle::Middle => (2, [zero, zero, one, zero, zero, -one, zero]),
+        Axle::Rear => (3, [zero, zero, zero, one, zero, -one, zero]),
     };
     let known = S::constant(ALONG_LINK);
     let by_hub = |across: S, along: S| match axle {
@@ -236,12 +264,36 @@ fn contact_forces<S: Scalar>(axle: Axle, contact: S, pitch: S, force: Planar<S>,
     };
     ContactForces {
         contact_angle_rad: contact,
+        angle_variance,
         load_n,
         pull_n,
-        by_angles: [angle, against_link.map(|entry| -pull_n * entry), against_link.map(|entry| load_n * entry)],
-        by_forces: [by_hub(zero, zero), by_hub(cosine, -sine), by_hub(sine, cosine)],
-        by_split: [zero, -sine * split, cosine * split],
-        by_lag: [one, -felt * pull_n, felt * load_n],
+        angle: (sine, cosine),
+        state,
+        by_angles: [against_link.map(|entry| -pull_n * entry), against_link.map(|entry| load_n * entry)],
+        by_forces: [by_hub(cosine, -sine), by_hub(sine, cosine)],
+        by_split: [-sine * split, cosine * split],
+        by_lag: [-felt * pull_n, felt * load_n],
+    }
+}
+
+/// What the contact angles of a bogie's wheels do to their forces. The moments hold the sum of the forces along the bogie, the torques the
+/// difference of the drawbar pulls: where one contact is steeper by dγ, its pull seems W dγ larger, and the forces along the bogie have
+/// to change by opposite amounts until both pulls are larger by about half of that.
+fn share_along_bogie<S: Scalar>(middle: &mut ContactForces<S>, rear: &mut ContactForces<S>) {
+    let zero = S::zero();
+    let row = |middle: S, rear: S| [zero, zero, middle, rear, zero, -(middle + rear), zero];
+    let ((middle_sine, middle_cosine), (rear_sine, rear_cosine)) = (middle.angle, rear.angle);
+    let both = middle_cosine + rear_cosine;
+    let (by_middle, by_rear) = (middle.load_n / both, rear.load_n / both);
+    let pull = row(by_middle * rear_cosine, by_rear * middle_cosine);
+    let felt = S::constant(LAG_IN_FORCES);
+    let half = S::constant(core::f64::consts::FRAC_1_SQRT_2);
+    let of_middle = row(by_middle * middle_sine - middle.pull_n, -by_rear * middle_sine);
+    let of_rear = row(-by_middle * rear_sine, by_rear * rear_sine - rear.pull_n);
+    for (wheel, load) in [(middle, of_middle), (rear, of_rear)] {
+        wheel.by_angles = [load, pull];
+        let (sine, _) = wheel.angle;
+        wheel.by_lag = [felt * (half * sine * wheel.load_n - wheel.pull_n), half * felt * wheel.load_n];
     }
 }
 
@@ -260,5 +312,45 @@ fn published_slip<S: Scalar>(slip: S, std: S, activity: WheelActivity) -> Option
         WheelActivity::Standing => None,
         WheelActivity::Blocked => Some(Estimate { value: -1.0, std: BLOCKED as f32 }),
         _ => Some(published(slip.max(-S::one()).min(S::one()), std)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{along_contact, contact_forces, share_along_bogie};
+    use crate::rover::{Axle, Planar};
+
+    /// Cells and the sum along the bogie are held, and the difference of the pulls: where a contact is taken to be steeper, the force along
+    /// the bogie shifts between its wheels until that is so again. Loads and pulls must change by what is stated of them.
+    #[test]
+    fn a_steeper_contact_changes_the_forces_on_both_wheels_of_a_bogie() {
+        let (cells, along, angles, steeper) = ([70.0, 50.0], [9.0, -3.0], [0.4, -0.2], 1.0e-6);
+        let forces = |angles: [f64; 2], shifted: f64| {
+            let of = |cell, along, angle: f64| along_contact(Planar { x: along, z: cell }, angle.sin_cos());
+            let [(load, pull), (other_load, other_pull)] =
+                [of(cells[0], along[0] + shifted, angles[0]), of(cells[1], along[1] - shifted, angles[1])];
+            [load, pull, other_load, other_pull]
+        };
+        let contact = |axle, at: usize| {
+            contact_forces(axle, (angles[at], 1.0e-4), 0.0, Planar { x: along[at], z: cells[at] }, 0.0)
+        };
+        let (mut middle, mut rear) = (contact(Axle::Middle, 0), contact(Axle::Rear, 1));
+        share_along_bogie(&mut middle, &mut rear);
+        let before = forces(angles, 0.0);
+        for (state, angles) in [(2, [angles[0] + steeper, angles[1]]), (3, [angles[0], angles[1] + steeper])] {
+            let off = |shifted: f64| {
+                let [_, pull, _, other_pull] = forces(angles, shifted);
+                pull - other_pull - (before[1] - before[3])
+            };
+            // The difference is linear in what is shifted.
+            let shifted = -off(0.0) / (off(1.0) - off(0.0));
+            let after = forces(angles, shifted);
+            let stated =
+                [middle.by_angles[0], middle.by_angles[1], rear.by_angles[0], rear.by_angles[1]].map(|row| row[state]);
+            for ((after, before), stated) in after.into_iter().zip(before).zip(stated) {
+                let found = (after - before) / steeper;
+                assert!((found - stated).abs() < 1.0e-3, "{state}: {found} {stated}");
+            }
+        }
     }
 }

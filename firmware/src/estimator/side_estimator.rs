@@ -1,7 +1,8 @@
 //! The filters of one side, and what they say together.
 
 use super::attitude::Attitude;
-use super::contact_angle::{self, ContactAngleFilter, SideReadings, UNKNOWN_ANGLE};
+use super::contact_angle::{self, ContactAngleFilter, SideReadings};
+use super::digging_in::{DiggingIn, Rolled};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
@@ -40,14 +41,6 @@ const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
 const SETTLING: u8 = 8;
-/// How fast the wheels of a side sink as they start, over the speed of their rims, as one standard deviation, and the travel after
-/// which that is down to a third, m: loads shift from wheel to wheel and slips grow.
-const DIGS_IN: f64 = 0.1;
-const DIGGING_IN_M: f64 = 0.013;
-/// Where they sink by less than this they have dug in.
-const DUG_IN: f64 = 0.003;
-/// The least speed that paths are told by while wheels dig in, m/s.
-const LEAST_SPEED: f64 = 3.0e-5;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
@@ -58,7 +51,7 @@ const UNSEEN_TURN: f64 = 0.03;
 /// The estimators of one side.
 #[derive(Debug, Clone)]
 pub(super) struct SideEstimator<S> {
-    rover: Rover<S>,
+    pub(super) rover: Rover<S>,
     y_m: S,
     pub(super) angles: ContactAngleFilter<S>,
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
@@ -68,10 +61,7 @@ pub(super) struct SideEstimator<S> {
     unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
-    /// Variance of how fast the wheels sink, over the speed of their rims.
-    digs_in: S,
-    /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
-    pub(super) told_by_links: S,
+    pub(super) digging_in: DiggingIn<S>,
     sinking: Sinking<S>,
     told: SideInnovations<S>,
 }
@@ -113,8 +103,7 @@ impl<S: Scalar> SideEstimator<S> {
             activity: PerAxle::default(),
             unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
-            digs_in: S::zero(),
-            told_by_links: S::zero(),
+            digging_in: DiggingIn::new(),
             sinking: Sinking::new(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
@@ -162,7 +151,7 @@ impl<S: Scalar> SideEstimator<S> {
         let wheels = self.wheel_frames(&readings, self.angles.body_pitch());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
         self.tick_forces(step_s, frame, attitude, &mut surprises);
-        let loads = self.forces.cells_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
+        let loads = self.forces.beyond_rest_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
         self.sinking.follow(self.speed_m_s() * step_s, &loads);
         surprises
     }
@@ -283,30 +272,8 @@ impl<S: Scalar> SideEstimator<S> {
         if settles {
             self.forces.settle();
         }
-        self.dig_in(step_s, stands);
-    }
-
-    /// Lets wheels dig in that have stood: the path of a hub comes back to the terrain as it travels, and so drifts against it.
-    #[inline(never)] // flash is scarcer than the time of a call
-    fn dig_in(&mut self, step_s: S, stands: bool) {
-        let square = |value: f64| S::constant(value * value);
-        self.told_by_links = S::zero();
-        if stands {
-            self.digs_in = square(DIGS_IN);
-        } else if self.digs_in > S::zero() {
-            let speed = self.speed_m_s().max(S::constant(LEAST_SPEED));
-            let came_back = self.digs_in * (S::constant(2.0 / DIGGING_IN_M) * speed * step_s).min(S::one());
-            self.digs_in -= came_back;
-            let over_rim = self.rim_speed_m_s / speed;
-            let squared = over_rim * over_rim;
-            self.angles.dig_in(came_back * squared);
-            let steeper = self.digs_in * squared;
-            self.told_by_links = steeper / (steeper + square(UNKNOWN_ANGLE));
-            if self.digs_in < square(DUG_IN) {
-                self.digs_in = S::zero();
-                self.angles.settle();
-            }
-        }
+        let rolled = Rolled { stands, speed_m_s: self.speed_m_s(), rim_speed_m_s: self.rim_speed_m_s, step_s };
+        self.digging_in.follow(&rolled, &mut self.angles);
     }
 
     fn tick_forces(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>, surprises: &mut Surprises) {
@@ -344,13 +311,10 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// Which wheels bear no load that their cells can tell from none.
     pub(super) fn lifted(&self) -> PerAxle<bool> {
-        let [front, middle, rear, ..] = *self.forces.estimate().mean();
-        let [front_std, middle_std, rear_std, ..] = self.forces.estimate().stds();
-        PerAxle { front: (front, front_std), middle: (middle, middle_std), rear: (rear, rear_std) }.map(
-            |(force, std)| {
-                force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
-            },
-        )
+        let [front, middle, rear, ..] = self.forces.estimate().stds();
+        self.forces.cells_n().zip(PerAxle { front, middle, rear }).map(|(force, std)| {
+            force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
+        })
     }
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.

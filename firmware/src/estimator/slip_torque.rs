@@ -153,6 +153,12 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.shared_slip_variance
     }
 
+    /// How restless its torque is, 0 … 1.
+    pub fn restless_torque(&self) -> S {
+        let [torque, _] = self.trends.restless();
+        torque
+    }
+
     /// How often the filter fell back to its floor.
     pub fn resets(&self) -> u32 {
         self.filter.resets()

@@ -18,7 +18,8 @@ const STEADY: f64 = 0.005;
 /// The same while wheels start, stop or stand, m/s²: a top speed of 3 cm/s, reached in half a second.
 const UNSTEADY: f64 = 0.06;
 
-/// What a side's filter says of the forces on its hubs, and the weights with which these sum to the side's force on the rover.
+/// What a side's filter says of the forces on its hubs beyond those of a level rover at rest, and the weights with which forces sum to
+/// the side's force on the rover.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SideForces<'a, S> {
     /// What the filter says.
@@ -46,8 +47,9 @@ pub(super) fn balanced<S: Scalar>(
     steady: bool,
     sides: &PerSide<SideForces<'_, S>>,
 ) -> PerSide<Gaussian<S, STATES>> {
-    let whole = what_holds(rover, attitude, steady);
     let PerSide { left, right } = sides;
+    let at_rest_n = rover.load_at_rest_n();
+    let whole = what_holds(rover, attitude, steady).less(&left.of_cells(at_rest_n)).less(&right.of_cells(at_rest_n));
     PerSide { left: left.with(&whole.less(&right.sum())), right: right.with(&whole.less(&left.sum())) }
 }
 
@@ -95,6 +97,19 @@ impl<'a, S: Scalar> SideForces<'a, S> {
             estimate,
             forward: [-rocker, -bogie, -bogie, across_rocker, across_bogie],
             upward: [across_rocker, across_bogie, across_bogie, rocker, bogie],
+        }
+    }
+
+    /// The force of this side on the rover where each of its cells bears so much, N, and nothing is along the links.
+    fn of_cells(&self, force_n: S) -> Force<S> {
+        let sum = |[front, middle, rear, ..]: [S; STATES]| force_n * (front + middle + rear);
+        let zero = S::zero();
+        Force {
+            forward: sum(self.forward),
+            upward: sum(self.upward),
+            forward_variance: zero,
+            upward_variance: zero,
+            covariance: zero,
         }
     }
 

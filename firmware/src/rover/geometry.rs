@@ -95,6 +95,11 @@ impl<S: Scalar> Rover<S> {
         }
     }
 
+    /// A sixth of the rover's weight, N: what each wheel bears of a level rover at rest, more or less.
+    pub fn load_at_rest_n(&self) -> S {
+        self.mass_kg * self.gravity_m_s2 * S::constant(1.0 / 6.0)
+    }
+
     /// Whether such a rover can stand and its forces be told apart.
     ///
     /// # Errors
