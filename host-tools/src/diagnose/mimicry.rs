@@ -60,13 +60,14 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
 /// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there, or is what the
 /// effect is named for: then it is the effect by another law, and no other cause. An angle of the wheel is a column of many laws.
 pub fn is_own_law(effect: &EffectForm, structure: &Structure) -> bool {
-    let is_named_for = |column: &str| {
-        let named = |&(id, channel, by): &(&str, Reading, Channel)| {
-            id == effect.info.id && channel == structure.channel && Channel::from_name(column) == Some(by)
-        };
-        NAMED_FOR.iter().any(named)
-    };
-    follows(effect, structure.channel, &structure.regressor) || structure.regressor.split('*').any(is_named_for)
+    let (channel, columns) = (structure.channel, &structure.regressor);
+    follows(effect, channel, columns) || is_named_for(effect, channel, columns)
+}
+
+/// Whether an effect is named for what a channel does with a column, or with a product of which that is one.
+fn is_named_for(effect: &EffectForm, channel: Reading, columns: &str) -> bool {
+    let named = NAMED_FOR.iter().find(|(id, of, _)| *id == effect.info.id && *of == channel);
+    named.is_some_and(|(.., by)| columns.split('*').any(|column| column == by.name()))
 }
 
 /// Whether a form acts on a channel and follows a column there.
@@ -100,6 +101,16 @@ mod tests {
     use kapvik_firmware::terramechanics::effects::effect_info;
 
     use super::*;
+
+    #[test]
+    fn a_rate_is_whatever_sinkage_does_with_speed() {
+        let info = effect_info("rate").expect("listed");
+        let rate = EffectForm::new(info, &info.forms[0]);
+        assert!(is_named_for(&rate, Reading::Sinkage, "speed_m_s"));
+        assert!(is_named_for(&rate, Reading::Sinkage, "slip*speed_m_s"));
+        assert!(!is_named_for(&rate, Reading::DrawbarPull, "speed_m_s"));
+        assert!(!is_named_for(&rate, Reading::Sinkage, "temperature_c"));
+    }
 
     #[test]
     fn a_drift_with_temperature_follows_no_other_column_and_in_its_channel_alone() {
