@@ -98,17 +98,20 @@ impl Search {
     /// From far away to where most readings are within reach of the model.
     fn temper(&mut self, problem: &Problem<'_>, scales: &Scales) {
         let mut temper = Temper::of(problem, &self.state, scales);
+        if !temper.is_needed() {
+            return;
+        }
         for _ in 0..TEMPERED_ROUNDS {
-            if !temper.is_needed() {
-                break;
-            }
             let warm = temper.apply(scales);
             self.begin(problem, &warm);
             let most = (problem.options.most_iterations / 2).min(self.iterations + TEMPERED_STEPS);
             self.descend(problem, &warm, TEMPERED_TOLERANCE, most);
             temper = temper.falling_to(Temper::of(problem, &self.state, scales));
-            self.begin(problem, scales);
+            if !temper.is_needed() {
+                break;
+            }
         }
+        self.begin(problem, scales);
     }
 
     /// From the same place on other terms: what was learned of the way there holds no more.
