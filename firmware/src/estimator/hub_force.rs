@@ -164,10 +164,11 @@ impl<S: Scalar> HubForceFilter<S> {
         let unknown_n = weight * S::constant(UNKNOWN_SHARE);
         let estimate = Gaussian::independent([S::zero(); STATES], [unknown_n; STATES])?;
         let model = HubForceModel::new(&rover.suspension, (S::zero(), S::one()));
+        let at_rest_n = rover.load_at_rest_n();
         Ok(Self {
             filter: SigmaPointFilter::new(estimate, [unknown_n; STATES])?,
-            at_rest_n: rover.load_at_rest_n(),
-            at_rest_nm: model.moments_of(rover.load_at_rest_n()),
+            at_rest_n,
+            at_rest_nm: model.moments_of(at_rest_n),
             model,
             unknown_n,
             cell_rates: PerAxle::from_array([phase, phase + 1, phase + 2]).map(WalkRate::new),

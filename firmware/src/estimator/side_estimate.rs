@@ -287,13 +287,14 @@ fn share_along_bogie<S: Scalar>(middle: &mut ContactForces<S>, rear: &mut Contac
     let (by_middle, by_rear) = (middle.load_n / both, rear.load_n / both);
     let pull = row(by_middle * rear_cosine, by_rear * middle_cosine);
     let felt = S::constant(LAG_IN_FORCES);
-    let half = S::constant(core::f64::consts::FRAC_1_SQRT_2);
+    // Half of its own lag and half of the other's, which know nothing of each other: together 1/√2 of one.
+    let of_both = S::constant(core::f64::consts::FRAC_1_SQRT_2);
     let of_middle = row(by_middle * middle_sine - middle.pull_n, -by_rear * middle_sine);
     let of_rear = row(-by_middle * rear_sine, by_rear * rear_sine - rear.pull_n);
     for (wheel, load) in [(middle, of_middle), (rear, of_rear)] {
         wheel.by_angles = [load, pull];
         let (sine, _) = wheel.angle;
-        wheel.by_lag = [felt * (half * sine * wheel.load_n - wheel.pull_n), half * felt * wheel.load_n];
+        wheel.by_lag = [felt * (of_both * sine * wheel.load_n - wheel.pull_n), of_both * felt * wheel.load_n];
     }
 }
 

@@ -6,6 +6,7 @@
 use super::observation::{CHANNELS, Reading};
 use super::problem::Problem;
 use super::state::{Scales, State};
+use crate::statistics::sorted;
 
 /// Factor on the noise of one round after that of the one before, at most.
 const FALL: f64 = 0.2;
@@ -19,10 +20,12 @@ pub(super) struct Temper {
 impl Temper {
     /// Such that half of the readings of each channel lie within the bulk of the loss.
     pub(super) fn of(problem: &Problem<'_>, state: &State, scales: &Scales) -> Self {
+        let sizes = sizes(problem, state, scales);
         let mut factors = [1.0; CHANNELS];
         for reading in Reading::JUDGED {
-            let c = reading.index();
-            factors[c] = (median_size(problem, state, scales, c) / problem.options.huber).max(1.0);
+            let sizes = sorted(sizes[reading.index()].iter().copied());
+            let middle = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+            factors[reading.index()] = (middle / problem.options.huber).max(1.0);
         }
         Self { factors }
     }
@@ -46,17 +49,14 @@ impl Temper {
     }
 }
 
-/// Median size of a channel's residuals in units of noise; 0 without any.
-fn median_size(problem: &Problem<'_>, state: &State, scales: &Scales, channel: usize) -> f64 {
-    let rows = problem.runs.iter().enumerate().flat_map(|(run, of_run)| {
-        of_run.rows.iter().enumerate().filter_map(move |(place, &row)| {
-            state.standardised(&problem.rows[row], scales, run, place)[channel].map(f64::abs)
-        })
-    });
-    let mut sizes: Vec<f64> = rows.collect();
-    if sizes.is_empty() {
-        return 0.0;
+/// Sizes of each channel's residuals in units of noise.
+fn sizes(problem: &Problem<'_>, state: &State, scales: &Scales) -> [Vec<f64>; CHANNELS] {
+    let mut sizes: [Vec<f64>; CHANNELS] = Default::default();
+    for (run, of_run) in problem.runs.iter().enumerate() {
+        for (place, &row) in of_run.rows.iter().enumerate() {
+            let standardised = state.standardised(&problem.rows[row], scales, run, place);
+            sizes.iter_mut().zip(standardised).for_each(|(sizes, residual)| sizes.extend(residual.map(f64::abs)));
+        }
     }
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
+    sizes
 }
