@@ -15,7 +15,7 @@ use kapvik_tests::{estimates_of_the_recorded_drive, recorded_drive};
 
 /// A table after two glances at the soil: good for nothing but being another.
 fn other_table(folder: &Path) -> PathBuf {
-    let plan = Plan { scenes: 1500, held_out: 1200, rover_epochs: 2, wheel_epochs: 1, ..Plan::quick(5) };
+    let plan = Plan::glance(5);
     let world = World::seed();
     let trained = train(&world, &plan, true).unwrap_or_else(|error| panic!("{error}"));
     let (wheel, loss) = trained.wheel.expect("it was asked for");

@@ -26,17 +26,23 @@ impl<S: Scalar, const N: usize> Dual<S, N> {
     }
 
     /// A function of this number alone, by its value and its derivative.
-    fn through(self, value: S, derivative: S) -> Self {
-        Self { value, slopes: self.slopes.map(|slope| derivative * slope) }
+    #[inline(always)]
+    fn through(mut self, value: S, derivative: S) -> Self {
+        self.value = value;
+        for slope in &mut self.slopes {
+            *slope = derivative * *slope;
+        }
+        self
     }
 
     /// A function of two numbers, by its value and its derivatives.
-    fn of_two(self, other: Self, value: S, by_self: S, by_other: S) -> Self {
-        let mut slopes = [S::zero(); N];
-        for (slope, (a, b)) in slopes.iter_mut().zip(self.slopes.iter().zip(&other.slopes)) {
-            *slope = by_self * *a + by_other * *b;
+    #[inline(always)]
+    fn of_two(mut self, other: &Self, value: S, by_self: S, by_other: S) -> Self {
+        self.value = value;
+        for (slope, other) in self.slopes.iter_mut().zip(&other.slopes) {
+            *slope = by_self * *slope + by_other * *other;
         }
-        Self { value, slopes }
+        self
     }
 }
 
@@ -54,6 +60,7 @@ impl<S: Scalar, const N: usize> PartialOrd for Dual<S, N> {
 
 impl<S: Scalar, const N: usize> Add for Dual<S, N> {
     type Output = Self;
+    #[inline(always)]
     fn add(mut self, other: Self) -> Self {
         self += other;
         self
@@ -62,6 +69,7 @@ impl<S: Scalar, const N: usize> Add for Dual<S, N> {
 
 impl<S: Scalar, const N: usize> Sub for Dual<S, N> {
     type Output = Self;
+    #[inline(always)]
     fn sub(mut self, other: Self) -> Self {
         self -= other;
         self
@@ -70,27 +78,32 @@ impl<S: Scalar, const N: usize> Sub for Dual<S, N> {
 
 impl<S: Scalar, const N: usize> Mul for Dual<S, N> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.of_two(other, self.value * other.value, other.value, self.value)
+        let (value, by_self, by_other) = (self.value * other.value, other.value, self.value);
+        self.of_two(&other, value, by_self, by_other)
     }
 }
 
 impl<S: Scalar, const N: usize> Div for Dual<S, N> {
     type Output = Self;
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let (value, inverse) = (self.value / other.value, S::one() / other.value);
-        self.of_two(other, value, inverse, -value * inverse)
+        self.of_two(&other, value, inverse, -value * inverse)
     }
 }
 
 impl<S: Scalar, const N: usize> Neg for Dual<S, N> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         self.through(-self.value, -S::one())
     }
 }
 
 impl<S: Scalar, const N: usize> AddAssign for Dual<S, N> {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         self.value += other.value;
         for (slope, other) in self.slopes.iter_mut().zip(&other.slopes) {
@@ -100,6 +113,7 @@ impl<S: Scalar, const N: usize> AddAssign for Dual<S, N> {
 }
 
 impl<S: Scalar, const N: usize> SubAssign for Dual<S, N> {
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         self.value -= other.value;
         for (slope, other) in self.slopes.iter_mut().zip(&other.slopes) {
@@ -145,7 +159,7 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
             return Self::fixed(self.value.powf(exponent.value));
         }
         let value = self.value.powf(exponent.value);
-        self.of_two(exponent, value, value * exponent.value / self.value, value * self.value.ln())
+        self.of_two(&exponent, value, value * exponent.value / self.value, value * self.value.ln())
     }
     /// At zero, where the derivative is infinite, the slopes are zero: those of a constant.
     fn sqrt(self) -> Self {

@@ -19,10 +19,10 @@ pub use layer::{Layer, Weights};
 pub use normalisation::Normalisation;
 pub use parts::PartVisitor;
 pub use posterior::{IntervalFactors, KNOTS, Marginal, Posterior, PosteriorScale};
-pub use rover_network::{RoverActivations, RoverNetwork};
+pub use rover_network::RoverNetwork;
 pub use shape::*;
 pub use table::{RoverTable, WheelTable, checksum};
-pub use wheel_network::{WheelActivations, WheelNetwork};
+pub use wheel_network::WheelNetwork;
 
 use crate::math;
 
@@ -44,14 +44,19 @@ impl Numbers for f32 {
 }
 
 impl<T: Numbers, const N: usize> Numbers for [T; N] {
-    // Unrolled through all layers of a table, the checksum's walk would take 5 KB of the image.
-    #[cfg_attr(target_arch = "arm", inline(never))]
     fn for_each(&self, see: &mut impl FnMut(f32)) {
-        self.iter().for_each(|part| part.for_each(see));
+        for_each_of(self, see);
     }
     fn for_each_mut(&mut self, set: &mut impl FnMut(&mut f32)) {
         self.iter_mut().for_each(|part| part.for_each_mut(set));
     }
+}
+
+/// The numbers of arrays of any length. Unrolled through all layers of a table, the checksum's walk would take 5 KB of the
+/// image.
+#[cfg_attr(target_arch = "arm", inline(never))]
+fn for_each_of<T: Numbers>(parts: &[T], see: &mut impl FnMut(f32)) {
+    parts.iter().for_each(|part| part.for_each(see));
 }
 
 /// Writes [`Numbers`] for a struct: its fields in the order given.

@@ -29,23 +29,6 @@ pub struct RoverNetwork {
 }
 numbers!(RoverNetwork: context, wheel, first, second, third, output);
 
-/// What the neurons put out for one rover; a trainer needs it to propagate errors back.
-#[derive(Debug, Clone)]
-pub struct RoverActivations {
-    /// Of each wheel's layer.
-    pub wheels: Vec<[f32; ROVER_HIDDEN], ROVER_WHEELS>,
-    /// Inputs of the head: means, variances, shared inputs, number of wheels.
-    pub pool: [f32; ROVER_HEAD_INPUTS],
-    /// Of the first layer behind the pool.
-    pub first: [f32; ROVER_FIRST_HEAD],
-    /// Of the second layer behind the pool.
-    pub second: [f32; ROVER_SECOND_HEAD],
-    /// Of the third layer behind the pool.
-    pub third: [f32; ROVER_THIRD_HEAD],
-    /// Of the output layer.
-    pub output: [f32; OUTPUTS],
-}
-
 impl RoverNetwork {
     /// All weights zero.
     pub const ZERO: Self = Self {
@@ -63,7 +46,7 @@ impl RoverNetwork {
         context: &[f32; ROVER_CONTEXT],
         inputs: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
         gradient: f32,
-    ) -> RoverActivations {
+    ) -> [f32; OUTPUTS] {
         let shared = self.context.apply(context);
         let mut wheels = Vec::<_, ROVER_WHEELS>::new();
         for features in inputs.into_iter().take(ROVER_WHEELS) {
@@ -77,7 +60,7 @@ impl RoverNetwork {
         let first = self.first.run(&pool, gradient);
         let second = self.second.run(&first, gradient);
         let third = self.third.run(&second, gradient);
-        RoverActivations { wheels, pool, first, second, third, output: self.output.apply(&third) }
+        self.output.apply(&third)
     }
 }
 

@@ -62,7 +62,7 @@ impl<const PAIRS: usize> WheelTable<PAIRS> {
     // One copy in the image: the self-test and the pipeline both call it.
     #[inline(never)]
     pub fn outputs(&self, input: &[f32; WHEEL_INPUTS]) -> [f32; OUTPUTS] {
-        self.network.run(&self.normalisation.apply(input), self.gradient).output
+        self.network.run(&self.normalisation.apply(input), self.gradient)
     }
 
     /// Golden pairs that the network reproduces bit for bit.
@@ -99,7 +99,7 @@ impl<const PAIRS: usize> RoverTable<PAIRS> {
         wheels: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
     ) -> [f32; OUTPUTS] {
         let wheels = wheels.into_iter().map(|features| self.wheel.apply(&features));
-        self.network.run(&self.context.apply(context), wheels, self.gradient).output
+        self.network.run(&self.context.apply(context), wheels, self.gradient)
     }
 
     /// Golden pairs that the network reproduces bit for bit.

@@ -15,25 +15,14 @@ pub struct WheelNetwork {
 }
 numbers!(WheelNetwork: first, second, output);
 
-/// What the neurons put out for one input; a trainer needs it to propagate errors back.
-#[derive(Debug, Clone)]
-pub struct WheelActivations {
-    /// Of the first hidden layer.
-    pub first: [f32; WHEEL_HIDDEN],
-    /// Of the second hidden layer.
-    pub second: [f32; WHEEL_HIDDEN],
-    /// Of the output layer.
-    pub output: [f32; OUTPUTS],
-}
-
 impl WheelNetwork {
     /// All weights zero.
     pub const ZERO: Self = Self { first: Layer::ZERO, second: Layer::ZERO, output: Layer::ZERO };
 
     /// Runs the network on normalised inputs; `gradient` is A of equation 13.
-    pub fn run(&self, input: &[f32; WHEEL_INPUTS], gradient: f32) -> WheelActivations {
+    pub fn run(&self, input: &[f32; WHEEL_INPUTS], gradient: f32) -> [f32; OUTPUTS] {
         let first = self.first.run(input, gradient);
         let second = self.second.run(&first, gradient);
-        WheelActivations { first, second, output: self.output.apply(&second) }
+        self.output.apply(&second)
     }
 }

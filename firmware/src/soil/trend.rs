@@ -41,6 +41,8 @@ const SINKAGE_BY_LOAD: f32 = 0.4;
 /// Variance of T/(rW) by noise of the slip: that of the slip times the square of the mean slope against
 /// ln(slip + [`OFFSET`]), 0.12, over the square of that sum.
 const BY_SLIP: f32 = 0.0144;
+/// The least level of (T/r − DP)/W and of T/(rW) whose logarithm is taken; the mean over the prior is 0.3.
+const LEAST_LEVEL: f32 = 0.02;
 /// Added to slip where its logarithm is taken: of the values tried, 0.08 leaves the least misfit.
 pub const OFFSET: f32 = 0.08;
 
@@ -79,7 +81,9 @@ impl LoadSums {
 /// three numbers about the loads.
 ///
 /// The six are those of Legendre's polynomials of degree 3, 0, 1 and 2 in u, of q, and of u q, the four those of degree 0, 1
-/// and 2 and of q; where the sinkage is not known they are what the forces let expect. The three are the logarithms of
+/// and 2 and of q; where the sinkage is not known they are what the forces let expect. Of the six the one of degree 0, the
+/// level, stands as its logarithm, and the torque's others are over its level: K shows in the shape of the torque against
+/// slip, whatever the strength, and a network learns a product more slowly than a sum. The three are the logarithms of
 /// the standard deviations of the torque's coefficients of q, if that of u q were known, and of u q; and the mean of ln W.
 pub type Trend = [f32; TREND_FEATURES];
 
@@ -89,8 +93,6 @@ struct Row {
     q: f32,
     /// Slip + [`OFFSET`].
     shifted: f32,
-    torque: f32,
-    sinkage: f32,
     /// Of the channel that is being fitted.
     value: f32,
     /// One over the variance of that.
@@ -125,10 +127,12 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
         add_product(&mut sinkage, &SINKAGE.by_resistance, &resistance);
         let level = SINKAGE_BY_LOAD * noise.load * noise.load + of_sinkage;
         let variance = std * std;
-        fit_sinkage(&SINKAGE.precision, &mut sinkage, &rows, |row| {
-            let square = row.sinkage * row.sinkage;
-            (math::ln(row.sinkage), square / (variance + level * square))
+        let seen = rows.iter().zip(wheels).map(|(row, [_, _, _, sinkage, _])| {
+            let sinkage = at_least(*sinkage, 0.005);
+            let square = sinkage * sinkage;
+            (row, math::ln(sinkage), square / (variance + level * square))
         });
+        fit_sinkage(&SINKAGE.precision, &mut sinkage, seen);
         let mut torque = TORQUE.shift;
         add_product(&mut torque, &TORQUE.by_resistance, &resistance);
         add_product(&mut torque, &TORQUE.by_sinkage, &sinkage);
@@ -143,10 +147,10 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
     let level = shared * besides + of_torque + torque_bent * bent;
     let [constant, first, second, third, load, both] = resistance;
     let by_slip = BY_SLIP * noise.slip * noise.slip;
-    for row in &mut rows {
+    for (row, [_, torque, ..]) in rows.iter_mut().zip(wheels) {
         let fitted = constant + row.u * (first + row.u * (second + row.u * third)) + row.q * (load + row.u * both);
         let square = row.shifted * row.shifted;
-        row.value = row.torque - shared * (row.value - fitted);
+        row.value = torque - shared * (row.value - fitted);
         row.information = square / (level * square + by_slip);
     }
     let precisions = fit_forces(known, &mut torque, &rows);
@@ -157,8 +161,12 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
         add_product(&mut sinkage, &SINKAGE_EXPECTED.by_torque, &torque);
     }
     let [load, both] = precisions.map(|precision| -0.5 * math::ln(precision));
-    let [r0, r1, r2, r3, r4, r5] = by_legendre(resistance);
-    let [t0, t1, t2, t3, t4, t5] = by_legendre(torque);
+    let [r0, resistance_level, r2, r3, r4, r5] = by_legendre(resistance);
+    let [t0, torque_level, t2, t3, t4, t5] = by_legendre(torque);
+    let levels @ [_, torque_level] = [resistance_level, torque_level].map(|level| at_least(level, LEAST_LEVEL));
+    let [r1, t1] = levels.map(math::ln);
+    let per_level = 1.0 / torque_level;
+    let [t0, t2, t3, t4, t5] = [t0, t2, t3, t4, t5].map(|coefficient| per_level * coefficient);
     let [s0, s1, s2, s4] = sinkage;
     let [s0, s2] = [s0 + THIRD * s2, 2.0 * THIRD * s2];
     [r0, r1, r2, r3, r4, r5, t0, t1, t2, t3, t4, t5, s0, s1, s2, s4, load, both, mean_ln_load]
@@ -166,19 +174,11 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
 
 impl Row {
     fn new(wheel: &WheelFeatures, mean_ln_load: f32, information: f32) -> Self {
-        let [pull, torque, slip, sinkage, ln_load] = *wheel;
+        let [pull, torque, slip, _, ln_load] = *wheel;
         // Torque rises steeply at small slip and levels off: nearly even in the logarithm. Slips of 0.02 … 0.7 become −1 … 1.
         let shifted = at_least(slip, 0.01) + OFFSET;
         let u = (math::ln(shifted) + 1.275_523) * 0.973_651;
-        Self {
-            u,
-            q: 10.0 * (ln_load - mean_ln_load),
-            shifted,
-            torque,
-            sinkage: at_least(sinkage, 0.005),
-            value: torque - pull,
-            information,
-        }
+        Self { u, q: 10.0 * (ln_load - mean_ln_load), shifted, value: torque - pull, information }
     }
 }
 
@@ -248,18 +248,15 @@ fn fit_forces(known: &[[f32; TERMS]; TERMS], right: &mut [f32; TERMS], rows: &[R
     [load, both]
 }
 
-/// The same for the sinkage, of which `see` tells a wheel's value and one over the variance of that.
-fn fit_sinkage(
+/// The same for the sinkage: of each row, the value and one over the variance of that.
+fn fit_sinkage<'a>(
     known: &[[f32; SINKAGE_TERMS]; SINKAGE_TERMS],
     right: &mut [f32; SINKAGE_TERMS],
-    rows: &[Row],
-    see: impl Fn(&Row) -> (f32, f32),
+    seen: impl Iterator<Item = (&'a Row, f32, f32)>,
 ) {
     let ([mut s0, mut s1, mut s2, mut s3, mut s4], [mut m0, mut m1, mut m2], mut l0) = ([0.0; 5], [0.0; 3], 0.0);
     let [mut r0, mut r1, mut r2, mut r3] = *right;
-    for row in rows {
-        let (value, w0) = see(row);
-        let Row { u, q, .. } = row;
+    for (Row { u, q, .. }, value, w0) in seen {
         let (w1, v0) = (w0 * u, w0 * q);
         let w2 = w1 * u;
         let w3 = w2 * u;
@@ -318,7 +315,13 @@ mod tests {
     /// The trend's coefficients less others, each over how much it matters: all regressors are at most 1 but for q and u q.
     fn check(found: &Trend, truth: [[f32; TERMS]; 2], sinkage: [f32; SINKAGE_TERMS], bounds: [f32; 2]) {
         let (forces, others) = found.split_at(2 * TERMS);
-        for (found, truth) in forces.iter().zip(truth.as_flattened()) {
+        let (resistance, torque) = forces.split_at(TERMS);
+        let (mut resistance, mut torque) = (resistance.to_vec(), torque.to_vec());
+        resistance[1] = resistance[1].exp();
+        let level = torque[1].exp();
+        torque.iter_mut().for_each(|coefficient| *coefficient *= level);
+        torque[1] = level;
+        for (found, truth) in resistance.iter().chain(&torque).zip(truth.as_flattened()) {
             assert!((found - truth).abs() < bounds[0], "{found}, truth {truth}");
         }
         for (found, truth) in others.iter().zip(sinkage) {

@@ -119,8 +119,8 @@ pub(super) fn integrate<S: Scalar>(
             let behind = rim.point(span - rear * node.share);
             // Equation 8 gives the point behind the peak the normal stress of the point ahead of it.
             let sigma = normal.at(ahead.sunk);
-            for (point, width) in [(ahead, front), (behind, rear)] {
-                let traction = law.at(sigma, &point);
+            for (point, width) in [(&ahead, front), (&behind, rear)] {
+                let traction = law.at(sigma, point);
                 let tau = ratio * traction.along_pa;
                 let weight = node.weight * width;
                 sum.pull += weight * (tau * point.cos - sigma * point.sin);

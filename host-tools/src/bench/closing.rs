@@ -49,7 +49,7 @@ pub fn run(arguments: &ClosingArguments) -> Result<(), HostError> {
     println!(
         "Six-wheel rovers on soil with slip-sinkage, n = n₀ + n₁ i with n₁ uniform in 0 … 0.7: {} of each kind, seed {}.\n\
          Rover network trained without (before) and with (after) slip-sinkage declared: {} scenes, {} epochs.\n",
-        arguments.cases, arguments.seed, plan.scenes, plan.rover_epochs
+        arguments.cases, arguments.seed, plan.scenes, plan.rover.epochs
     );
     println!("{}\n", errors_of_soil(&compare(&[&before.rover, &found.rover], &rovers)));
     for amount in AMOUNTS {

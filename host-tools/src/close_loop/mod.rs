@@ -126,7 +126,7 @@ mod tests {
     }
 
     fn options() -> Options {
-        let plan = Plan { scenes: 1500, held_out: 1200, rover_epochs: 2, wheel_epochs: 1, ..Plan::quick(5) };
+        let plan = Plan::glance(5);
         Options { plan, rovers: 200, seed: 77_000 }
     }
 

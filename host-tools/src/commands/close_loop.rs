@@ -80,7 +80,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     };
     let [before, after] = &soil.effects;
     println!("\nRover network trained for\n  before  {before}\n  after   {after}");
-    println!("by the same plan: {} scenes, {} epochs.", plan.scenes, plan.rover_epochs);
+    println!("by the same plan: {} scenes, {} epochs.", plan.scenes, plan.rover.epochs);
     println!(
         "\nErrors on {rovers} simulated rovers of each kind, on soil with the effects of after\n\n{}",
         soil.errors

@@ -112,11 +112,13 @@ impl Model for CampaignModel<'_> {
     }
 
     fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
-        // As few derivatives as there are, for each is carried through every operation.
+        // As few derivatives as there are, for each is carried through every operation; and up to 15 of them beside the value
+        // are copied in place.
         match parameters.len() + LATENTS {
             0..=10 => self.run::<10>(parameters, rows, latents),
             11..=12 => self.run::<12>(parameters, rows, latents),
-            13..=16 => self.run::<16>(parameters, rows, latents),
+            13..=14 => self.run::<14>(parameters, rows, latents),
+            15 => self.run::<15>(parameters, rows, latents),
             _ => self.run::<22>(parameters, rows, latents),
         }
     }

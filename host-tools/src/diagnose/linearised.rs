@@ -168,7 +168,9 @@ impl Model for WithTerms<'_> {
         let channel = self.added.channel.index();
         let moved: Vec<f64> = own.iter().zip(&base.parameters).map(|(now, then)| now - then).collect();
         let predict = |(row, latent): (&usize, &Latent)| {
-            let mut here = base.predictions[*row].clone();
+            let about = &base.predictions[*row];
+            let mut here = Prediction { by_parameter: Vec::with_capacity(parameters.len()), ..*about };
+            here.by_parameter.extend_from_slice(&about.by_parameter);
             let then = &base.latents[*row];
             let (slip, load_n) = (latent.slip - then.slip, latent.load_n - then.load_n);
             for reading in 0..CHANNELS {

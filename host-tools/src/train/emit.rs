@@ -54,7 +54,7 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("made by", format!("kapvik train {}", env!("CARGO_PKG_VERSION"))),
         ("seed", plan.seed.to_string()),
         ("scenes", format!("{} for training, {} held out", plan.scenes, plan.held_out)),
-        ("epochs", format!("{} rover network, {} per-wheel network", plan.rover_epochs, plan.wheel_epochs)),
+        ("passes", format!("{} rover network, {} per-wheel network", plan.rover, plan.wheel)),
         ("held-out loss", format!("{:.4} per-wheel, {:.4} rover (nats)", losses[0], losses[1])),
         ("activation", "bipolar sigmoid 2 / (1 + exp(-A x)) - 1, A in the blocks *.gradient".into()),
         (EFFECTS_NOTE, world.to_string()),

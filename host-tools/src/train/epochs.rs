@@ -8,15 +8,15 @@ use super::back_propagation::mean_loss;
 use super::curve::Curve;
 use super::dataset::shuffle;
 use super::example::Example;
-use super::plan::{Plan, Purpose};
+use super::plan::{Passes, Plan, Purpose};
 use super::soap::Soap;
 use super::trainable::{Trainable, initial};
 
-/// A new network after `epochs` passes, each over what `observe` sees with that pass's seed of noise, and its loss on
+/// A new network after the passes, each over what `observe` sees with that pass's seed of noise, and its loss on
 /// `watched` after each.
 pub fn train_by_epochs<N: Trainable>(
     plan: &Plan,
-    epochs: usize,
+    passes: Passes,
     watched: &[Example<N::Input>],
     mut curve: Curve,
     progress: &ProgressBar,
@@ -25,11 +25,11 @@ pub fn train_by_epochs<N: Trainable>(
     let mut network: N = initial(plan.stream(Purpose::Weights));
     let begin = Instant::now();
     let mut soap = Soap::new::<N>();
-    progress.set_length(epochs as u64);
-    for epoch in 0..epochs {
+    progress.set_length(passes.epochs as u64);
+    for epoch in 0..passes.epochs {
         let mut examples = observe(plan.stream(Purpose::TrainingNoise) + epoch as u64);
         shuffle(&mut examples, plan.stream(Purpose::Order) + epoch as u64);
-        soap.pass(&mut network, &examples, epoch, epochs);
+        soap.pass(&mut network, &examples, epoch, passes);
         curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, watched)));
         progress.set_message(format!("held-out loss {:.4}", curve.last()));
         progress.inc(1);

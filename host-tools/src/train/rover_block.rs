@@ -75,7 +75,7 @@ impl Trainable for RoverNetwork {
         ]
     }
     fn run(&self, input: &RoverInput) -> [f32; OUTPUTS] {
-        RoverNetwork::run(self, &input.context, input.wheels.iter().copied(), GRADIENT).output
+        RoverNetwork::run(self, &input.context, input.wheels.iter().copied(), GRADIENT)
     }
 
     #[inline(always)]

@@ -18,7 +18,7 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
     let normal = RoverNormalisation::new(&raw);
     let watched = rover_examples(held_out, &raw, &normal);
     let curve = Curve::new("rover network");
-    let (network, curve) = train_by_epochs(plan, plan.rover_epochs, &watched, curve, progress, |seed| {
+    let (network, curve) = train_by_epochs(plan, plan.rover, &watched, curve, progress, |seed| {
         rover_examples(scenes, &rover_inputs_anew(scenes, seed), &normal)
     });
     let mut posterior = prior_scale();

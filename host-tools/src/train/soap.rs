@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::back_propagation::mean_gradient;
 use super::example::Example;
 use super::loss::{Loss, gaussian};
+use super::plan::Passes;
 use super::product::{Operand, product};
 use super::trainable::{Trainable, change_each, flatten};
 
@@ -21,8 +22,6 @@ const FIRST: f32 = 0.95;
 const SECOND: f32 = 0.99;
 /// Decay of the means of G Gᵀ and Gᵀ G.
 const COVARIANCE: f32 = 0.99;
-/// Examples in a mini-batch of [`Soap::pass`].
-const BATCH: usize = 512;
 /// Greatest step size of [`Soap::pass`].
 const RATE: f32 = 1e-2;
 /// Steps between two updates of the eigenvectors.
@@ -67,12 +66,19 @@ impl Soap {
         loss
     }
 
-    /// One of `epochs` passes over the examples in mini-batches; the step size rises in the first fiftieth of all of them
-    /// and falls along a cosine to the last.
-    pub fn pass<N: Trainable>(&mut self, network: &mut N, examples: &[Example<N::Input>], epoch: usize, epochs: usize) {
-        let batches = examples.len().div_ceil(BATCH) as f32;
-        for (index, batch) in examples.chunks(BATCH).enumerate() {
-            let share = (epoch as f32 + index as f32 / batches) / epochs as f32;
+    /// One of the passes over the examples in mini-batches; the step size rises in the first fiftieth of all of them and
+    /// falls along a cosine to the last.
+    pub fn pass<N: Trainable>(
+        &mut self,
+        network: &mut N,
+        examples: &[Example<N::Input>],
+        epoch: usize,
+        passes: Passes,
+    ) {
+        let size = passes.batch.max(1);
+        let batches = examples.len().div_ceil(size) as f32;
+        for (index, batch) in examples.chunks(size).enumerate() {
+            let share = (epoch as f32 + index as f32 / batches) / passes.epochs as f32;
             let fall = 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share));
             self.step(network, batch, RATE * fall * (50.0 * share).min(1.0));
         }

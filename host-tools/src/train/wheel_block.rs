@@ -33,7 +33,7 @@ impl Trainable for WheelNetwork {
         vec![[WHEEL_INPUTS + 1, WHEEL_HIDDEN], [WHEEL_HIDDEN + 1, WHEEL_HIDDEN], [WHEEL_HIDDEN + 1, OUTPUTS]]
     }
     fn run(&self, input: &WheelInput) -> [f32; OUTPUTS] {
-        WheelNetwork::run(self, input, GRADIENT).output
+        WheelNetwork::run(self, input, GRADIENT)
     }
 
     #[inline(always)]

@@ -25,7 +25,7 @@ pub fn train_wheel(
     let normal = normalisation(raw.iter());
     let watched = wheel_examples(held_out, &raw, &normal);
     let curve = Curve::new("per-wheel network");
-    let (network, curve) = train_by_epochs(plan, plan.wheel_epochs, &watched, curve, progress, |seed| {
+    let (network, curve) = train_by_epochs(plan, plan.wheel, &watched, curve, progress, |seed| {
         wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
     });
     let mut posterior = prior_scale();

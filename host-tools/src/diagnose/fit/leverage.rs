@@ -1,10 +1,10 @@
 //! How far each reading pulls its own prediction along.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::model::Prediction;
 use super::normal_equations::NormalEquations;
-use super::observation::{ChannelMatrix, Channels, ParameterByChannel};
+use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel};
 use super::problem::Problem;
 use super::row_terms::RowTerms;
 use super::run_terms::RunTerms;
@@ -20,26 +20,38 @@ pub(super) fn leverages(
 ) -> Vec<Vec<Channels>> {
     problem.by_run(|index, _| {
         let run = &equations.runs[index];
-        // With the parameters the offsets move by −S⁻¹Nᵀ.
-        let following = &run.cross * run.offset_covariance;
         let places = run.rows.iter().zip(&state.predictions[index]);
-        places.map(|(row, prediction)| row_leverage(run, row, prediction, &following, covariance)).collect()
+        places.map(|(row, prediction)| row_leverage(run, row, prediction, covariance)).collect()
     })
 }
 
-fn row_leverage(
-    run: &RunTerms,
-    row: &RowTerms,
-    prediction: &Prediction,
-    following: &ParameterByChannel,
-    covariance: &DMatrix<f64>,
-) -> Channels {
-    let by_parameter = ParameterByChannel::from_fn(following.nrows(), |p, c| {
-        if row.weight[c] > 0.0 { prediction.by_parameter[p][c] - following[(p, c)] } else { 0.0 }
+fn row_leverage(run: &RunTerms, row: &RowTerms, prediction: &Prediction, covariance: &DMatrix<f64>) -> Channels {
+    let by_parameter = ParameterByChannel::from_fn(run.following.nrows(), |p, c| {
+        if row.weight[c] > 0.0 { prediction.by_parameter[p][c] - run.following[(p, c)] } else { 0.0 }
     });
-    let spread = by_parameter.tr_mul(&(covariance * &by_parameter));
-    let shared = ChannelMatrix::from_fn(|c, d| spread[(c, d)]) + run.offset_covariance;
+    let shared = spread(covariance, &by_parameter) + run.offset_covariance;
     let unfollowed = row.unfollowed();
     let variance = (unfollowed * shared * unfollowed.transpose()).diagonal() + row.latent_variance();
     Channels::component_mul(&variance, &row.weight)
+}
+
+/// Covariance of the channels where the parameters have `covariance`. By columns: they are too short for anything cleverer.
+pub(super) fn spread(covariance: &DMatrix<f64>, by_parameter: &ParameterByChannel) -> ChannelMatrix {
+    let mut along = DVector::zeros(covariance.nrows());
+    let mut spread = ChannelMatrix::zeros();
+    for c in 0..CHANNELS {
+        let by = by_parameter.column(c);
+        if by.iter().all(|by| *by == 0.0) {
+            continue;
+        }
+        along.fill(0.0);
+        for (column, by) in covariance.column_iter().zip(by.iter()) {
+            along.axpy(*by, &column, 1.0);
+        }
+        for d in 0..=c {
+            spread[(c, d)] = by_parameter.column(d).dot(&along);
+            spread[(d, c)] = spread[(c, d)];
+        }
+    }
+    spread
 }

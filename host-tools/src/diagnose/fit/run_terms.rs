@@ -3,10 +3,15 @@
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::model::Prediction;
-use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel};
+use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel, Reading};
 use super::problem::Problem;
 use super::row_terms::{RowTerms, shift_by};
 use super::state::{Scales, State};
+
+/// The channels before slip and load.
+const JUDGED: usize = Reading::JUDGED.len();
+/// Those before the side force.
+const SIDE: usize = Reading::SideForce.index();
 
 /// What a run says of the parameters once latents and offsets follow them.
 pub(super) struct RunTerms {
@@ -17,8 +22,8 @@ pub(super) struct RunTerms {
     pub offset_covariance: ChannelMatrix,
     /// Negative slope of the objective along the offsets.
     offset_pull: Channels,
-    /// Mixed curvature of parameters and offsets.
-    pub cross: ParameterByChannel,
+    /// By how much the offsets fall as each parameter grows.
+    pub following: ParameterByChannel,
     /// Curvature of the objective along the parameters.
     pub information: DMatrix<f64>,
     /// Negative slope of the objective along the parameters.
@@ -44,7 +49,7 @@ impl RunTerms {
             active,
             offset_covariance: ChannelMatrix::zeros(),
             offset_pull: Channels::zeros(),
-            cross: ParameterByChannel::zeros(count),
+            following: ParameterByChannel::zeros(count),
             information: DMatrix::zeros(count, count),
             pull: DVector::zeros(count),
             ln_det: 0.0,
@@ -59,17 +64,16 @@ impl RunTerms {
     pub(super) fn eliminate_offsets(&mut self, offsets: &Channels, scales: &Scales, damping: f64) {
         self.sums.whole(&mut self.information);
         self.pull.copy_from(&self.sums.pull);
-        self.ln_det = self.rows.iter().map(|row| row.ln_det).sum();
+        self.ln_det = self.sums.ln_det;
         if !self.active.contains(&true) {
             return;
         }
         let precision =
             Channels::from_fn(|c, _| if self.active[c] { 1.0 / (scales.offset[c] * scales.offset[c]) } else { 0.0 });
-        let mut curvature = self.rows.iter().map(|row| row.information).sum::<ChannelMatrix>();
+        let mut curvature = self.sums.by_channel;
         for c in 0..CHANNELS {
             if self.active[c] {
                 curvature[(c, c)] = (curvature[(c, c)] + precision[c]) * (1.0 + damping);
-                self.cross.column_mut(c).copy_from(&self.sums.cross.column(c));
             } else {
                 curvature.row_mut(c).fill(0.0);
                 curvature.column_mut(c).fill(0.0);
@@ -80,19 +84,22 @@ impl RunTerms {
         let Some(factor) = curvature.cholesky() else { return };
         self.ln_det += 2.0 * factor.l_dirty().diagonal().map(f64::ln).sum();
         let mask = Channels::from_fn(|c, _| if self.active[c] { 1.0 } else { 0.0 });
-        let pull: Channels = self.rows.iter().map(|row| row.pull).sum();
-        self.offset_pull = Channels::component_mul(&mask, &(pull - precision.component_mul(offsets)));
+        self.offset_pull = Channels::component_mul(&mask, &(self.sums.channel_pull - precision.component_mul(offsets)));
         self.offset_covariance = ChannelMatrix::component_mul(&factor.inverse(), &(mask * mask.transpose()));
-        let gain = &self.cross * self.offset_covariance;
         for c in (0..CHANNELS).filter(|&c| self.active[c]) {
-            self.information.ger(-1.0, &gain.column(c), &self.cross.column(c), 1.0);
+            let mut following = self.following.column_mut(c);
+            following.fill(0.0);
+            for d in (0..CHANNELS).filter(|&d| self.active[d]) {
+                following.axpy(self.offset_covariance[(d, c)], &self.sums.cross.column(d), 1.0);
+            }
+            self.information.ger(-1.0, &following, &self.sums.cross.column(c), 1.0);
+            self.pull.axpy(-self.offset_pull[c], &following, 1.0);
         }
-        self.pull -= gain * self.offset_pull;
     }
 
     /// Steps of the offsets and latents that go with a step of the parameters.
     pub(super) fn follow(&self, predictions: &[Prediction], step: &DVector<f64>) -> (Channels, Vec<Vector2<f64>>) {
-        let offset = self.offset_covariance * (self.offset_pull - self.cross.tr_mul(step));
+        let offset = self.offset_covariance * (self.offset_pull - self.sums.cross.tr_mul(step));
         let latents =
             self.rows.iter().zip(predictions).map(|(row, prediction)| {
                 row.latent_step(&(shift_by(prediction, &row.weight, step.as_slice()) + offset))
@@ -114,8 +121,14 @@ struct Sums {
     /// Mixed curvature of parameters and the channels' offsets.
     cross: ParameterByChannel,
     pull: DVector<f64>,
+    /// Curvature along the channels' offsets.
+    by_channel: ChannelMatrix,
+    /// Negative slope of the objective along them.
+    channel_pull: Channels,
+    /// ln det of the latents' information.
+    ln_det: f64,
     /// Of the row at hand, the derivatives by each parameter.
-    derivatives: Vec<Channels>,
+    derivatives: Vec<[f64; CHANNELS]>,
 }
 
 impl Sums {
@@ -124,22 +137,48 @@ impl Sums {
             information: DMatrix::zeros(count, count),
             cross: ParameterByChannel::zeros(count),
             pull: DVector::zeros(count),
+            by_channel: ChannelMatrix::zeros(),
+            channel_pull: Channels::zeros(),
+            ln_det: 0.0,
             derivatives: Vec::with_capacity(count),
         }
     }
 
     fn add(&mut self, row: &RowTerms, prediction: &Prediction) {
-        let measured = |by: &[f64; CHANNELS]| Channels::from_fn(|c, _| if row.weight[c] > 0.0 { by[c] } else { 0.0 });
+        self.by_channel += row.information;
+        self.channel_pull += row.pull;
+        self.ln_det += row.ln_det;
+        let is_seen: [bool; CHANNELS] = std::array::from_fn(|c| row.weight[c] > 0.0);
+        let measured = |by: &[f64; CHANNELS]| std::array::from_fn(|c| if is_seen[c] { by[c] } else { 0.0 });
         self.derivatives.clear();
         self.derivatives.extend(prediction.by_parameter.iter().map(measured));
+        // Slip and load come last, and but for a few effects of their sensors no parameter changes what is read of them; before
+        // them the side force, which few campaigns measure.
+        let is_done = |first: usize| self.derivatives.iter().all(|by| by[first..].iter().all(|slope| *slope == 0.0));
+        if is_done(SIDE) {
+            self.add_first::<SIDE>(row);
+        } else if is_done(JUDGED) {
+            self.add_first::<JUDGED>(row);
+        } else {
+            self.add_first::<CHANNELS>(row);
+        }
+    }
+
+    /// Adds what the parameters do in the first `N` channels, which is all that they do.
+    fn add_first<const N: usize>(&mut self, row: &RowTerms) {
         for (p, by_p) in self.derivatives.iter().enumerate() {
-            let informed = row.information * by_p;
-            self.pull[p] += by_p.dot(&row.pull);
-            for c in 0..CHANNELS {
-                self.cross[(p, c)] += informed[c];
+            let mut informed = [0.0; CHANNELS];
+            for (by, shared) in by_p[..N].iter().zip(row.information.column_iter()) {
+                for (informed, shared) in informed.iter_mut().zip(shared.iter()) {
+                    *informed += shared * by;
+                }
+            }
+            self.pull[p] += (0..N).map(|c| by_p[c] * row.pull[c]).sum::<f64>();
+            for (c, informed) in informed.iter().enumerate() {
+                self.cross[(p, c)] += informed;
             }
             for (sum, by_q) in self.information.column_mut(p).iter_mut().zip(&self.derivatives[..=p]) {
-                *sum += informed.dot(by_q);
+                *sum += (0..N).map(|c| informed[c] * by_q[c]).sum::<f64>();
             }
         }
     }

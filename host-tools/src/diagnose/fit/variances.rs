@@ -6,7 +6,7 @@
 
 use nalgebra::DMatrix;
 
-use super::leverage::leverages;
+use super::leverage::{leverages, spread};
 use super::normal_equations::NormalEquations;
 use super::observation::{CHANNELS, Channels};
 use super::options::{OffsetStd, VarianceCriterion};
@@ -158,8 +158,7 @@ pub(super) fn shares_by_run(
 }
 
 fn offset_shares(run: &RunTerms, offset: &Channels, scales: &Scales, covariance: &DMatrix<f64>) -> [Share; CHANNELS] {
-    let gain = &run.cross * run.offset_covariance;
-    let spread = gain.tr_mul(&(covariance * &gain));
+    let spread = spread(covariance, &run.following);
     std::array::from_fn(|c| {
         if !run.active[c] {
             return Share::default();
