@@ -16,7 +16,7 @@ fn the_self_test_passes_before_the_first_estimate() {
     let report = computer.boot_report().expect("the image says hello");
     assert!(report.self_test.passed(), "{report:?}");
     assert_eq!(computer.self_test().expect("the image tests itself again"), report.self_test);
-    let log = computer.log();
+    let log = computer.into_log();
     assert!(log.iter().any(|line| line.level == "info" && line.text.contains("self-test passed")), "{log:?}");
 }
 

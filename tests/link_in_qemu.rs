@@ -67,7 +67,7 @@ fn each_kind_of_damage_is_answered_and_counted() {
         assert_eq!(refused(&health, reason), TIMES, "{reason:?}: {health:?}");
     }
     assert_eq!(health.link.refused(), TIMES * damaged().len() as u32);
-    let log = computer.log();
+    let log = computer.into_log();
     assert_eq!(log.iter().filter(|line| line.level == "warn").count() as u32, health.link.refused(), "{log:?}");
 }
 

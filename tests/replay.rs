@@ -48,10 +48,10 @@ fn qemu_and_host_write_the_same_estimates() {
     let health = image.health().expect("the image is well");
     assert_eq!((health.link.refused(), health.link.sequence_gaps, health.link.replies_lost), (0, 0, 0));
     assert_eq!(u64::from(health.frames_taken), on_host.iter().filter(|byte| **byte == b'\n').count() as u64 - 1);
-    let log = image.settled_log();
+    let dropped = image.estimator_health().expect("the image is well").sensors;
+    let log = image.into_log();
     let logged = |words: &str| log.iter().any(|line| line.text.contains(words));
     assert!(logged("rover configured"), "{log:?}");
-    let dropped = image.estimator_health().expect("the image is well").sensors;
     let out_of_use = dropped.iter().any(|sensor| sensor.dropped || sensor.on_probation > 0);
     assert_eq!(logged("sensor dropped"), out_of_use, "{log:?}");
 }

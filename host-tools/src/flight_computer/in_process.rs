@@ -38,7 +38,7 @@ impl Line for InProcess {
         Ok(std::mem::take(&mut self.telemetry.port().to_host))
     }
 
-    fn log(&self) -> Vec<LogLine> {
+    fn into_log(self: Box<Self>) -> Vec<LogLine> {
         Vec::new()
     }
 

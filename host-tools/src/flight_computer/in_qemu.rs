@@ -50,8 +50,8 @@ impl Line for InQemu {
         }
     }
 
-    fn log(&self) -> Vec<LogLine> {
-        self.machine.log()
+    fn into_log(self: Box<Self>) -> Vec<LogLine> {
+        self.machine.into_log()
     }
 
     fn post_mortem(self: Box<Self>) -> String {

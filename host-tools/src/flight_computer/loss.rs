@@ -33,7 +33,7 @@ impl Line for Lossy {
         Ok(if lost { Vec::new() } else { bytes })
     }
 
-    fn log(&self) -> Vec<LogLine> {
+    fn into_log(self: Box<Self>) -> Vec<LogLine> {
         Vec::new()
     }
 

@@ -45,8 +45,8 @@ trait Line: Send {
     fn send(&mut self, bytes: &[u8]) -> Result<(), HostError>;
     /// What has come, or comes within `patience`; empty where nothing does.
     fn receive(&mut self, patience: Duration) -> Result<Vec<u8>, HostError>;
-    /// What the computer has logged.
-    fn log(&self) -> Vec<LogLine>;
+    /// Ends the computer and gives all that it logged before its last reply.
+    fn into_log(self: Box<Self>) -> Vec<LogLine>;
     /// Ends the computer and describes how it was, for the text of an error.
     fn post_mortem(self: Box<Self>) -> String;
 }
@@ -225,25 +225,10 @@ impl FlightComputer {
         }
     }
 
-    /// What the computer has logged so far; nothing where it runs in this process.
-    pub fn log(&self) -> Vec<LogLine> {
-        self.line.as_ref().map(|line| line.log()).unwrap_or_default()
-    }
-
-    /// The log, once it has stopped growing: it comes over a line of its own, behind the answers.
-    pub fn settled_log(&self) -> Vec<LogLine> {
-        const PAUSE: Duration = Duration::from_millis(60);
-        const PAUSES: u32 = 20;
-        let mut log = self.log();
-        for _ in 0..PAUSES {
-            std::thread::sleep(PAUSE);
-            let later = self.log();
-            if later.len() == log.len() {
-                break;
-            }
-            log = later;
-        }
-        log
+    /// Ends the computer and gives all that it logged before its last reply; nothing where it runs in this process.
+    /// The log comes over a line of its own, behind the replies: before the end, part of it may be under way.
+    pub fn into_log(mut self) -> Vec<LogLine> {
+        self.line.take().map(Line::into_log).unwrap_or_default()
     }
 
     /// What the image takes; none where there is no image.

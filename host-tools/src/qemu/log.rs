@@ -2,7 +2,6 @@
 
 use std::io::{IsTerminal, Read};
 use std::os::unix::net::UnixStream;
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 use defmt_decoder::{DecodeError, StreamDecoder, Table};
@@ -45,11 +44,10 @@ impl LogView {
     }
 }
 
-/// The log of a running image, filled by a thread of its own until the image ends.
+/// The log of a running image, gathered by a thread of its own until the image ends.
 #[derive(Debug)]
 pub(super) struct Log {
-    lines: Arc<Mutex<Vec<LogLine>>>,
-    reader: Option<JoinHandle<()>>,
+    reader: Option<JoinHandle<Vec<LogLine>>>,
 }
 
 impl Log {
@@ -59,37 +57,28 @@ impl Log {
         let table = Table::parse(&image.read()?)
             .map_err(|error| bad(error.to_string()))?
             .ok_or_else(|| bad("no strings of a log in this image".to_owned()))?;
-        let lines = Arc::new(Mutex::new(Vec::new()));
-        let sink = Arc::clone(&lines);
-        let reader = std::thread::spawn(move || follow(stream, &table, view, &sink));
-        Ok(Self { lines, reader: Some(reader) })
+        Ok(Self { reader: Some(std::thread::spawn(move || follow(stream, &table, view))) })
     }
 
-    /// What has been logged so far.
-    pub fn lines(&self) -> Vec<LogLine> {
-        self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// Waits for the end of the stream, which the end of QEMU brings.
-    pub fn finish(&mut self) {
-        if let Some(reader) = self.reader.take() {
-            // A reader that panicked has kept what it decoded.
-            let _ = reader.join();
-        }
+    /// Waits for the end of the stream, which the end of QEMU brings, and gives all that was logged, once.
+    pub fn finish(&mut self) -> Vec<LogLine> {
+        self.reader.take().and_then(|reader| reader.join().ok()).unwrap_or_default()
     }
 }
 
-fn follow(mut stream: UnixStream, table: &Table, view: LogView, sink: &Mutex<Vec<LogLine>>) {
+fn follow(mut stream: UnixStream, table: &Table, view: LogView) -> Vec<LogLine> {
     let mut decoder = table.new_stream_decoder();
     let mut buffer = [0; 4096];
+    let mut lines = Vec::new();
     while let Ok(count @ 1..) = stream.read(&mut buffer) {
         decoder.received(buffer.get(..count).unwrap_or(&[]));
-        drain(decoder.as_mut(), view, sink);
+        drain(decoder.as_mut(), view, &mut lines);
     }
+    lines
 }
 
 /// Takes every whole line that the decoder has.
-fn drain(decoder: &mut dyn StreamDecoder, view: LogView, sink: &Mutex<Vec<LogLine>>) {
+fn drain(decoder: &mut dyn StreamDecoder, view: LogView, lines: &mut Vec<LogLine>) {
     loop {
         let line = match decoder.decode() {
             Ok(frame) => {
@@ -103,6 +92,6 @@ fn drain(decoder: &mut dyn StreamDecoder, view: LogView, sink: &Mutex<Vec<LogLin
             Err(DecodeError::UnexpectedEof) => return,
             Err(DecodeError::Malformed) => LogLine { level: "", text: "(a damaged line)".to_owned() },
         };
-        sink.lock().unwrap_or_else(PoisonError::into_inner).push(line);
+        lines.push(line);
     }
 }

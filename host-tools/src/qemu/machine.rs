@@ -101,9 +101,9 @@ impl Machine {
         self.child.id()
     }
 
-    /// What the image has logged so far.
-    pub fn log(&self) -> Vec<LogLine> {
-        self.log.lines()
+    /// Ends QEMU and gives what the image had logged, whole.
+    pub fn into_log(mut self) -> Vec<LogLine> {
+        self.finish().log
     }
 
     /// Waits until the image ends itself.
@@ -138,9 +138,9 @@ impl Machine {
     /// Ends QEMU and collects what it left.
     fn finish(&mut self) -> Ended {
         end(&mut self.child);
-        self.log.finish();
+        let log = self.log.finish();
         let printed = self.keeper.take().and_then(|keeper| keeper.join().ok()).unwrap_or_default();
-        Ended { code: None, printed, log: self.log.lines() }
+        Ended { code: None, printed, log }
     }
 }
 

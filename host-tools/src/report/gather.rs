@@ -33,7 +33,7 @@ impl Findings {
         let health = computer.health()?;
         let fingerprint = fingerprint(&answers)
             .map_err(|error| HostError::Failed(format!("the answers have no fingerprint: {error}")))?;
-        let (memory, log) = (computer.memory(), computer.settled_log());
+        let (memory, log) = (computer.memory(), computer.into_log());
         let flight = FlightFacts { computer: on, boot, health, memory, log, fingerprint, networks: None };
         Ok(Self { model: ModelCheck::of(&campaign), campaign, identification, flight })
     }

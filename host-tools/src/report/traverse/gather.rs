@@ -112,7 +112,7 @@ impl TraverseFindings {
             boot: outcome.boot,
             health: outcome.health,
             memory: computer.memory(),
-            log: computer.settled_log(),
+            log: computer.into_log(),
             fingerprint: format!("{fingerprint:08x}"),
             networks: None,
         };
