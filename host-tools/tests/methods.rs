@@ -122,11 +122,11 @@ fn score(comparison: &Comparison, contender: &str, parameter: Parameter) -> Para
 #[test]
 fn the_maximum_a_posteriori_is_where_it_was_published_to_be() {
     for (situation, friction, modulus) in
-        [("near-8-1", 31.2, 11.1), ("near-8-100", 31.8, 11.4), ("near-spread-100", 31.8, 11.4)]
+        [("table1-8-1", 31.2, 11.1), ("table1-8-100", 31.8, 11.4), ("table1-spread-100", 31.8, 11.4)]
     {
         let comparison = compared(situation);
-        let phi = score(&comparison, "map", Parameter::FrictionAngle);
-        let k = score(&comparison, "map", Parameter::ShearModulus);
+        let phi = score(&comparison, "map-usual", Parameter::FrictionAngle);
+        let k = score(&comparison, "map-usual", Parameter::ShearModulus);
         assert!((phi.median - friction).abs() < 1.0, "{situation}: φ {} against {friction}", phi.median);
         assert!((k.median - modulus).abs() < 0.7, "{situation}: K {} against {modulus}", k.median);
     }
@@ -136,8 +136,8 @@ fn the_maximum_a_posteriori_is_where_it_was_published_to_be() {
 /// with loads ±50 %.
 #[test]
 fn iagnemma_needs_a_spread_of_loads() {
-    let narrow = score(&compared("near-8-1"), "iagnemma-K", Parameter::FrictionAngle);
-    let wide = score(&compared("near-spread-1"), "iagnemma-K", Parameter::FrictionAngle);
+    let narrow = score(&compared("table1-8-1"), "iagnemma-K", Parameter::FrictionAngle);
+    let wide = score(&compared("table1-spread-1"), "iagnemma-K", Parameter::FrictionAngle);
     assert!((36.0..48.5).contains(&narrow.median), "{narrow:?}");
     assert!((29.6..34.9).contains(&wide.median), "{wide:?}");
     assert!(wide.bias < narrow.bias / 3.0, "{narrow:?} {wide:?}");

@@ -1,6 +1,6 @@
 //! Cases of a situation: noisy wheel states, and the soil that is under them.
 
-use kapvik_firmware::identification::{Observation, SoilPrior};
+use kapvik_firmware::identification::{Belief, Observation, SoilPrior};
 use kapvik_firmware::terramechanics::effects::{Conditions, Effects, SlipSinkage as SlipSinkageEffect};
 use kapvik_firmware::terramechanics::{Quadrature, Soil, WheelOnSoil};
 use kapvik_firmware::wheel_state::{WHEELS, WheelNoise, WheelState};
@@ -35,10 +35,7 @@ pub fn case(situation: &Situation, seed: u64, place: usize) -> Option<Case> {
 }
 
 fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
-    let soil = match situation.truth {
-        Truth::Drawn => prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random()))),
-        Truth::Fixed(soil) => soil,
-    };
+    let soil = soil(situation.truth, random)?;
     let n1 = GREATEST_SLIP_SINKAGE * random.random::<f64>();
     let loads: [f64; WHEELS] = std::array::from_fn(|_| {
         prior::KAPVIK_LOAD_N * (1.0 + situation.load_spread * (2.0 * random.random::<f64>() - 1.0))
@@ -66,10 +63,7 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
         let state = WheelState { load_n, ..truth.into() };
         observations.push(Observation { state: state.blurred(&noise, || StandardNormal.sample(random)), noise });
     }
-    let prior = match situation.truth {
-        Truth::Drawn => training_prior(),
-        Truth::Fixed(_) => SoilPrior::usual(),
-    };
+    let prior = training_prior();
     let declared = if situation.slip_sinkage == SlipSinkage::Declared { vec![declared()?] } else { Vec::new() };
     let evidence = Evidence {
         wheel: prior::KAPVIK_WHEEL,
@@ -82,6 +76,29 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
         declared,
     };
     Some(Case { evidence, soil })
+}
+
+/// A soil, or none where it would lie beyond what the networks were trained with.
+fn soil(truth: Truth, random: &mut ChaCha8Rng) -> Option<Soil<f64>> {
+    let mut drawn = || prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random())));
+    let (from, to) = match truth {
+        Truth::Drawn => return Some(drawn()),
+        Truth::Fixed(soil) => return Some(soil),
+        Truth::Off { from, to } => (from, to),
+    };
+    let (drawn, usual) = (drawn(), SoilPrior::usual());
+    let mut off = |belief: Belief<f64>| {
+        let distance = belief.spread() * (from + (to - from) * random.random::<f64>());
+        belief.mean + if random.random() { distance } else { -distance }
+    };
+    let cohesion_pa = off(usual.ln_cohesion).exp();
+    let friction_angle_rad = off(usual.friction_angle_rad);
+    let shear_modulus_m = off(usual.ln_shear_modulus).exp();
+    let trained = |range: prior::Range, value: f64| (0.0..=1.0).contains(&range.share(value));
+    let known = trained(prior::COHESION_PA, cohesion_pa)
+        && trained(prior::FRICTION_ANGLE_RAD, friction_angle_rad)
+        && trained(prior::SHEAR_MODULUS_M, shear_modulus_m);
+    known.then_some(Soil { cohesion_pa, friction_angle_rad, shear_modulus_m, ..drawn })
 }
 
 const SLIP_SINKAGE: &str = <SlipSinkageEffect<f64> as kapvik_firmware::terramechanics::effects::Effect<f64>>::ID;

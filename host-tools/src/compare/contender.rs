@@ -1,8 +1,9 @@
 //! Who is set side by side: a method, and what it is told of the soil.
 
+use kapvik_firmware::identification::SoilPrior;
 use kapvik_firmware::terramechanics::Soil;
 
-use crate::identify::method::{Evidence, Finding, Method, answer, networks, training_prior};
+use crate::identify::method::{Evidence, Finding, Method, answer, networks};
 
 use super::case::Case;
 use super::situation::{Situation, SlipSinkage, Truth};
@@ -33,8 +34,8 @@ enum Way {
 enum Told {
     /// The middle of the prior.
     Middle,
-    /// What the networks were trained with, in place of the usual prior.
-    PriorOfNetworks,
+    /// The usual prior, in place of what the networks were trained with.
+    UsualPrior,
     /// The true K.
     ShearModulus,
     /// All that it does not estimate: the truth.
@@ -51,7 +52,7 @@ const fn contender(id: &'static str, label: &'static str, way: Way, told: Told) 
 pub const CONTENDERS: [Contender; 15] = [
     contender("limit", "limit (posterior mean)", Way::By(Method::Limit), Told::Middle),
     contender("map", "map", Way::By(Method::Map), Told::Middle),
-    contender("map-box", "map, prior of the networks", Way::By(Method::Map), Told::PriorOfNetworks),
+    contender("map-usual", "map, usual prior", Way::By(Method::Map), Told::UsualPrior),
     contender("network", "network, rover", Way::By(Method::Network), Told::Middle),
     contender("network-one-wheel", "network, one wheel", Way::OneWheel, Told::Middle),
     contender("cross", "cross", Way::By(Method::Cross), Told::Middle),
@@ -83,7 +84,7 @@ impl Contender {
         match (self.way, self.told) {
             // Its prior is that of the networks, and it knows equations 1–11.
             (Way::By(Method::Limit), _) => drawn && situation.slip_sinkage == SlipSinkage::None,
-            (_, Told::PriorOfNetworks) => !drawn,
+            (_, Told::UsualPrior) => !drawn,
             _ => true,
         }
     }
@@ -107,7 +108,7 @@ impl Contender {
         let assumed = &mut evidence.assumed.soil;
         match self.told {
             Told::Middle => {}
-            Told::PriorOfNetworks => evidence.prior = training_prior(),
+            Told::UsualPrior => evidence.prior = SoilPrior::usual(),
             Told::ShearModulus => assumed.shear_modulus_m = case.soil.shear_modulus_m,
             Told::AllElse => {
                 *assumed = Soil {

@@ -6,7 +6,7 @@ use crate::report::draw::number;
 use super::terminal::label;
 
 /// Methods that are told what nobody knows on a drive, or stand in the table with another prior: they are not in the contest.
-const TOLD_THE_TRUTH: [&str; 5] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n", "ray-bank", "map-box"];
+const TOLD_THE_TRUTH: [&str; 5] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n", "ray-bank", "map-usual"];
 /// Who answers less often, or says more often of its answer that the data do not tell it, has no say: the middle of the prior
 /// is near a truth that lies there, whatever was seen.
 const LEAST_TOLD: f64 = 0.5;
