@@ -56,6 +56,8 @@ pub struct Compared {
     pub title: &'static str,
     /// Whether the methods' equations made the data.
     pub model_is_right: bool,
+    /// Whether the soil differs from case to case; one soil ranks no methods.
+    pub soils_differ: bool,
     /// What no unbiased estimator can beat, where nothing is believed of c (Pa), φ (°) and K (mm): root mean square.
     pub cramer_rao: Option<[f64; 3]>,
     /// Contender by contender.
@@ -135,6 +137,7 @@ fn compared(situation: &Situation, options: &CompareOptions, done: &(impl Fn() +
         id: situation.id,
         title: situation.title,
         model_is_right: situation.model_is_right(),
+        soils_differ: situation.soils_differ(),
         cramer_rao: bound::cramer_rao(&cases),
         to_limit: to_limit(&truths[..limit_cases], &answers),
         scores: answers.iter().map(score).collect(),

@@ -1,12 +1,12 @@
-//! Mean and spread of the posterior: normal in all directions but those of cohesion and of shear modulus or friction angle,
-//! over which it is summed.
+//! Mean and spread of the posterior: normal in all directions but those of cohesion, shear modulus and friction angle, over
+//! which it is summed.
 //!
 //! The logarithm of a small cohesion is anything from what the data allow at most downwards, and as the cohesion takes part
 //! of the strength, friction angle and shear modulus go with it: the posterior is a bent ridge with one long end. Where the
 //! slips are alike, another ridge runs from soils that are weak and hold early to ones that are strong and hold late; of one
-//! instant, friction angle and modulus are known so little that the prior's ends bend them. For a cohesion and a modulus, or
-//! an angle, that are held, the others are nearly normal. So these two are moved in equal steps from the mode
-//! to both sides, the others are fitted anew at each, and the normal distributions are mixed with the weights of their
+//! instant, friction angle and modulus are known so little that the prior's ends bend them. Where these three are held, the
+//! others are nearly normal. So cohesion, and what else is known little, are moved in equal steps from the mode to both
+//! sides, the others are fitted anew at each, and the normal distributions are mixed with the weights of their
 //! evidence (Laplace's approximation at each: L. Tierney, J. B. Kadane, J. Am. Stat. Assoc. 81 (1986) 82–86; summed over
 //! the axes that are not normal: H. Rue, S. Martino, N. Chopin, J. R. Stat. Soc. B 71 (2009) 319–392). Equal weights in
 //! equal steps of no more than one and a half standard deviations integrate a smooth bell to 3e-4.
@@ -20,7 +20,7 @@ use super::unknowns::{COHESION, FRICTION, MODULUS, Point, UNKNOWNS, Unknowns};
 
 /// Standard deviation of ln K at a given cohesion beyond which it is summed over too.
 const WIDE_MODULUS: f64 = 0.1;
-/// The same of φ, rad, over which it is summed where it is not over ln K.
+/// The same of φ, rad.
 const WIDE_ANGLE: f64 = 0.02;
 
 /// Mean and standard deviation of every unknown, in the units of the beliefs.
@@ -52,21 +52,40 @@ pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode:
     let modulus = Line { place: MODULUS, spacing: S::constant(1.5), reach: 4, depth: S::constant(4.0) };
     let friction = Line { place: FRICTION, ..modulus };
     let given_cohesion = holding(&known, COHESION);
-    let is_wide =
-        |(line, wide): &(Line<S>, f64)| deviation(unknowns, mode, &given_cohesion, line.place) > S::constant(*wide);
-    let second = [(modulus, WIDE_MODULUS), (friction, WIDE_ANGLE)].into_iter().find(is_wide);
+    let wide = |line: Line<S>, least: f64| {
+        (deviation(unknowns, mode, &given_cohesion, line.place) > S::constant(least)).then_some(line)
+    };
+    let lines = [Some(cohesion), wide(modulus, WIDE_MODULUS), wide(friction, WIDE_ANGLE)];
     let mut sum = Sum::about(unknowns, &mode.state.point);
-    let mut inner_steps = 0;
-    let steps = along(problem, mode, &known, &cohesion, |fit, normal, _| {
-        if let Some((second, _)) = &second {
-            inner_steps += along(problem, fit, &given_cohesion, second, |fit, normal, width| {
-                sum.add(&fit.state.point, normal, width);
+    let steps = sum_over(problem, (mode, &Normal::new(mode, &known)), &known, &lines, S::one(), &mut sum);
+    sum.moments(steps)
+}
+
+/// Adds up the normal distributions about fits at all steps along the lines, one line within the other. Returns how many
+/// steps the descents took.
+fn sum_over<S: Scalar, const N: usize>(
+    problem: &Problem<'_, S>,
+    (fit, normal): (&Fit<S, N>, &Normal<S>),
+    held: &Held,
+    lines: &[Option<Line<S>>],
+    width: S,
+    sum: &mut Sum<'_, S>,
+) -> u16 {
+    match lines {
+        [None, rest @ ..] => sum_over(problem, (fit, normal), held, rest, width, sum),
+        [Some(line), rest @ ..] if !sum.is_little(normal, width) => {
+            let given = holding(held, line.place);
+            let mut inner = 0;
+            let steps = along(problem, fit, held, line, &mut |fit, normal, own| {
+                inner += sum_over(problem, (fit, normal), &given, rest, width * own, sum);
             });
-        } else {
-            sum.add(&fit.state.point, normal, S::one());
+            steps + inner
         }
-    });
-    sum.moments(steps + inner_steps)
+        _ => {
+            sum.add(&fit.state.point, normal, width);
+            0
+        }
+    }
 }
 
 /// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the
@@ -77,7 +96,7 @@ fn along<S: Scalar, const N: usize>(
     middle: &Fit<S, N>,
     held: &Held,
     line: &Line<S>,
-    mut visit: impl FnMut(&Fit<S, N>, &Normal<S>, S),
+    visit: &mut dyn FnMut(&Fit<S, N>, &Normal<S>, S),
 ) -> u16 {
     let about_middle = Normal::new(middle, &holding(held, line.place));
     if held.get(line.place).copied().unwrap_or(true) {
@@ -157,6 +176,12 @@ impl<'a, S: Scalar> Sum<'a, S> {
         let zero = [S::zero(); UNKNOWNS];
         let origin = unknowns.values(point, |_, value| value);
         Self { unknowns, origin, ln_greatest: None, total: S::zero(), first: zero, second: zero }
+    }
+
+    /// Whether a strip of some width has so little weight that it may be taken for normal.
+    fn is_little(&self, normal: &Normal<S>, width: S) -> bool {
+        let ln_weight = normal.ln_evidence + width.ln();
+        self.ln_greatest.is_some_and(|greatest| ln_weight < greatest - S::constant(3.0))
     }
 
     /// Adds the normal distribution about a point that stands for a strip of some width.

@@ -53,24 +53,31 @@ pub fn to_limit(comparison: &Comparison) -> Vec<[String; 5]> {
 }
 
 fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
-    let right: Vec<&Compared> = comparison.situations.iter().filter(|compared| compared.model_is_right).collect();
-    if right.is_empty() {
+    let told = |compared: &&Compared| compared.model_is_right && winner(compared, parameter).is_some();
+    if !comparison.situations.iter().any(|compared| compared.model_is_right) {
         return None;
     }
-    let told: Vec<&Compared> = right.into_iter().filter(|compared| winner(compared, parameter).is_some()).collect();
+    let told: Vec<&Compared> = comparison.situations.iter().filter(told).collect();
     if told.is_empty() {
         return Some(format!("{}: no method tells it in any situation", symbol(parameter)));
     }
-    let lost: Vec<String> = told.iter().filter_map(|compared| loss(compared, parameter)).collect();
-    let won = told.len() - lost.len();
+    let lost = |soils_differ: bool| -> Vec<String> {
+        let among = told.iter().filter(|compared| compared.soils_differ == soils_differ);
+        among.filter_map(|compared| loss(compared, parameter)).collect()
+    };
+    let ranked = told.iter().filter(|compared| compared.soils_differ).count();
+    let (lost, lost_one_soil) = (lost(true), lost(false));
     let mut text = format!(
         "{}: no method that claims to tell it has a median error below that of map, beyond the chance of the cases drawn, in \
-         {won} of {} situations in which the model is right and some method tells it",
+         {} of {ranked} situations in which the model is right, soils differ and some method tells it",
         symbol(parameter),
-        told.len()
+        ranked - lost.len(),
     );
     if !lost.is_empty() {
         text += &format!("; but {}", lost.join("; "));
+    }
+    if !lost_one_soil.is_empty() {
+        text += &format!("; where the soil is always the same, which ranks nobody, {}", lost_one_soil.join("; "));
     }
     Some(text)
 }
