@@ -165,3 +165,36 @@ fn blank_soil() -> Soil<f64> {
         rebound_ratio: 0.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::terramechanics::effects::effect_info;
+
+    use super::*;
+    use crate::data::campaign::Carried as Campaigns;
+    use crate::diagnose::fit::Start;
+    use crate::diagnose::specification::EffectForm;
+
+    /// A step that is judged by its values and then taken must lead to the place that was judged: the same bits, also of an
+    /// effect with memory, whether they come with slopes or without, and from near or from far.
+    #[test]
+    fn values_are_the_same_with_slopes_and_without() {
+        let campaign = Campaigns::from_name("cmu-smooth-transients").expect("carried").campaign().expect("a campaign");
+        let measurements = Measurements::of(&campaign, false).expect("measured");
+        let info = effect_info("sinkage-lag").expect("listed");
+        let specification = Specification::default().with(EffectForm::new(info, &info.forms[0]));
+        let model = CampaignModel::new(&campaign, &measurements, &specification);
+        let start = Start::of(&model, &measurements.rows);
+        for (run, factor) in measurements.rows_of_run.iter().zip([1.0, 0.3, 3.0].into_iter().cycle()) {
+            let far = |row: &usize| Latent { sinkage_m: factor * start.latents[*row].sinkage_m, ..start.latents[*row] };
+            let mut latents: Vec<Latent> = run.iter().map(far).collect();
+            let mut others = latents.clone();
+            let values = model.values(&start.parameters, run, &mut latents).expect("values");
+            for latents in [&mut latents, &mut others] {
+                let predictions = model.predict(&start.parameters, run, latents).expect("predictions");
+                assert!(predictions.iter().zip(&values).all(|(prediction, value)| prediction.value == *value));
+            }
+            assert_eq!(latents, others);
+        }
+    }
+}
