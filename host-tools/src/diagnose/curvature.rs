@@ -39,8 +39,7 @@ fn predictions(
         }
     };
     let mut latents: Vec<Latent> = run.iter().map(moved).collect();
-    let found = trial.model.predict(&trial.fit.parameters, run, &mut latents)?;
-    Some(found.into_iter().map(|prediction| prediction.value).collect())
+    trial.model.values(&trial.fit.parameters, run, &mut latents)
 }
 
 /// Counts it as noise: a fit that knows only slopes cannot tell it from structure.

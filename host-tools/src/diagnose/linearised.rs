@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::campaign_model::CampaignModel;
 use super::fit::{
-    CHANNELS, Coordinate, Fit, FitError, HeldOutRun, Latent, Model, Options, Prediction, Reading, Row, Start, fit,
+    CHANNELS, Coordinate, Derivatives, Fit, FitError, HeldOutRun, Latent, Model, Options, Prediction, Reading, Row,
+    Start, fit,
 };
 use super::measurements::Measurements;
 
@@ -133,7 +134,7 @@ impl<'a> Linearised<'a> {
     /// How a reading follows the true slip and load in each row.
     pub fn slopes(&self, reading: Reading) -> impl Iterator<Item = [f64; 2]> {
         let c = reading.index();
-        self.predictions.iter().map(move |prediction| [prediction.by_slip[c], prediction.by_load[c]])
+        self.predictions.iter().map(move |prediction| [prediction.slopes.by_slip[c], prediction.slopes.by_load[c]])
     }
 
     /// A fit with added terms.
@@ -156,37 +157,52 @@ impl<'a> Linearised<'a> {
     }
 }
 
+impl WithTerms<'_> {
+    /// How a row's readings change: as where the model was linearised, and as the terms have it.
+    fn derivatives(&self, row: usize) -> Derivatives {
+        let about = &self.base.predictions[row].slopes;
+        let own = about.by_parameter.iter().copied();
+        let of_term = |term: &Term| {
+            let mut slope = [0.0; CHANNELS];
+            slope[self.added.channel.index()] = term.at(row, &self.base.latents[row]);
+            slope
+        };
+        let by_parameter = own.chain(self.added.terms.iter().map(of_term)).collect();
+        Derivatives { by_parameter, ..*about }
+    }
+}
+
 impl Model for WithTerms<'_> {
     fn coordinates(&self) -> &[Coordinate] {
         &self.coordinates
     }
 
     fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
+        let values = self.values(parameters, rows, latents)?;
+        let predict = |(row, value): (&usize, [f64; CHANNELS])| Prediction { value, slopes: self.derivatives(*row) };
+        Some(rows.iter().zip(values).map(predict).collect())
+    }
+
+    fn values(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<[f64; CHANNELS]>> {
         let base = self.base;
-        let count = base.parameters.len();
-        let (own, coefficients) = parameters.split_at_checked(count)?;
+        let (own, coefficients) = parameters.split_at_checked(base.parameters.len())?;
         let channel = self.added.channel.index();
         let moved: Vec<f64> = own.iter().zip(&base.parameters).map(|(now, then)| now - then).collect();
-        let predict = |(row, latent): (&usize, &Latent)| {
+        let value = |(row, latent): (&usize, &Latent)| {
             let about = &base.predictions[*row];
-            let mut here = Prediction { by_parameter: Vec::with_capacity(parameters.len()), ..*about };
-            here.by_parameter.extend_from_slice(&about.by_parameter);
+            let (mut value, slopes) = (about.value, &about.slopes);
             let then = &base.latents[*row];
             let (slip, load_n) = (latent.slip - then.slip, latent.load_n - then.load_n);
-            for reading in 0..CHANNELS {
+            for (reading, value) in value.iter_mut().enumerate() {
                 let by_parameters: f64 =
-                    moved.iter().zip(&here.by_parameter).map(|(by, slope)| by * slope[reading]).sum();
-                here.value[reading] += by_parameters + slip * here.by_slip[reading] + load_n * here.by_load[reading];
+                    moved.iter().zip(&slopes.by_parameter).map(|(by, slope)| by * slope[reading]).sum();
+                *value += by_parameters + slip * slopes.by_slip[reading] + load_n * slopes.by_load[reading];
             }
             for (term, coefficient) in self.added.terms.iter().zip(coefficients) {
-                let value = term.at(*row, then);
-                here.value[channel] += coefficient * value;
-                let mut slope = [0.0; CHANNELS];
-                slope[channel] = value;
-                here.by_parameter.push(slope);
+                value[channel] += coefficient * term.at(*row, then);
             }
-            here
+            value
         };
-        Some(rows.iter().zip(latents.iter()).map(predict).collect())
+        Some(rows.iter().zip(latents.iter()).map(value).collect())
     }
 }

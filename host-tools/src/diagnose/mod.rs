@@ -36,6 +36,7 @@ mod residual_search;
 mod selection;
 mod sentence;
 mod settings;
+mod site;
 mod soil_coordinates;
 pub mod specification;
 mod steps;

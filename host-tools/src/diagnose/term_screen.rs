@@ -136,11 +136,11 @@ impl Whitening {
         let c = reading.index();
         let places: Vec<usize> = (0..rows.len()).filter(|row| rows[*row].readings[c].is_some()).collect();
         let weight = |row: &usize| {
-            let (of_row, prediction) = (&rows[*row], &predictions[*row]);
+            let (of_row, slopes) = (&rows[*row], &predictions[*row].slopes);
             let by = |source: Reading, slope: f64| {
                 of_row.readings[source.index()].map_or(0.0, |_| slope * of_row.noise[source.index()])
             };
-            let through = [by(Reading::Slip, prediction.by_slip[c]), by(Reading::Load, prediction.by_load[c])];
+            let through = [by(Reading::Slip, slopes.by_slip[c]), by(Reading::Load, slopes.by_load[c])];
             1.0 / (of_row.noise[c].powi(2) + through[0].powi(2) + through[1].powi(2)).sqrt()
         };
         let weights: Vec<f64> = places.iter().map(weight).collect();
@@ -196,10 +196,10 @@ impl System {
             rows[row].readings[c].map_or(0.0, |measured| (measured - predictions[row].value[c]).clamp(-bound, bound))
         };
         self.residual.extend(whitening.apply(residual));
-        let count = predictions.first().map_or(0, |prediction| prediction.by_parameter.len());
+        let count = predictions.first().map_or(0, |prediction| prediction.slopes.by_parameter.len());
         self.columns.resize(count, Vec::new());
         for (p, column) in self.columns.iter_mut().enumerate() {
-            column.extend(whitening.apply(|row, _| predictions[row].by_parameter[p][c]));
+            column.extend(whitening.apply(|row, _| predictions[row].slopes.by_parameter[p][c]));
         }
         start..self.residual.len()
     }

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::observation::Channels;
-use super::state::{State, Step, latent_difference};
+use super::state::{Place, State, Step, latent_difference};
 
 /// What a step from a state showed of the curvature of the predictions.
 pub(super) struct Bend {
@@ -19,18 +19,18 @@ pub(super) struct Bend {
 
 impl Bend {
     /// From a state and where a step led.
-    pub(super) fn between(here: &State, there: &State) -> Self {
+    pub(super) fn between(here: &State, there: &Place) -> Self {
         let step = &there.parameters - &here.parameters;
         let row = |run: usize, place: usize| {
-            let (before, after) = (&here.predictions[run][place], &there.predictions[run][place]);
+            let slopes = &here.slopes[run][place];
             let latents = latent_difference(&there.latents[run][place], &here.latents[run][place]);
             let by_parameters =
-                before.by_parameter.iter().zip(step.iter()).map(|(by, step)| Channels::from(*by) * *step);
-            let foretold = by_parameters.sum::<Channels>() + before.by_latents() * latents;
-            Channels::from(after.value) - Channels::from(before.value) - foretold
+                slopes.by_parameter.iter().zip(step.iter()).map(|(by, step)| Channels::from(*by) * *step);
+            let foretold = by_parameters.sum::<Channels>() + slopes.by_latents() * latents;
+            Channels::from(there.values[run][place]) - Channels::from(here.values[run][place]) - foretold
         };
-        let rows = |(run, predictions): (usize, &Vec<_>)| (0..predictions.len()).map(|place| row(run, place)).collect();
-        let beyond = here.predictions.iter().enumerate().map(rows).collect();
+        let rows = |(run, values): (usize, &Vec<_>)| (0..values.len()).map(|place| row(run, place)).collect();
+        let beyond = here.values.iter().enumerate().map(rows).collect();
         Self { step, beyond }
     }
 
@@ -41,9 +41,9 @@ impl Bend {
         let along = next.parameters.dot(&shown) / self.step.dot(&shown);
         let share = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
         let mut bent = state.clone();
-        for (predictions, beyond) in bent.predictions.iter_mut().zip(&self.beyond) {
-            for (prediction, beyond) in predictions.iter_mut().zip(beyond) {
-                for (value, beyond) in prediction.value.iter_mut().zip(beyond.iter()) {
+        for (values, beyond) in bent.place.values.iter_mut().zip(&self.beyond) {
+            for (value, beyond) in values.iter_mut().zip(beyond) {
+                for (value, beyond) in value.iter_mut().zip(beyond.iter()) {
                     *value += share * share * beyond;
                 }
             }

@@ -4,7 +4,7 @@ use super::bend::Bend;
 use super::curvature::Curvature;
 use super::normal_equations::NormalEquations;
 use super::problem::Problem;
-use super::state::{Scales, State};
+use super::state::{Scales, State, Tried};
 use super::tempering::Temper;
 use super::variances::{SETTLED, are_estimated, first_scales, reestimate};
 
@@ -54,6 +54,7 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
         curvature: Curvature::default(),
         floor: FIRST_DAMPING,
         bend: None,
+        failed: false,
         iterations: 0,
     };
     search.temper(problem, &scales);
@@ -91,6 +92,8 @@ struct Search {
     floor: f64,
     /// What the last step showed, if it failed.
     bend: Option<Bend>,
+    /// Whether the last step failed.
+    failed: bool,
     iterations: usize,
 }
 
@@ -133,20 +136,25 @@ impl Search {
     fn descend(&mut self, problem: &Problem<'_>, scales: &Scales, tolerance: f64, most: usize) -> bool {
         while self.iterations < most && self.damping < STUCK {
             self.iterations += 1;
-            let Some((state, objective)) = self.attempt(problem, scales) else {
+            let Some((tried, objective)) = self.attempt(problem, scales) else {
                 self.reject();
                 continue;
             };
             let gain = self.objective - objective;
             let settled = gain.abs() < tolerance && self.damping < SHORT_STEP;
             if gain > 0.0 {
+                let Some(state) = tried.state(problem) else {
+                    self.reject();
+                    continue;
+                };
                 self.state = state;
                 self.objective = objective;
                 self.floor = (DAMPING_NEAR * self.damping).clamp(LEAST_FLOOR, FIRST_DAMPING);
                 self.damping = (DAMPING_FALL * self.damping).max(LEAST_DAMPING);
                 self.bend = None;
+                self.failed = false;
             } else {
-                self.bend = Some(Bend::between(&self.state, &state));
+                self.bend = Some(Bend::between(&self.state, tried.place()));
                 self.reject();
             }
             if settled {
@@ -159,11 +167,12 @@ impl Search {
 
     /// A step that was too bold: the next is shorter, and without what was learned of the curvature.
     fn reject(&mut self) {
+        self.failed = true;
         self.curvature.forget();
         self.damping = (DAMPING_RISE * self.damping).max(self.floor);
     }
 
-    fn attempt(&mut self, problem: &Problem<'_>, scales: &Scales) -> Option<(State, f64)> {
+    fn attempt(&mut self, problem: &Problem<'_>, scales: &Scales) -> Option<(Tried, f64)> {
         let mut equations = NormalEquations::new(problem, &self.state, scales, self.damping);
         self.curvature.see(&self.state.parameters, &equations);
         equations.information = self.curvature.corrected(&equations.information);
@@ -173,8 +182,9 @@ impl Search {
             let again = NormalEquations::new(problem, &bent, scales, self.damping);
             step = again.step(problem, &bent, self.damping)?;
         }
-        let state = self.state.after(problem, &step)?;
-        let objective = state.objective(problem, scales);
-        objective.is_finite().then_some((state, objective))
+        // After one step that failed, the next is likely to.
+        let tried = self.state.after(problem, &step, !self.failed)?;
+        let objective = tried.place().objective(problem, scales);
+        objective.is_finite().then_some((tried, objective))
     }
 }

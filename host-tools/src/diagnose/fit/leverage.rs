@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::model::Prediction;
+use super::model::Derivatives;
 use super::normal_equations::NormalEquations;
 use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel};
 use super::problem::Problem;
@@ -20,14 +20,14 @@ pub(super) fn leverages(
 ) -> Vec<Vec<Channels>> {
     problem.by_run(|index, _| {
         let run = &equations.runs[index];
-        let places = run.rows.iter().zip(&state.predictions[index]);
-        places.map(|(row, prediction)| row_leverage(run, row, prediction, covariance)).collect()
+        let places = run.rows.iter().zip(&state.slopes[index]);
+        places.map(|(row, slopes)| row_leverage(run, row, slopes, covariance)).collect()
     })
 }
 
-fn row_leverage(run: &RunTerms, row: &RowTerms, prediction: &Prediction, covariance: &DMatrix<f64>) -> Channels {
+fn row_leverage(run: &RunTerms, row: &RowTerms, slopes: &Derivatives, covariance: &DMatrix<f64>) -> Channels {
     let by_parameter = ParameterByChannel::from_fn(run.following.nrows(), |p, c| {
-        if row.weight[c] > 0.0 { prediction.by_parameter[p][c] - run.following[(p, c)] } else { 0.0 }
+        if row.weight[c] > 0.0 { slopes.by_parameter[p][c] - run.following[(p, c)] } else { 0.0 }
     });
     let shared = spread(covariance, &by_parameter) + run.offset_covariance;
     let unfollowed = row.unfollowed();

@@ -1,7 +1,7 @@
 //! The marginal likelihood by Laplace's method.
 
 use super::measured_latents::ln_stretch;
-use super::model::{Coordinate, Prediction};
+use super::model::{Coordinate, Derivatives};
 use super::normal_equations::NormalEquations;
 use super::observation::CHANNELS;
 use super::problem::{Problem, RunRows};
@@ -35,11 +35,11 @@ pub(super) fn log_likelihood(
         let rows: f64 = run.rows.iter().map(row_norm).sum();
         rows + latent_norm * run.rows.len() as f64 + offsets + 0.5 * terms.ln_det
     };
-    let stretch = |(run, predictions): (&RunRows, &Vec<Prediction>)| -> f64 {
-        run.rows.iter().zip(predictions).map(|(&row, seen)| ln_stretch(&problem.rows[row], seen)).sum()
+    let stretch = |(run, slopes): (&RunRows, &Vec<Derivatives>)| -> f64 {
+        run.rows.iter().zip(slopes).map(|(&row, slopes)| ln_stretch(&problem.rows[row], slopes)).sum()
     };
     let norm: f64 = problem.runs.iter().enumerate().map(run_norm).sum();
-    let stretched: f64 = problem.runs.iter().zip(&state.predictions).map(stretch).sum();
+    let stretched: f64 = problem.runs.iter().zip(state.slopes.iter()).map(stretch).sum();
     state.parameter_penalty(problem) - objective - norm + stretched
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DVector, Matrix2, Vector2};
 
-use super::model::{Latent, Prediction};
+use super::model::{Derivatives, Latent, Prediction};
 use super::observation::{Reading, Row};
 use super::problem::{Problem, RunRows, within};
 
@@ -30,26 +30,22 @@ fn sources(row: &Row) -> Option<[Reading; 2]> {
 }
 
 /// Derivatives of two readings by slip and load, inverted; none where the two do not tell them apart.
-pub(super) fn by_readings(prediction: &Prediction, sources: [Reading; 2]) -> Option<Matrix2<f64>> {
-    derivatives(prediction, sources)?.try_inverse()
+pub(super) fn by_readings(slopes: &Derivatives, sources: [Reading; 2]) -> Option<Matrix2<f64>> {
+    derivatives(slopes, sources)?.try_inverse()
 }
 
 /// Derivatives of two readings by slip and load; none where the two do not tell them apart.
-fn derivatives(prediction: &Prediction, sources: [Reading; 2]) -> Option<Matrix2<f64>> {
+fn derivatives(slopes: &Derivatives, sources: [Reading; 2]) -> Option<Matrix2<f64>> {
     let [first, second] = sources.map(Reading::index);
-    let matrix = Matrix2::new(
-        prediction.by_slip[first],
-        prediction.by_load[first],
-        prediction.by_slip[second],
-        prediction.by_load[second],
-    );
+    let matrix =
+        Matrix2::new(slopes.by_slip[first], slopes.by_load[first], slopes.by_slip[second], slopes.by_load[second]);
     let size = matrix.column(0).norm() * matrix.column(1).norm();
     (matrix.determinant().abs() > SINGULAR * size).then_some(matrix)
 }
 
 /// ln of how much readings that tell slip and load stretch these; 0 where none do.
-pub(super) fn ln_stretch(row: &Row, prediction: &Prediction) -> f64 {
-    let derivatives = sources(row).and_then(|sources| derivatives(prediction, sources));
+pub(super) fn ln_stretch(row: &Row, slopes: &Derivatives) -> f64 {
+    let derivatives = sources(row).and_then(|sources| derivatives(slopes, sources));
     derivatives.map_or(0.0, |derivatives| derivatives.determinant().abs().ln())
 }
 
@@ -94,7 +90,7 @@ fn newton_step(row: &Row, prediction: &Prediction, sources: Option<[Reading; 2]>
             row.readings[c].map_or(0.0, |measured| measured - prediction.value[c])
         });
         let met = (0..2).all(|k| away[k].abs() <= SETTLED * row.noise[sources[k].index()]);
-        if met { None } else { Some(by_readings(prediction, sources)? * Vector2::from(away)) }
+        if met { None } else { Some(by_readings(&prediction.slopes, sources)? * Vector2::from(away)) }
     };
     step().unwrap_or_else(Vector2::zeros)
 }

@@ -42,7 +42,7 @@ mod variances;
 mod tests;
 
 pub use held_out::{HeldOut, HeldOutRow, HeldOutRun};
-pub use model::{Coordinate, Latent, Model, Prediction};
+pub use model::{Coordinate, Derivatives, Latent, Model, Prediction};
 pub use multistart::{ManyFits, fit_from_many, scattered_starts};
 pub use observation::{CHANNELS, Reading, Row};
 pub use options::{FitError, OffsetStd, Options, VarianceCriterion};

@@ -52,6 +52,13 @@ pub struct Latent {
 pub struct Prediction {
     /// The readings, in the units of the channels. One that the row does not measure is never looked at.
     pub value: [f64; CHANNELS],
+    /// Their derivatives.
+    pub slopes: Derivatives,
+}
+
+/// How the readings of a row change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derivatives {
     /// Their derivative by each coordinate.
     pub by_parameter: Vec<[f64; CHANNELS]>,
     /// Their derivative by the true slip.
@@ -60,7 +67,7 @@ pub struct Prediction {
     pub by_load: [f64; CHANNELS],
 }
 
-impl Prediction {
+impl Derivatives {
     /// Derivatives by both latents.
     pub(super) fn by_latents(&self) -> ByLatents {
         ByLatents::from_columns(&[self.by_slip.into(), self.by_load.into()])
@@ -76,4 +83,11 @@ pub trait Model: Sync {
     /// had, as of a soil that cannot carry the load. `rows` are indices into the campaign's rows. Of `latents`, one per row, a
     /// model reads all and may change `sinkage_m`.
     fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>>;
+
+    /// The values of [`Model::predict`] alone, where they are to be had for less: many a step of a fit is judged by them and not
+    /// taken. `sinkage_m` is left such that the same values come of predicting from there.
+    fn values(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<[f64; CHANNELS]>> {
+        let predictions = self.predict(parameters, rows, latents)?;
+        Some(predictions.into_iter().map(|prediction| prediction.value).collect())
+    }
 }

@@ -67,7 +67,7 @@ impl NormalEquations {
             damped[(p, p)] *= 1.0 + damping;
         }
         let parameters = bounded_step(&damped, &self.pull, &low, &high)?;
-        let followed = self.runs.iter().zip(&state.predictions).map(|(run, seen)| run.follow(seen, &parameters));
+        let followed = self.runs.iter().zip(state.slopes.iter()).map(|(run, seen)| run.follow(seen, &parameters));
         let (offsets, latents) = followed.unzip();
         Some(Step { parameters, latents, offsets })
     }

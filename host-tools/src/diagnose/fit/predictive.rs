@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector, RowVector2};
 use super::held_out::{HeldOutRow, HeldOutRun};
 use super::huber::Huber;
 use super::measured_latents::{MeasuredRun, by_readings};
-use super::model::Prediction;
+use super::model::{Derivatives, Prediction};
 use super::observation::{CHANNELS, Reading, Row};
 use super::problem::{Problem, RunRows};
 use super::state::Scales;
@@ -34,16 +34,17 @@ pub(super) fn judge(
         let row = &problem.rows[index];
         let prediction = &measured.predictions[place];
         let mut seen = HeldOutRow { row: index, residual: [None; CHANNELS], std: [None; CHANNELS] };
-        let inverse = measured.sources[place].and_then(|sources| Some((sources, by_readings(prediction, sources)?)));
+        let inverse =
+            measured.sources[place].and_then(|sources| Some((sources, by_readings(&prediction.slopes, sources)?)));
         if let Some((sources, inverse)) = inverse {
             let source_noise = sources.map(|reading| scales.noise(row, reading.index()));
             let mut fresh = prior.clone();
             fresh.new_row(source_noise);
             filter.new_row(source_noise);
             for (c, residual) in residuals(row, prediction, sources) {
-                let gain = RowVector2::new(prediction.by_slip[c], prediction.by_load[c]) * inverse;
+                let gain = RowVector2::new(prediction.slopes.by_slip[c], prediction.slopes.by_load[c]) * inverse;
                 let noise = scales.noise(row, c);
-                let direction = fresh.direction(prediction, c, sources, gain);
+                let direction = fresh.direction(&prediction.slopes, c, sources, gain);
                 let score = filter.take(&direction, residual, noise, problem.huber);
                 seen.residual[c] = Some(residual);
                 seen.std[c] = Some(fresh.variance(&direction, noise).sqrt());
@@ -100,20 +101,14 @@ impl Knowledge {
     }
 
     /// How the residual of a channel depends on all that.
-    fn direction(
-        &self,
-        prediction: &Prediction,
-        c: usize,
-        sources: [Reading; 2],
-        gain: RowVector2<f64>,
-    ) -> DVector<f64> {
+    fn direction(&self, slopes: &Derivatives, c: usize, sources: [Reading; 2], gain: RowVector2<f64>) -> DVector<f64> {
         let mut direction = DVector::zeros(self.mean.len());
-        for (p, derivatives) in prediction.by_parameter.iter().enumerate() {
+        for (p, derivatives) in slopes.by_parameter.iter().enumerate() {
             direction[p] = derivatives[c];
         }
         direction[self.parameters + c] = 1.0;
         for (k, source) in sources.into_iter().map(Reading::index).enumerate() {
-            for (p, derivatives) in prediction.by_parameter.iter().enumerate() {
+            for (p, derivatives) in slopes.by_parameter.iter().enumerate() {
                 direction[p] -= gain[k] * derivatives[source];
             }
             direction[self.parameters + source] -= gain[k];

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::huber::Huber;
-use super::model::{Coordinate, Latent, Model, Prediction};
+use super::model::{Coordinate, Derivatives, Latent, Model, Prediction};
 use super::observation::{CHANNELS, Row};
 use super::options::{FitError, Options};
 use super::start::Start;
@@ -89,17 +89,27 @@ impl<'a> Problem<'a> {
         run: &RunRows,
         latents: &mut [Latent],
     ) -> Option<Vec<Prediction>> {
-        let mut seen = latents.to_vec();
-        let predictions = self.model.predict(parameters.as_slice(), &run.rows, &mut seen)?;
-        for (latent, seen) in latents.iter_mut().zip(&seen) {
-            latent.sinkage_m = seen.sinkage_m;
-        }
+        let predictions = warmed(latents, |seen| self.model.predict(parameters.as_slice(), &run.rows, seen))?;
         let sound = |(prediction, &row): (&Prediction, &usize)| {
             (0..CHANNELS).all(|c| self.rows[row].readings[c].is_none() || is_finite(prediction, c))
         };
         let whole = predictions.len() == run.rows.len()
-            && predictions.iter().all(|prediction| prediction.by_parameter.len() == parameters.len());
+            && predictions.iter().all(|prediction| prediction.slopes.by_parameter.len() == parameters.len());
         (whole && predictions.iter().zip(&run.rows).all(sound)).then_some(predictions)
+    }
+
+    /// The values of these alone.
+    pub(super) fn values(
+        &self,
+        parameters: &DVector<f64>,
+        run: &RunRows,
+        latents: &mut [Latent],
+    ) -> Option<Vec<[f64; CHANNELS]>> {
+        let values = warmed(latents, |seen| self.model.values(parameters.as_slice(), &run.rows, seen))?;
+        let sound = |(value, &row): (&[f64; CHANNELS], &usize)| {
+            (0..CHANNELS).all(|c| self.rows[row].readings[c].is_none() || value[c].is_finite())
+        };
+        (values.len() == run.rows.len() && values.iter().zip(&run.rows).all(sound)).then_some(values)
     }
 
     /// Bounds of the parameters as displacements from a point.
@@ -111,11 +121,22 @@ impl<'a> Problem<'a> {
     }
 }
 
+/// What a model says of some latents, which it changes in their warm starts alone.
+fn warmed<T>(latents: &mut [Latent], ask: impl FnOnce(&mut [Latent]) -> Option<T>) -> Option<T> {
+    let mut seen = latents.to_vec();
+    let answer = ask(&mut seen)?;
+    for (latent, seen) in latents.iter_mut().zip(&seen) {
+        latent.sinkage_m = seen.sinkage_m;
+    }
+    Some(answer)
+}
+
 fn is_finite(prediction: &Prediction, channel: usize) -> bool {
+    let Derivatives { by_parameter, by_slip, by_load } = &prediction.slopes;
     prediction.value[channel].is_finite()
-        && prediction.by_slip[channel].is_finite()
-        && prediction.by_load[channel].is_finite()
-        && prediction.by_parameter.iter().all(|derivatives| derivatives[channel].is_finite())
+        && by_slip[channel].is_finite()
+        && by_load[channel].is_finite()
+        && by_parameter.iter().all(|derivatives| derivatives[channel].is_finite())
 }
 
 /// A latent moved into the ranges of true slip and load.

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::model::Prediction;
+use super::model::Derivatives;
 use super::observation::{ByLatents, CHANNELS, ChannelMatrix, Channels};
 use super::problem::Problem;
 use super::state::{Scales, State, latent_difference};
@@ -36,7 +36,7 @@ impl RowTerms {
         let standardised = state.standardised(row, scales, run, place);
         let mut residual = Channels::zeros();
         let mut weight = Channels::zeros();
-        let mut by_latents = state.predictions[run][place].by_latents();
+        let mut by_latents = state.slopes[run][place].by_latents();
         for c in 0..CHANNELS {
             match standardised[c] {
                 Some(t) => {
@@ -103,11 +103,11 @@ fn inverse(matrix: &Matrix2<f64>) -> (Matrix2<f64>, f64) {
 }
 
 /// Change of the predicted channels with a step of the parameters. What is not measured (no weight) does not count.
-pub(super) fn shift_by(prediction: &Prediction, weight: &Channels, step: &[f64]) -> Channels {
+pub(super) fn shift_by(slopes: &Derivatives, weight: &Channels, step: &[f64]) -> Channels {
     Channels::from_fn(|c, _| {
         if weight[c] == 0.0 {
             return 0.0;
         }
-        prediction.by_parameter.iter().zip(step).map(|(derivatives, step)| derivatives[c] * step).sum()
+        slopes.by_parameter.iter().zip(step).map(|(derivatives, step)| derivatives[c] * step).sum()
     })
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use super::model::Prediction;
+use super::model::Derivatives;
 use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel, Reading};
 use super::problem::Problem;
 use super::row_terms::{RowTerms, shift_by};
@@ -42,8 +42,8 @@ impl RunTerms {
         let active = active_offsets(problem, scales, run, &rows);
         let count = state.parameters.len();
         let mut sums = Sums::new(count);
-        for (row, prediction) in rows.iter().zip(&state.predictions[run]) {
-            sums.add(row, prediction);
+        for (row, slopes) in rows.iter().zip(&state.slopes[run]) {
+            sums.add(row, slopes);
         }
         let mut terms = Self {
             active,
@@ -98,12 +98,13 @@ impl RunTerms {
     }
 
     /// Steps of the offsets and latents that go with a step of the parameters.
-    pub(super) fn follow(&self, predictions: &[Prediction], step: &DVector<f64>) -> (Channels, Vec<Vector2<f64>>) {
+    pub(super) fn follow(&self, slopes: &[Derivatives], step: &DVector<f64>) -> (Channels, Vec<Vector2<f64>>) {
         let offset = self.offset_covariance * (self.offset_pull - self.sums.cross.tr_mul(step));
-        let latents =
-            self.rows.iter().zip(predictions).map(|(row, prediction)| {
-                row.latent_step(&(shift_by(prediction, &row.weight, step.as_slice()) + offset))
-            });
+        let latents = self
+            .rows
+            .iter()
+            .zip(slopes)
+            .map(|(row, slopes)| row.latent_step(&(shift_by(slopes, &row.weight, step.as_slice()) + offset)));
         (offset, latents.collect())
     }
 }
@@ -144,14 +145,14 @@ impl Sums {
         }
     }
 
-    fn add(&mut self, row: &RowTerms, prediction: &Prediction) {
+    fn add(&mut self, row: &RowTerms, slopes: &Derivatives) {
         self.by_channel += row.information;
         self.channel_pull += row.pull;
         self.ln_det += row.ln_det;
         let is_seen: [bool; CHANNELS] = std::array::from_fn(|c| row.weight[c] > 0.0);
         let measured = |by: &[f64; CHANNELS]| std::array::from_fn(|c| if is_seen[c] { by[c] } else { 0.0 });
         self.derivatives.clear();
-        self.derivatives.extend(prediction.by_parameter.iter().map(measured));
+        self.derivatives.extend(slopes.by_parameter.iter().map(measured));
         // Slip and load come last, and but for a few effects of their sensors no parameter changes what is read of them; before
         // them the side force, which few campaigns measure.
         let is_done = |first: usize| self.derivatives.iter().all(|by| by[first..].iter().all(|slope| *slope == 0.0));

@@ -1,8 +1,11 @@
 //! Where a fit stands: parameters, latents and offsets, what the model predicts there, and how well that agrees.
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use nalgebra::{DVector, Vector2};
 
-use super::model::{Latent, Prediction};
+use super::model::{Derivatives, Latent};
 use super::observation::{CHANNELS, Channels, Row};
 use super::problem::{Problem, within};
 
@@ -22,13 +25,38 @@ impl Scales {
     }
 }
 
-/// Where a fit stands. Latents, offsets and predictions are by run.
+/// A place that a fit may come to. Latents, offsets and values are by run.
 #[derive(Debug, Clone)]
-pub(super) struct State {
+pub(super) struct Place {
     pub parameters: DVector<f64>,
     pub latents: Vec<Vec<Latent>>,
     pub offsets: Vec<Channels>,
-    pub predictions: Vec<Vec<Prediction>>,
+    /// What the model expects of the readings.
+    pub values: Vec<Vec<[f64; CHANNELS]>>,
+}
+
+/// Where a fit stands: a place, and how what the model expects changes from there.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    pub place: Place,
+    /// By run.
+    pub slopes: Arc<Vec<Vec<Derivatives>>>,
+}
+
+/// Where a step led: many a one is judged by the values there alone, and not taken.
+pub(super) enum Tried {
+    /// With the values.
+    Seen(Place),
+    /// With the slopes as well.
+    Known(State),
+}
+
+impl Deref for State {
+    type Target = Place;
+
+    fn deref(&self) -> &Place {
+        &self.place
+    }
 }
 
 /// A step from a state.
@@ -55,11 +83,13 @@ impl State {
     /// At some parameters without offsets; none where the model predicts nothing there.
     pub(super) fn at(problem: &Problem<'_>, parameters: DVector<f64>) -> Option<Self> {
         let latents = problem.runs.iter().map(|run| run.rows.iter().map(|&row| problem.latent_start[row]).collect());
-        Self::predicted(problem, parameters, latents.collect(), vec![Channels::zeros(); problem.runs.len()])
+        let offsets = vec![Channels::zeros(); problem.runs.len()];
+        Place { parameters, latents: latents.collect(), offsets, values: Vec::new() }.with_slopes(problem)
     }
 
-    /// A step further, latents kept in their ranges; none where the model predicts nothing there.
-    pub(super) fn after(&self, problem: &Problem<'_>, step: &Step) -> Option<Self> {
+    /// A step further, latents kept in their ranges; none where the model predicts nothing there. Slopes are had at once where
+    /// they are `wanted`, which is quicker than to come back for them.
+    pub(super) fn after(&self, problem: &Problem<'_>, step: &Step, wanted: bool) -> Option<Tried> {
         let moved = |(latents, steps): (&Vec<Latent>, &Vec<Vector2<f64>>)| {
             let moved = |(latent, step): (&Latent, &Vector2<f64>)| {
                 within(
@@ -75,22 +105,53 @@ impl State {
         }
         let latents = self.latents.iter().zip(&step.latents).map(moved).collect();
         let offsets = self.offsets.iter().zip(&step.offsets).map(|(offset, step)| offset + step).collect();
-        Self::predicted(problem, parameters, latents, offsets)
+        let place = Place { parameters, latents, offsets, values: Vec::new() };
+        if wanted { place.with_slopes(problem).map(Tried::Known) } else { place.with_values(problem).map(Tried::Seen) }
+    }
+}
+
+impl Tried {
+    /// The place.
+    pub(super) fn place(&self) -> &Place {
+        match self {
+            Self::Seen(place) => place,
+            Self::Known(state) => state,
+        }
     }
 
-    fn predicted(
-        problem: &Problem<'_>,
-        parameters: DVector<f64>,
-        latents: Vec<Vec<Latent>>,
-        offsets: Vec<Channels>,
-    ) -> Option<Self> {
+    /// With its slopes; none where the model has none.
+    pub(super) fn state(self, problem: &Problem<'_>) -> Option<State> {
+        match self {
+            Self::Seen(place) => place.with_slopes(problem),
+            Self::Known(state) => Some(state),
+        }
+    }
+}
+
+impl Place {
+    /// With the values there.
+    fn with_values(self, problem: &Problem<'_>) -> Option<Self> {
         let runs = problem.by_run(|index, run| {
-            let mut latents = latents[index].clone();
-            let predictions = problem.predict(&parameters, run, &mut latents)?;
-            Some((latents, predictions))
+            let mut latents = self.latents[index].clone();
+            let values = problem.values(&self.parameters, run, &mut latents)?;
+            Some((latents, values))
         });
-        let (latents, predictions) = runs.into_iter().collect::<Option<Vec<_>>>()?.into_iter().unzip();
-        Some(Self { parameters, latents, offsets, predictions })
+        let (latents, values) = runs.into_iter().collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        Some(Self { latents, values, ..self })
+    }
+
+    /// With values and slopes.
+    fn with_slopes(self, problem: &Problem<'_>) -> Option<State> {
+        let runs = problem.by_run(|index, run| {
+            let mut latents = self.latents[index].clone();
+            let predictions = problem.predict(&self.parameters, run, &mut latents)?;
+            let (values, slopes): (Vec<_>, Vec<_>) =
+                predictions.into_iter().map(|prediction| (prediction.value, prediction.slopes)).unzip();
+            Some(((latents, values), slopes))
+        });
+        let (places, slopes): (Vec<_>, Vec<_>) = runs.into_iter().collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        let (latents, values) = places.into_iter().unzip();
+        Some(State { place: Self { latents, values, ..self }, slopes: Arc::new(slopes) })
     }
 
     /// What is minimised: losses of the readings, and half the squares of offsets, latents and parameters by their priors.
@@ -127,7 +188,7 @@ impl State {
 
     /// Residuals of a row in units of its noise; none where not measured.
     pub(super) fn standardised(&self, row: &Row, scales: &Scales, run: usize, place: usize) -> [Option<f64>; CHANNELS] {
-        let value = &self.predictions[run][place].value;
+        let value = &self.values[run][place];
         std::array::from_fn(|c| {
             row.readings[c].map(|reading| (reading - value[c] - self.offsets[run][c]) / scales.noise(row, c))
         })

@@ -145,7 +145,7 @@ pub(super) fn shares_by_run(
         let mut shares =
             VarianceShares { offset: offset_shares(run, &offset, scales, &covariance), ..Default::default() };
         for (place, row) in run.rows.iter().enumerate().filter(|_| !leverages.is_empty()) {
-            let shift = shift_by(&state.predictions[index][place], &row.weight, step.parameters.as_slice());
+            let shift = shift_by(&state.slopes[index][place], &row.weight, step.parameters.as_slice());
             let residual: Channels = row.residual_after(&(shift + step.offsets[index]), &step.latents[index][place]);
             for c in (0..CHANNELS).filter(|&c| row.weight[c] > 0.0 && estimated[c]) {
                 shares.noise[c].squares += row.weight[c] * residual[c] * residual[c];

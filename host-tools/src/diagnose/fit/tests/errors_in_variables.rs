@@ -1,7 +1,7 @@
 //! A line through points of which both coordinates are measured with error (Deming 1943, Statistical Adjustment of Data).
 
 use super::toy::{blank, free, normal, plain, random};
-use crate::diagnose::fit::{Coordinate, Latent, Model, Prediction, Reading, Row, Start, fit};
+use crate::diagnose::fit::{Coordinate, Derivatives, Latent, Model, Prediction, Reading, Row, Start, fit};
 
 /// Drawbar pull `a + b s` against slip s.
 struct Line([Coordinate; 2]);
@@ -14,9 +14,11 @@ impl Model for Line {
     fn predict(&self, parameters: &[f64], _: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
         let predict = |latent: &Latent| Prediction {
             value: [parameters[0] + parameters[1] * latent.slip, 0.0, 0.0, 0.0, latent.slip, latent.load_n],
-            by_parameter: vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [latent.slip, 0.0, 0.0, 0.0, 0.0, 0.0]],
-            by_slip: [parameters[1], 0.0, 0.0, 0.0, 1.0, 0.0],
-            by_load: [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+            slopes: Derivatives {
+                by_parameter: vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [latent.slip, 0.0, 0.0, 0.0, 0.0, 0.0]],
+                by_slip: [parameters[1], 0.0, 0.0, 0.0, 1.0, 0.0],
+                by_load: [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+            },
         };
         Some(latents.iter().map(predict).collect())
     }

@@ -41,9 +41,9 @@ impl Model for Ignorant {
         let mut predictions = self.0.predict(parameters, rows, latents)?;
         for prediction in &mut predictions {
             prediction.value[3] = f64::NAN;
-            prediction.by_slip[3] = f64::NAN;
-            prediction.by_load[3] = f64::NAN;
-            prediction.by_parameter.iter_mut().for_each(|derivatives| derivatives[3] = f64::NAN);
+            prediction.slopes.by_slip[3] = f64::NAN;
+            prediction.slopes.by_load[3] = f64::NAN;
+            prediction.slopes.by_parameter.iter_mut().for_each(|derivatives| derivatives[3] = f64::NAN);
         }
         Some(predictions)
     }

@@ -2,7 +2,7 @@
 
 use super::toy::{blank, campaign, free, plain};
 use crate::diagnose::fit::{
-    Coordinate, FitError, Latent, Model, OffsetStd, Options, Prediction, Row, Start, fit, fit_from_many,
+    Coordinate, Derivatives, FitError, Latent, Model, OffsetStd, Options, Prediction, Row, Start, fit, fit_from_many,
     scattered_starts,
 };
 
@@ -23,7 +23,10 @@ impl Model for TwoValleys {
         let mut slope = [0.0; 6];
         value[0] = (x * x - 1.0).powi(2) + 0.2 * x;
         slope[0] = 4.0 * x * (x * x - 1.0) + 0.2;
-        let prediction = Prediction { value, by_parameter: vec![slope], by_slip: [0.0; 6], by_load: [0.0; 6] };
+        let prediction = Prediction {
+            value,
+            slopes: Derivatives { by_parameter: vec![slope], by_slip: [0.0; 6], by_load: [0.0; 6] },
+        };
         (x <= self.end).then(|| vec![prediction; rows.len()])
     }
 }

@@ -4,7 +4,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::diagnose::fit::{CHANNELS, Coordinate, Latent, Model, OffsetStd, Options, Prediction, Reading, Row};
+use crate::diagnose::fit::{
+    CHANNELS, Coordinate, Derivatives, Latent, Model, OffsetStd, Options, Prediction, Reading, Row,
+};
 
 /// How a row's readings depend on everything.
 #[derive(Debug, Clone)]
@@ -39,9 +41,11 @@ impl Model for Linear {
     fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
         let predict = |(&row, latent): (&usize, &mut Latent)| Prediction {
             value: self.value(row, parameters, latent),
-            by_parameter: self.terms[row].parameters.clone(),
-            by_slip: self.terms[row].slip,
-            by_load: self.terms[row].load,
+            slopes: Derivatives {
+                by_parameter: self.terms[row].parameters.clone(),
+                by_slip: self.terms[row].slip,
+                by_load: self.terms[row].load,
+            },
         };
         Some(rows.iter().zip(latents).map(predict).collect())
     }

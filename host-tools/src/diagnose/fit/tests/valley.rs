@@ -6,7 +6,7 @@ use super::toy::{blank, free, plain};
 use crate::diagnose::fit::bend::Bend;
 use crate::diagnose::fit::problem::Problem;
 use crate::diagnose::fit::state::{State, Step};
-use crate::diagnose::fit::{CHANNELS, Coordinate, Latent, Model, Prediction, Row, Start, fit};
+use crate::diagnose::fit::{CHANNELS, Coordinate, Derivatives, Latent, Model, Prediction, Row, Start, fit};
 
 /// Two readings, 10 (y − x²) and x: their valley is a parabola.
 struct Parabola {
@@ -24,7 +24,10 @@ impl Model for Parabola {
         (value[0], value[1]) = (10.0 * (y - x * x), x);
         let mut by_parameter = vec![[0.0; CHANNELS]; 2];
         (by_parameter[0][0], by_parameter[0][1], by_parameter[1][0]) = (-20.0 * x, 1.0, 10.0);
-        let prediction = Prediction { value, by_parameter, by_slip: [0.0; CHANNELS], by_load: [0.0; CHANNELS] };
+        let prediction = Prediction {
+            value,
+            slopes: Derivatives { by_parameter, by_slip: [0.0; CHANNELS], by_load: [0.0; CHANNELS] },
+        };
         Some(vec![prediction; rows.len()])
     }
 }
@@ -44,14 +47,14 @@ fn what_a_step_showed_foretells_a_shorter_one() {
     let here = State::at(&problem, DVector::from_vec(vec![-1.2, 1.0])).expect("a state");
     let step =
         |share: f64| Step { parameters: DVector::from_vec(vec![2.2 * share, -3.0 * share]), ..Step::none(&here) };
-    let after = |share: f64| here.after(&problem, &step(share)).expect("a state");
-    let bend = Bend::between(&here, &after(1.0));
+    let after = |share: f64| here.after(&problem, &step(share), false).expect("a place");
+    let bend = Bend::between(&here, after(1.0).place());
     let bent = bend.allowed_for(&here, &step(0.5), &DMatrix::identity(2, 2));
-    let (before, foretold) = (&here.predictions[0][0], &bent.predictions[0][0]);
-    for channel in 0..2 {
-        let by_slopes: f64 = (0..2).map(|p| before.by_parameter[p][channel] * step(0.5).parameters[p]).sum();
-        let expected = after(0.5).predictions[0][0].value[channel] - by_slopes;
-        assert!((foretold.value[channel] - expected).abs() < 1e-12, "channel {channel}");
+    let (slopes, foretold) = (&here.slopes[0][0], &bent.values[0][0]);
+    for (channel, foretold) in foretold.iter().enumerate().take(2) {
+        let by_slopes: f64 = (0..2).map(|p| slopes.by_parameter[p][channel] * step(0.5).parameters[p]).sum();
+        let expected = after(0.5).place().values[0][0][channel] - by_slopes;
+        assert!((foretold - expected).abs() < 1e-12, "channel {channel}");
     }
 }
 

@@ -5,8 +5,8 @@ use rand::RngExt;
 
 use super::toy::{free, normal, random};
 use crate::diagnose::fit::{
-    CHANNELS, Coordinate, Fit, HeldOut, Latent, Model, Options, Prediction, Row, Start, fit, fit_from_many,
-    scattered_starts,
+    CHANNELS, Coordinate, Derivatives, Fit, HeldOut, Latent, Model, Options, Prediction, Row, Start, fit,
+    fit_from_many, scattered_starts,
 };
 use crate::limit::coordinates::{Coordinates, DIMENSION};
 use crate::limit::response::respond;
@@ -39,9 +39,11 @@ impl Model for Soil {
             let channels = |by: &crate::limit::response::Channels, slip, load| [by[0], by[1], by[2], 0.0, slip, load];
             Some(Prediction {
                 value: channels(&found.value, latent.slip, latent.load_n),
-                by_parameter: found.by_soil.column_iter().map(|by| channels(&by.into_owned(), 0.0, 0.0)).collect(),
-                by_slip: channels(&found.by_slip, 1.0, 0.0),
-                by_load: channels(&found.by_load, 0.0, 1.0),
+                slopes: Derivatives {
+                    by_parameter: found.by_soil.column_iter().map(|by| channels(&by.into_owned(), 0.0, 0.0)).collect(),
+                    by_slip: channels(&found.by_slip, 1.0, 0.0),
+                    by_load: channels(&found.by_load, 0.0, 1.0),
+                },
             })
         };
         latents.iter_mut().map(predict).collect()
