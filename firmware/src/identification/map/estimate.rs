@@ -12,7 +12,7 @@ use super::by_seed::BySeed;
 use super::condition::condition_number;
 use super::descent::Descent;
 use super::mixture::{Moments, moments};
-use super::mode::best_mode;
+use super::mode::{best_mode, mode_nearby};
 use super::prediction::{Forward, Model};
 use super::problem::{Fit, Problem};
 use super::unknowns::{C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, Unknowns};
@@ -62,9 +62,9 @@ pub struct MapEstimate<S> {
     pub misfit: S,
     /// Residuals of observations and beliefs less unknowns.
     pub degrees_of_freedom: u16,
-    /// By how much the standard deviations are wider than noise and beliefs would have them: 1, or where the misfit is beyond
-    /// chance its root per degree of freedom (R. T. Birge, Phys. Rev. 40 (1932) 207–227), up to what is believed beforehand.
-    /// A model that does not explain the observations must not seem sure of the soil; how wrong it is, nobody knows.
+    /// By how much the noise is taken greater than it is stated for means and standard deviations: 1, or where the misfit is
+    /// beyond chance its root per degree of freedom (R. T. Birge, Phys. Rev. 40 (1932) 207–227). A model that does not explain
+    /// the observations must not seem sure of the soil; how wrong it is, nobody knows.
     pub widened: S,
     /// Steps of all descents; each evaluates every wheel once.
     pub iterations: u16,
@@ -129,27 +129,32 @@ fn solve<const N: usize, S: Scalar>(
     }
     let problem = Problem { forward, observations, conditions, blur: S::one() };
     let mode = best_mode::<N, S>(&problem)?;
-    let moments = moments(&problem, &mode.fit);
-    Ok(estimate(&problem, &mode, &moments))
+    let degrees_of_freedom = problem.residuals().saturating_sub(2 * observations.len() as u16);
+    let misfit = Misfit { degrees_of_freedom, widened: birge_ratio(mode.fit.cost, degrees_of_freedom) };
+    let moments = if misfit.widened > S::one() {
+        let doubtful = Problem { blur: misfit.widened, ..problem };
+        moments(&doubtful, &mode_nearby(&doubtful, &mode.fit).ok_or(Refusal::NoSoilFits)?)
+    } else {
+        moments(&problem, &mode.fit)
+    };
+    Ok(estimate(&problem, &mode, &moments, &misfit))
+}
+
+/// What the mode leaves unexplained.
+struct Misfit<S> {
+    degrees_of_freedom: u16,
+    widened: S,
 }
 
 fn estimate<S: Scalar, const N: usize>(
     problem: &Problem<'_, S>,
     mode: &Descent<S, N>,
     moments: &Moments<S>,
+    misfit: &Misfit<S>,
 ) -> MapEstimate<S> {
     let unknowns = problem.forward.unknowns;
-    let measured = problem.observations.iter().filter(|observation| observation.state.sinkage_m.is_some()).count();
-    let seen = problem.observations.len();
-    let residuals = (4 * seen + measured) as u16;
-    let lost = (2 * seen) as u16;
-    let degrees_of_freedom = residuals.saturating_sub(lost);
-    let widened = birge_ratio(mode.fit.cost, degrees_of_freedom);
-    let fitted = |place: usize| {
-        let (mean, std) = (moments.mean.get(place), moments.std.get(place).copied().unwrap_or(S::zero()));
-        let spread = unknowns.beliefs.get(place).map_or(std, |belief| belief.spread());
-        Fitted { mean: mean.copied().unwrap_or(S::zero()), std: (widened * std).min(spread.max(std)) }
-    };
+    let at = |numbers: &[S], place: usize| numbers.get(place).copied().unwrap_or(S::zero());
+    let fitted = |place: usize| Fitted { mean: at(&moments.mean, place), std: at(&moments.std, place) };
     MapEstimate {
         identified: identified(problem, &mode.fit, &fitted),
         ln_cohesion: fitted(COHESION),
@@ -163,10 +168,10 @@ fn estimate<S: Scalar, const N: usize>(
         soil: unknowns.soil(&moments.mean, |value| value),
         mode: unknowns.soil_at(&mode.fit.state.point),
         chi_squared: mode.fit.chi_squared,
-        residuals,
+        residuals: problem.residuals(),
         misfit: mode.fit.cost,
-        degrees_of_freedom,
-        widened,
+        degrees_of_freedom: misfit.degrees_of_freedom,
+        widened: misfit.widened,
         iterations: mode.steps + moments.steps,
         settled: mode.settled,
     }

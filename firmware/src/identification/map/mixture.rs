@@ -47,7 +47,7 @@ struct Line<S> {
 /// The posterior about its mode.
 pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode: &Fit<S, N>) -> Moments<S> {
     let unknowns = problem.forward.unknowns;
-    let known: Held = core::array::from_fn(|place| unknowns.is_known(place));
+    let known = problem.known();
     let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
     let modulus = Line { place: MODULUS, spacing: S::constant(1.5), reach: 4, depth: S::constant(4.0) };
     let friction = Line { place: FRICTION, ..modulus };

@@ -6,7 +6,7 @@ use crate::identification::Refusal;
 use crate::scalar::Scalar;
 
 use super::descent::{Descent, Patience, descend};
-use super::problem::{Held, Problem, State};
+use super::problem::{Fit, Held, Problem, State};
 use super::unknowns::{COHESION, FRICTION, MODULUS, Point, UNKNOWNS};
 
 /// Coordinates of cohesion, friction angle and modulus: in the middle, and at both ends of the ridge on which a weak soil
@@ -21,9 +21,7 @@ const NEAR: f64 = 0.5;
 
 /// Descends from all starts. One that comes near to where an earlier one was is not gone to its end.
 pub(super) fn best_mode<const N: usize, S: Scalar>(problem: &Problem<'_, S>) -> Result<Descent<S, N>, Refusal> {
-    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-6) };
-    let patience = Patience { steps: 120, gain, damping: S::constant(0.03) };
-    let held: Held = core::array::from_fn(|place| problem.forward.unknowns.is_known(place));
+    let (patience, held) = (patience(), problem.known());
     let mut best: Option<Descent<S, N>> = None;
     let mut ways = Ways { passed: [const { Vec::new() }; BLURS.len()], steps: 0 };
     for start in STARTS {
@@ -35,6 +33,16 @@ pub(super) fn best_mode<const N: usize, S: Scalar>(problem: &Problem<'_, S>) -> 
         }
     }
     best.map(|best| Descent { steps: ways.steps, ..best }).ok_or(Refusal::NoSoilFits)
+}
+
+/// Where the descent from a fit under another noise ends.
+pub(super) fn mode_nearby<const N: usize, S: Scalar>(problem: &Problem<'_, S>, fit: &Fit<S, N>) -> Option<Fit<S, N>> {
+    descend(problem, fit.state.clone(), &problem.known(), &patience()).map(|found| found.fit)
+}
+
+fn patience<S: Scalar>() -> Patience<S> {
+    let gain = if S::EPSILON > 1e-10 { S::constant(2e-3) } else { S::constant(1e-6) };
+    Patience { steps: 120, gain, damping: S::constant(0.03) }
 }
 
 fn coordinates<S: Scalar>([cohesion, friction, modulus]: [f64; 3]) -> Point<S> {

@@ -84,6 +84,17 @@ impl<S: Scalar> Problem<'_, S> {
         }
     }
 
+    /// The unknowns that are known.
+    pub fn known(&self) -> Held {
+        core::array::from_fn(|place| self.forward.unknowns.is_known(place))
+    }
+
+    /// Readings that were measured.
+    pub fn residuals(&self) -> u16 {
+        let sinkages = self.observations.iter().filter(|observation| observation.state.sinkage_m.is_some()).count();
+        (4 * self.observations.len() + sinkages) as u16
+    }
+
     /// How well a state explains what was seen; none where the equations do not hold.
     pub fn evaluate<const N: usize>(&self, state: State<S, N>) -> Option<Fit<S, N>> {
         let mut rows = Vec::new();
