@@ -80,13 +80,13 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
 
 /// A soil, or none where it would lie beyond what the networks were trained with.
 fn soil(truth: Truth, random: &mut ChaCha8Rng) -> Option<Soil<f64>> {
-    let mut drawn = || prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random())));
+    let mut any = || prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random())));
     let (from, to) = match truth {
-        Truth::Drawn => return Some(drawn()),
+        Truth::Drawn => return Some(any()),
         Truth::Fixed(soil) => return Some(soil),
         Truth::Off { from, to } => (from, to),
     };
-    let (drawn, usual) = (drawn(), SoilPrior::usual());
+    let (drawn, usual) = (any(), SoilPrior::usual());
     let mut off = |belief: Belief<f64>| {
         let distance = belief.spread() * (from + (to - from) * random.random::<f64>());
         belief.mean + if random.random() { distance } else { -distance }

@@ -57,8 +57,11 @@ pub const SLIPS: [f64; 2] = [0.05, 0.60];
 
 const NEAR: Truth = Truth::Off { from: 0.0, to: 1.0 };
 const FAR: Truth = Truth::Off { from: 1.0, to: 2.0 };
-/// The seed's Table 1.
+/// The seed's Table 1, of which an independent implementation has figures.
 const FIXED: Truth = Truth::Fixed(TABLE_1);
+/// Far from what is usual, with figures of the same implementation.
+const FIXED_FAR: Truth =
+    Truth::Fixed(Soil { cohesion_pa: 1500.0, friction_angle_rad: 25.0 * DEGREE, shear_modulus_m: 0.022, ..TABLE_1 });
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const TABLE_1: Soil<f64> = Soil {
     sinkage_exponent: 1.1,
@@ -78,7 +81,7 @@ const fn plain(id: &'static str, title: &'static str, truth: Truth, load_spread:
 }
 
 /// All of them, in the order of the table.
-pub const SITUATIONS: [Situation; 20] = [
+pub const SITUATIONS: [Situation; 22] = [
     plain("drawn-equal-1", "soil drawn from the prior, equal loads, one instant", Truth::Drawn, 0.0, 1),
     plain("drawn-equal-100", "soil drawn from the prior, equal loads, mean of 100", Truth::Drawn, 0.0, 100),
     plain("drawn-spread-1", "soil drawn from the prior, loads ±50 %, one instant", Truth::Drawn, 0.5, 1),
@@ -95,6 +98,8 @@ pub const SITUATIONS: [Situation; 20] = [
     plain("table1-8-100", "the soil of Table 1, loads ±8 %, mean of 100", FIXED, 0.08, 100),
     plain("table1-spread-1", "the soil of Table 1, loads ±50 %, one instant", FIXED, 0.5, 1),
     plain("table1-spread-100", "the soil of Table 1, loads ±50 %, mean of 100", FIXED, 0.5, 100),
+    plain("weak-spread-1", "c 1.5 kPa, φ 25°, K 22 mm, loads ±50 %, one instant", FIXED_FAR, 0.5, 1),
+    plain("weak-spread-100", "c 1.5 kPa, φ 25°, K 22 mm, loads ±50 %, mean of 100", FIXED_FAR, 0.5, 100),
     Situation {
         slip_sinkage: SlipSinkage::Undeclared,
         ..plain("undeclared-1", "slip-sinkage that nobody declares, loads ±50 %, one instant", Truth::Drawn, 0.5, 1)

@@ -8,7 +8,7 @@
 //! great, because the floor of the valley is bent and the narrower it is the longer the way along it.
 //!
 //! What is told is not the mode but mean and spread of the posterior about it, because the posterior of a small cohesion has
-//! one long end: normal distributions are mixed along ln c, and along ln K or φ where that is not known well. The mode is given
+//! one long end: normal distributions are mixed along ln c, and along ln K and φ where they are not known well. The mode is given
 //! beside them.
 //!
 //! Flat beliefs of sinkage and slip are beliefs in slip and load, which do not depend on the soil. η is held at the mean of

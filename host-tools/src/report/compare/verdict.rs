@@ -67,19 +67,21 @@ fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
     };
     let ranked = told.iter().filter(|compared| compared.soils_differ).count();
     let (lost, lost_one_soil) = (lost(true), lost(false));
-    let mut text = format!(
-        "{}: no method that claims to tell it has a median error below that of map, beyond the chance of the cases drawn, in \
-         {} of {ranked} situations in which the model is right, soils differ and some method tells it",
-        symbol(parameter),
-        ranked - lost.len(),
-    );
+    let mut clauses = Vec::new();
+    if ranked > 0 {
+        clauses.push(format!(
+            "no method that claims to tell it has a median error below that of map, beyond the chance of the cases drawn, in \
+             {} of {ranked} situations in which the model is right, soils differ and some method tells it",
+            ranked - lost.len()
+        ));
+    }
     if !lost.is_empty() {
-        text += &format!("; but {}", lost.join("; "));
+        clauses.push(format!("but {}", lost.join("; ")));
     }
     if !lost_one_soil.is_empty() {
-        text += &format!("; where the soil is always the same, which ranks nobody, {}", lost_one_soil.join("; "));
+        clauses.push(format!("where the soil is always the same, which ranks nobody, {}", lost_one_soil.join("; ")));
     }
-    Some(text)
+    (!clauses.is_empty()).then(|| format!("{}: {}", symbol(parameter), clauses.join("; ")))
 }
 
 fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
