@@ -88,6 +88,9 @@ fn sum_over<S: Scalar, const N: usize>(
     }
 }
 
+/// What is done with a fit, the distribution about it and the width of the strip that it stands for.
+type Visit<'a, S, const N: usize> = dyn FnMut(&Fit<S, N>, &Normal<S>, S) + 'a;
+
 /// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the
 /// distribution about each and the distance of the steps; `middle` alone where the unknown is held. Returns how many steps
 /// the descents took.
@@ -96,7 +99,7 @@ fn along<S: Scalar, const N: usize>(
     middle: &Fit<S, N>,
     held: &Held,
     line: &Line<S>,
-    visit: &mut dyn FnMut(&Fit<S, N>, &Normal<S>, S),
+    visit: &mut Visit<'_, S, N>,
 ) -> u16 {
     let about_middle = Normal::new(middle, &holding(held, line.place));
     if held.get(line.place).copied().unwrap_or(true) {
