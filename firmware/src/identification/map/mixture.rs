@@ -51,9 +51,11 @@ pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode:
     let cohesion = Line { place: COHESION, spacing: S::constant(0.8), reach: 8, depth: S::constant(6.0) };
     let modulus = Line { place: MODULUS, spacing: S::constant(1.5), reach: 4, depth: S::constant(4.0) };
     let friction = Line { place: FRICTION, ..modulus };
-    let given_cohesion = holding(&known, COHESION);
+    let given_cohesion = Normal::new(mode, &holding(&known, COHESION)).variances();
     let wide = |line: Line<S>, least: f64| {
-        (deviation(unknowns, mode, &given_cohesion, line.place) > S::constant(least)).then_some(line)
+        let variance = given_cohesion.get(line.place).copied().unwrap_or(S::zero());
+        let std = variance.sqrt() * unknowns.slope(line.place, &mode.state.point);
+        (std > S::constant(least)).then_some(line)
     };
     let lines = [Some(cohesion), wide(modulus, WIDE_MODULUS), wide(friction, WIDE_ANGLE)];
     let mut sum = Sum::about(unknowns, &mode.state.point);
@@ -76,7 +78,7 @@ fn sum_over<S: Scalar, const N: usize>(
         [Some(line), rest @ ..] if !sum.is_little(normal, width) => {
             let given = holding(held, line.place);
             let mut inner = 0;
-            let steps = along(problem, fit, held, line, &mut |fit, normal, own| {
+            let steps = along(problem, (fit, normal), held, line, &mut |fit, normal, own| {
                 inner += sum_over(problem, (fit, normal), &given, rest, width * own, sum);
             });
             steps + inner
@@ -91,26 +93,26 @@ fn sum_over<S: Scalar, const N: usize>(
 /// What is done with a fit, the distribution about it and the width of the strip that it stands for.
 type Visit<'a, S, const N: usize> = dyn FnMut(&Fit<S, N>, &Normal<S>, S) + 'a;
 
-/// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns fitted anew, with the
-/// distribution about each and the distance of the steps; `middle` alone where the unknown is held. Returns how many steps
-/// the descents took.
+/// Visits fits in equal steps to both sides of `middle` along an axis, all other unknowns that are not held fitted anew, with
+/// the distribution about each and the distance of the steps; `middle` alone where the unknown is held. `about` is the
+/// distribution about `middle` before the axis is held. Returns how many steps the descents took.
 fn along<S: Scalar, const N: usize>(
     problem: &Problem<'_, S>,
-    middle: &Fit<S, N>,
+    (middle, about): (&Fit<S, N>, &Normal<S>),
     held: &Held,
     line: &Line<S>,
     visit: &mut Visit<'_, S, N>,
 ) -> u16 {
-    let about_middle = Normal::new(middle, &holding(held, line.place));
     if held.get(line.place).copied().unwrap_or(true) {
-        visit(middle, &about_middle, S::one());
+        visit(middle, about, S::one());
         return 0;
     }
-    let column = Normal::new(middle, held).covariances(line.place);
+    let column = about.covariances(line.place);
     let variance = column.get(line.place).copied().unwrap_or(S::one());
     let width = line.spacing * variance.sqrt().min(S::one());
     let towards = column.map(|covariance| covariance * width / variance);
     let held = holding(held, line.place);
+    let about_middle = Normal::new(middle, &held);
     let bounds = problem.forward.unknowns.bounds(line.place);
     let floor = about_middle.ln_evidence - line.depth;
     let patience = Patience { steps: 4, gain: S::constant(1e-2), damping: S::constant(1e-3) };
@@ -155,12 +157,6 @@ fn holding(held: &Held, place: usize) -> Held {
         *slot = true;
     }
     more
-}
-
-/// Standard deviation of an unknown about a fit, in the unit of its belief; zero where it is held.
-fn deviation<S: Scalar, const N: usize>(unknowns: &Unknowns<S>, fit: &Fit<S, N>, held: &Held, place: usize) -> S {
-    let variance = Normal::new(fit, held).variances().get(place).copied().unwrap_or(S::zero());
-    variance.sqrt() * unknowns.slope(place, &fit.state.point)
 }
 
 /// The mixture as it grows: weighted sums about values near its middle, the weights over the greatest so far.
