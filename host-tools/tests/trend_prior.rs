@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use kapvik_firmware::soil::trend::{BENT_BY_LOAD, MISFIT, OFFSET, SINKAGE_TERMS, TERMS};
+use kapvik_firmware::soil::trend::{BENDS, BENT_BY_LOAD, Bend, MISFIT, OFFSET, SINKAGE_TERMS, TERMS};
 use kapvik_firmware::soil::trend_prior::{Known, RESISTANCE, SINKAGE, SINKAGE_EXPECTED, TORQUE, TORQUE_ALONE};
 use kapvik_firmware::wheel_state::WheelState;
 use kapvik_host::train::dataset::stream;
@@ -19,18 +19,24 @@ const WHEELS: usize = 40;
 /// Where the coefficients of (T/r − DP)/W, of ln(z/r) and of T/(rW) stand in one list, and the end of the list.
 const PLACES: [usize; 4] = [0, TERMS, TERMS + SINKAGE_TERMS, 2 * TERMS + SINKAGE_TERMS];
 
-/// Powers of u, q and u q, of which the sinkage has fewer, as combinations of Legendre's polynomials: a column a power.
+/// Powers of the slip's measure, that of the load and the product, of which the sinkage has fewer, as combinations of Legendre's polynomials: a column a power.
 fn powers_by_legendre(terms: usize) -> DMatrix<f64> {
     let mut all = DMatrix::identity(TERMS, TERMS);
     (all[(0, 2)], all[(2, 2)], all[(1, 3)], all[(3, 3)]) = (1.0 / 3.0, 2.0 / 3.0, 0.6, 0.4);
     if terms == TERMS { all } else { all.remove_column(5).remove_row(5).remove_column(3).remove_row(3) }
 }
 
-/// Wheels on one soil: regressors, of Legendre's polynomials; (T/r − DP)/W, ln(z/r) and T/(rW); mean of q².
+/// Wheels on one soil: of (T/r − DP)/W, ln(z/r) and T/(rW) the regressors, with Legendre's polynomials, and the values; mean
+/// of q².
 struct Drawn {
-    regressors: DMatrix<f64>,
-    values: [DVector<f64>; 3],
+    channels: [(DMatrix<f64>, DVector<f64>); 3],
     mean_square_q: f64,
+}
+
+/// The regressors of a force at a slip and a load.
+fn terms(Bend { slip, load, both }: Bend, u: f64, q: f64) -> [f64; TERMS] {
+    let (v, load) = (u + f64::from(slip) * q, q + f64::from(load) * q * q);
+    [1.0, v, (3.0 * v * v - 1.0) / 2.0, (5.0 * v * v * v - 3.0 * v) / 2.0, load, load * (u + f64::from(both) * q)]
 }
 
 /// Draws a soil and wheels at slips between two; none where it does not carry them all.
@@ -41,8 +47,7 @@ fn drawn(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> Option<Drawn> {
     let (mean_n, spread) = (prior::KAPVIK_LOADS_N.at(share()), prior::LOAD_SPREAD.at(share()));
     let offset = f64::from(OFFSET);
     let (least, most) = (libm::log(0.02 + offset), libm::log(0.70 + offset));
-    let mut regressors = DMatrix::zeros(WHEELS, TERMS);
-    let mut values = [(); 3].map(|()| DVector::zeros(WHEELS));
+    let (mut places, mut values) = (Vec::new(), [(); 3].map(|()| DVector::zeros(WHEELS)));
     for place in 0..WHEELS {
         let slip = low + (high - low) * share();
         let load_n = mean_n * (1.0 + spread * (2.0 * share() - 1.0));
@@ -52,25 +57,29 @@ fn drawn(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> Option<Drawn> {
             return None;
         }
         let u = (2.0 * libm::log(slip + offset) - least - most) / (most - least);
-        let q = 10.0 * libm::log(load_n / mean_n);
-        let terms = [1.0, u, (3.0 * u * u - 1.0) / 2.0, (5.0 * u * u * u - 3.0 * u) / 2.0, q, u * q];
-        terms.into_iter().enumerate().for_each(|(term, value)| regressors[(place, term)] = value);
+        places.push((u, 10.0 * libm::log(load_n / mean_n)));
         let torque = state.torque_nm / (wheel.radius_m * load_n);
         values[0][place] = torque - state.drawbar_pull_n / load_n;
         values[1][place] = libm::log(sinkage_m / wheel.radius_m);
         values[2][place] = torque;
     }
-    let mean_square_q = regressors.column(4).norm_squared() / WHEELS as f64;
-    Some(Drawn { regressors, values, mean_square_q })
+    let regressors = |bend: Bend| {
+        let terms = places.iter().flat_map(|&(u, q)| terms(bend, u, q));
+        DMatrix::from_row_iterator(WHEELS, TERMS, terms)
+    };
+    let of_sinkage = regressors(Bend { slip: 0.0, load: 0.0, both: 0.0 }).remove_column(5).remove_column(3);
+    let [of_resistance, of_torque] = BENDS.map(regressors);
+    let [resistance, sinkage, torque] = values;
+    let mean_square_q = places.iter().map(|(_, q)| q * q).sum::<f64>() / WHEELS as f64;
+    Some(Drawn { channels: [(of_resistance, resistance), (of_sinkage, sinkage), (of_torque, torque)], mean_square_q })
 }
 
 /// Coefficients of all three channels on one soil, of Legendre's polynomials; none where it does not carry all wheels.
 fn coefficients(index: usize) -> Option<DVector<f64>> {
-    let Drawn { regressors, values, .. } = drawn(&mut stream(7, index), [0.02, 0.70])?;
-    let fewer = regressors.clone().remove_column(5).remove_column(3);
+    let Drawn { channels, .. } = drawn(&mut stream(7, index), [0.02, 0.70])?;
     let mut all = Vec::new();
-    for (values, regressors) in values.iter().zip([&regressors, &fewer, &regressors]) {
-        all.extend(regressors.clone().svd(true, true).solve(values, 1e-12).ok()?.iter());
+    for (regressors, values) in channels {
+        all.extend(regressors.svd(true, true).solve(&values, 1e-12).ok()?.iter());
     }
     Some(DVector::from_vec(all))
 }
@@ -240,12 +249,12 @@ fn what_is_known_where_the_sinkage_is_not_seen_is_what_all_channels_say_together
 fn left_over(index: usize) -> Option<[f64; 3]> {
     let mut random = stream(8, index);
     let slips = [prior::SPREAD_SLIP_LOW, prior::SPREAD_SLIP_HIGH].map(|range| range.at(random.random()));
-    let Drawn { regressors, values, mean_square_q } = drawn(&mut random, slips)?;
-    let rest = |values: &DVector<f64>| {
-        let fit = regressors.clone().svd(true, true).solve(values, 1e-12).ok()?;
-        Some((values - &regressors * fit).norm_squared() / (WHEELS - TERMS) as f64)
+    let Drawn { channels: [resistance, _, torque], mean_square_q } = drawn(&mut random, slips)?;
+    let rest = |(regressors, values): (DMatrix<f64>, DVector<f64>)| {
+        let fit = regressors.clone().svd(true, true).solve(&values, 1e-12).ok()?;
+        Some((values - regressors * fit).norm_squared() / (WHEELS - TERMS) as f64)
     };
-    Some([mean_square_q, rest(&values[0])?, rest(&values[2])?])
+    Some([mean_square_q, rest(resistance)?, rest(torque)?])
 }
 
 #[test]
@@ -254,9 +263,8 @@ fn misfit_is_what_the_regressors_leave() {
     soils.sort_by(|a, b| a[0].total_cmp(&b[0]));
     for soils in soils.chunks(soils.len() / 6 + 1) {
         let mean = |pick: usize| soils.iter().map(|soil| soil[pick]).sum::<f64>() / soils.len() as f64;
-        let bent = soils.iter().map(|soil| soil[0] * soil[0]).sum::<f64>() / soils.len() as f64;
         for channel in 0..2 {
-            let said = f64::from(MISFIT[channel]) + f64::from(BENT_BY_LOAD[channel]) * bent;
+            let said = f64::from(MISFIT[channel]) + f64::from(BENT_BY_LOAD[channel]) * mean(0);
             let ratio = mean(1 + channel) / said;
             // Two numbers stand for all soils, slips and loads; some soils leave ten times as much as others.
             assert!((0.5..2.0).contains(&ratio), "channel {channel}, mean q² {:.2}: {ratio} of {said:e}", mean(0));

@@ -22,17 +22,41 @@ use super::WheelFeatures;
 use super::solve::solve;
 use super::trend_prior::{RESISTANCE, SINKAGE, SINKAGE_EXPECTED, TORQUE, TORQUE_ALONE};
 
-/// Regressors of resistance and torque: 1, u, u² and u³, u being a logarithmic measure of slip; q, ten times the deviation of
-/// ln W from its mean; and u q.
+/// Regressors of resistance and torque: 1, v, v² and v³, v being a logarithmic measure of slip that is longer for heavier
+/// wheels; a measure of load; and the product of both; see [`Bend`].
 pub const TERMS: usize = 6;
-/// Regressors of the sinkage: 1, u, u², q.
+/// Regressors of the sinkage: 1, u, u², q, where u is the measure of slip and q ten times the deviation of ln W from its mean.
 pub const SINKAGE_TERMS: usize = 4;
+
+/// How the regressors of a force are bent by the load, so that they follow loads that differ by half.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Change of v with q: v = u + `slip` q. A heavier wheel sinks in deeper, and shears more soil at the same slip.
+    pub slip: f32,
+    /// The measure of load is q + `load` q².
+    pub load: f32,
+    /// The measure of load is multiplied by u + `both` q.
+    pub both: f32,
+}
+
+/// Bends of (T/r − DP)/W and of T/(rW): those that leave the least misfit over soils under loads that differ by ±50 %, a
+/// twentieth and a third of what is left without.
+pub const BENDS: [Bend; 2] =
+    [Bend { slip: 0.031, load: 0.019, both: 0.031 }, Bend { slip: 0.055, load: 0.0, both: -0.015 }];
+
+/// Regressors of resistance and torque but for the constant and powers.
+struct Terms {
+    /// v.
+    slip: f32,
+    load: f32,
+    both: f32,
+}
 
 /// What the regressors leave of (T/r − DP)/W, T/(rW) and ln(z/r) without any noise: variances, of the first two under equal
 /// loads and means over soils whose wheels have slips spread as most training scenes have them.
-pub const MISFIT: [f32; 3] = [1.2e-8, 1.6e-8, 8.4e-6];
-/// What they leave more of the first two under loads that differ, over the square of the mean of q²: q² is no regressor.
-pub const BENT_BY_LOAD: [f32; 2] = [4.5e-8, 2.4e-8];
+pub const MISFIT: [f32; 3] = [9e-9, 1.2e-8, 8.4e-6];
+/// What they leave more of the first two under loads that differ, over the mean of q².
+pub const BENT_BY_LOAD: [f32; 2] = [5e-9, 5.3e-8];
 /// Variance of (T/r − DP)/W and of T/(rW) by noise of the load, which is common to both: that of W/W̄ times the mean square
 /// of how they change with ln W over the prior.
 const BY_LOAD: f32 = 0.18;
@@ -80,11 +104,12 @@ impl LoadSums {
 /// How the wheels' states go with slip and load: six coefficients of (T/r − DP)/W, the same six of T/(rW), four of ln(z/r), and
 /// three numbers about the loads.
 ///
-/// The six are those of Legendre's polynomials of degree 3, 0, 1 and 2 in u, of q, and of u q, the four those of degree 0, 1
-/// and 2 and of q; where the sinkage is not known they are what the forces let expect. Of the six the one of degree 0, the
+/// The six are those of Legendre's polynomials of degree 3, 0, 1 and 2 in v, of the load, and of the product, the four those
+/// of degree 0, 1 and 2 in u and of q; where the sinkage is not known they are what the forces let expect. Of the six the one of degree 0, the
 /// level, stands as its logarithm, and the torque's others are over its level: K shows in the shape of the torque against
 /// slip, whatever the strength, and a network learns a product more slowly than a sum. The three are the logarithms of
-/// the standard deviations of the torque's coefficients of q, if that of u q were known, and of u q; and the mean of ln W.
+/// the standard deviations of the torque's coefficients of the load, if that of the product were known, and of the product;
+/// and the mean of ln W.
 pub type Trend = [f32; TREND_FEATURES];
 
 /// A wheel's place on the regressors, and what it shows.
@@ -107,12 +132,12 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
     let mean_ln_load = share * loads.sum;
     // The mean of q².
     let spread = 100.0 * (share * loads.squares - mean_ln_load * mean_ln_load);
-    let bent = spread * spread;
     let [of_resistance, of_torque, of_sinkage] = MISFIT;
     let [resistance_bent, torque_bent] = BENT_BY_LOAD;
+    let [resistance_bend, torque_bend] = BENDS;
     // Variance that the torque has in common with the resistance, and what the resistance has besides.
     let common = at_most_huge(noise.torque * noise.torque + BY_LOAD * noise.load * noise.load);
-    let besides = at_most_huge(noise.pull * noise.pull + of_resistance + resistance_bent * bent);
+    let besides = at_most_huge(noise.pull * noise.pull + of_resistance + resistance_bent * spread);
     let information = 1.0 / (common + besides);
     let mut rows = Vec::<Row, WHEELS>::new();
     for wheel in wheels.iter().take(WHEELS) {
@@ -120,7 +145,7 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
         let _ = rows.push(Row::new(wheel, mean_ln_load, information));
     }
     let mut resistance = RESISTANCE.shift;
-    fit_forces(&RESISTANCE.precision, &mut resistance, &rows);
+    fit_forces(&RESISTANCE.precision, &mut resistance, &rows, resistance_bend);
 
     let mut sinkage = SINKAGE.shift;
     let (known, mut torque) = if let Some(std) = noise.sinkage {
@@ -144,16 +169,17 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
     };
     // The share of what is left of the resistance that belongs to the torque, too.
     let shared = common * information;
-    let level = shared * besides + of_torque + torque_bent * bent;
+    let level = shared * besides + of_torque + torque_bent * spread;
     let [constant, first, second, third, load, both] = resistance;
     let by_slip = BY_SLIP * noise.slip * noise.slip;
     for (row, [_, torque, ..]) in rows.iter_mut().zip(wheels) {
-        let fitted = constant + row.u * (first + row.u * (second + row.u * third)) + row.q * (load + row.u * both);
+        let Terms { slip, load: by_load, both: by_both } = row.terms(resistance_bend);
+        let fitted = constant + slip * (first + slip * (second + slip * third)) + by_load * load + by_both * both;
         let square = row.shifted * row.shifted;
         row.value = torque - shared * (row.value - fitted);
         row.information = square / (level * square + by_slip);
     }
-    let precisions = fit_forces(known, &mut torque, &rows);
+    let precisions = fit_forces(known, &mut torque, &rows, torque_bend);
     if noise.sinkage.is_none() {
         // What the forces let expect: a network can go on from there as from what was seen.
         sinkage = SINKAGE_EXPECTED.shift;
@@ -179,6 +205,12 @@ impl Row {
         let shifted = at_least(slip, 0.01) + OFFSET;
         let u = (math::ln(shifted) + 1.275_523) * 0.973_651;
         Self { u, q: 10.0 * (ln_load - mean_ln_load), shifted, value: torque - pull, information }
+    }
+
+    #[inline(always)]
+    fn terms(&self, bend: Bend) -> Terms {
+        let load = self.q + bend.load * self.q * self.q;
+        Terms { slip: self.u + bend.slip * self.q, load, both: load * (self.u + bend.both * self.q) }
     }
 }
 
@@ -213,33 +245,36 @@ fn by_legendre([constant, first, second, third, load, both]: [f32; TERMS]) -> [f
 /// product of what is known with the mean. Returns the precisions of the last two, those behind them known.
 // One copy in the image for both channels.
 #[inline(never)]
-fn fit_forces(known: &[[f32; TERMS]; TERMS], right: &mut [f32; TERMS], rows: &[Row]) -> [f32; 2] {
-    // Sums of uᵏ, uᵏ q and uᵏ q² over the wheels: 15 make up the 21 products of terms.
-    let ([mut s0, mut s1, mut s2, mut s3, mut s4, mut s5, mut s6], [mut m0, mut m1, mut m2, mut m3, mut m4]) =
-        ([0.0; 7], [0.0; 5]);
-    let [mut l0, mut l1, mut l2] = [0.0; 3];
+fn fit_forces(known: &[[f32; TERMS]; TERMS], right: &mut [f32; TERMS], rows: &[Row], bend: Bend) -> [f32; 2] {
+    // Sums of vᵏ, of vᵏ times the load and of vᵏ times the product, and of squares and products of these two.
+    let ([mut s0, mut s1, mut s2, mut s3, mut s4, mut s5, mut s6], [mut m0, mut m1, mut m2, mut m3]) =
+        ([0.0; 7], [0.0; 4]);
+    let ([mut n0, mut n1, mut n2, mut n3], [mut l0, mut l1, mut l2]) = ([0.0; 4], [0.0; 3]);
     let [mut r0, mut r1, mut r2, mut r3, mut r4, mut r5] = *right;
-    for Row { u, q, value, information, .. } in rows {
-        let w0 = *information;
-        let (w1, v0) = (w0 * u, w0 * q);
-        let (w2, v1) = (w1 * u, w1 * q);
-        let (w3, v2) = (w2 * u, w2 * q);
-        let w4 = w3 * u;
-        let w5 = w4 * u;
+    for row in rows {
+        let Terms { slip, load, both } = row.terms(bend);
+        let (w0, value) = (row.information, row.value);
+        let w1 = w0 * slip;
+        let w2 = w1 * slip;
+        let w3 = w2 * slip;
+        let w4 = w3 * slip;
+        let w5 = w4 * slip;
+        let (of_load, of_both) = (w0 * load, w0 * both);
         (s0, s1, s2, s3) = (s0 + w0, s1 + w1, s2 + w2, s3 + w3);
-        (s4, s5, s6) = (s4 + w4, s5 + w5, s6 + w5 * u);
-        (m0, m1, m2, m3, m4) = (m0 + v0, m1 + v1, m2 + v2, m3 + w3 * q, m4 + w4 * q);
-        (l0, l1, l2) = (l0 + v0 * q, l1 + v1 * q, l2 + v2 * q);
+        (s4, s5, s6) = (s4 + w4, s5 + w5, s6 + w5 * slip);
+        (m0, m1, m2, m3) = (m0 + of_load, m1 + w1 * load, m2 + w2 * load, m3 + w3 * load);
+        (n0, n1, n2, n3) = (n0 + of_both, n1 + w1 * both, n2 + w2 * both, n3 + w3 * both);
+        (l0, l1, l2) = (l0 + of_load * load, l1 + of_load * both, l2 + of_both * both);
         (r0, r1, r2, r3) = (r0 + w0 * value, r1 + w1 * value, r2 + w2 * value, r3 + w3 * value);
-        (r4, r5) = (r4 + v0 * value, r5 + v1 * value);
+        (r4, r5) = (r4 + of_load * value, r5 + of_both * value);
     }
     *right = [r0, r1, r2, r3, r4, r5];
     // Symmetric: below the diagonal nobody looks.
     let mut left = [
-        [s0, s1, s2, s3, m0, m1],
-        [0.0, s2, s3, s4, m1, m2],
-        [0.0, 0.0, s4, s5, m2, m3],
-        [0.0, 0.0, 0.0, s6, m3, m4],
+        [s0, s1, s2, s3, m0, n0],
+        [0.0, s2, s3, s4, m1, n1],
+        [0.0, 0.0, s4, s5, m2, n2],
+        [0.0, 0.0, 0.0, s6, m3, n3],
         [0.0, 0.0, 0.0, 0.0, l0, l1],
         [0.0, 0.0, 0.0, 0.0, 0.0, l2],
     ];
@@ -271,7 +306,7 @@ fn fit_sinkage<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::{LoadSums, OFFSET, SINKAGE_TERMS, TERMS, Trend, TrendNoise, WheelFeatures};
+    use super::{BENDS, Bend, LoadSums, OFFSET, SINKAGE_TERMS, TERMS, Trend, TrendNoise, WheelFeatures};
 
     fn trend(wheels: &[WheelFeatures], noise: TrendNoise) -> Trend {
         let mut loads = LoadSums::default();
@@ -282,11 +317,11 @@ mod tests {
     /// Mean coefficients over the training prior, of Legendre's polynomials of degree 3, 0, 1 and 2, of q, and of u q: least
     /// squares, soil by soil, in f64.
     const MEANS: [[f32; TERMS]; 2] = [
-        [0.002_600, 0.331_077, 0.010_708, 0.006_284, 0.010_979, 0.000_702],
-        [-0.004_495, 0.321_455, 0.125_487, 0.009_559, 0.008_123, -0.004_399],
+        [0.002_579, 0.330_678, 0.010_596, 0.006_308, 0.010_733, -0.000_126],
+        [-0.004_183, 0.320_073, 0.125_643, 0.009_361, 0.001_276, -0.005_283],
     ];
     /// The same of ln(z/r), of degree 0, 1 and 2 and of q.
-    const MEAN_OF_SINKAGE: [f32; SINKAGE_TERMS] = [-1.455_16, 0.021_102, 0.018_406, 0.064_803];
+    const MEAN_OF_SINKAGE: [f32; SINKAGE_TERMS] = [-1.453_11, 0.021_135, 0.018_307, 0.064_809];
 
     /// Six wheels whose channels are known combinations of the regressors; Legendre's polynomials written out anew.
     fn wheels([resistance, torque]: [[f32; TERMS]; 2], sinkage: Option<[f32; SINKAGE_TERMS]>) -> Vec<WheelFeatures> {
@@ -296,13 +331,18 @@ mod tests {
         let wheel = |(slip, ln_load): (f32, f32)| {
             let u = (2.0 * (slip + OFFSET).ln() - least - most) / (most - least);
             let q = 10.0 * ln_load;
-            let terms = [(5.0 * u * u * u - 3.0 * u) / 2.0, 1.0, u, (3.0 * u * u - 1.0) / 2.0, q, u * q];
+            let terms = |Bend { slip, load, both }| {
+                let (v, load, u) = (u + slip * q, q + load * q * q, u + both * q);
+                [(5.0 * v * v * v - 3.0 * v) / 2.0, 1.0, v, (3.0 * v * v - 1.0) / 2.0, load, load * u]
+            };
             let sum = |coefficients: &[f32], terms: &[f32]| -> f32 {
                 terms.iter().zip(coefficients).map(|(term, coefficient)| term * coefficient).sum()
             };
-            let torque = sum(&torque, &terms);
-            let sinkage = sinkage.map_or(0.0, |sinkage| sum(&sinkage, &terms[1..]).exp());
-            [torque - sum(&resistance, &terms), torque, slip, sinkage, ln_load]
+            let [of_resistance, of_torque] = BENDS.map(terms);
+            let torque = sum(&torque, &of_torque);
+            let plain = terms(Bend { slip: 0.0, load: 0.0, both: 0.0 });
+            let sinkage = sinkage.map_or(0.0, |sinkage| sum(&sinkage, &plain[1..]).exp());
+            [torque - sum(&resistance, &of_resistance), torque, slip, sinkage, ln_load]
         };
         slips.into_iter().zip(ln_loads).map(wheel).collect()
     }
