@@ -57,7 +57,7 @@ fn normal_exp(x: f64) -> f64 {
 /// Natural logarithm; NaN below zero.
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
-    if x >= f64::MIN_POSITIVE && x <= f64::MAX { normal_ln(x) } else { ln_of_edge(x) }
+    if (f64::MIN_POSITIVE..=f64::MAX).contains(&x) { normal_ln(x) } else { ln_of_edge(x) }
 }
 
 #[cold]
