@@ -33,6 +33,7 @@ mod problem;
 mod row_terms;
 mod run_sums;
 mod run_terms;
+mod slices;
 mod start;
 mod state;
 mod tempering;

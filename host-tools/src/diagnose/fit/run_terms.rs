@@ -7,6 +7,7 @@ use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel};
 use super::problem::Problem;
 use super::row_terms::{RowTerms, shift_by};
 use super::run_sums::RunSums;
+use super::slices::add_times;
 use super::state::{Scales, State};
 
 /// What a run says of the parameters once latents and offsets follow them.
@@ -87,17 +88,14 @@ impl RunTerms {
         self.offset_covariance = ChannelMatrix::component_mul(&factor.inverse(), &(mask * mask.transpose()));
         for c in (0..CHANNELS).filter(|&c| self.active[c]) {
             let mut following = self.following.column_mut(c);
+            let following = following.as_mut_slice();
             following.fill(0.0);
             for d in (0..CHANNELS).filter(|&d| self.active[d]) {
-                following.axpy(self.offset_covariance[(d, c)], &self.cross.column(d), 1.0);
+                add_times(following, self.offset_covariance[(d, c)], self.cross.column(d).as_slice());
             }
-            self.pull.axpy(-self.offset_pull[c], &following, 1.0);
-            // By slices: the matrices are too small for anything cleverer.
-            let following = following.as_slice();
+            add_times(self.pull.as_mut_slice(), -self.offset_pull[c], following);
             for (mut column, cross) in self.information.column_iter_mut().zip(self.cross.column(c).iter()) {
-                for (entry, following) in column.as_mut_slice().iter_mut().zip(following) {
-                    *entry -= cross * following;
-                }
+                add_times(column.as_mut_slice(), -cross, following);
             }
         }
     }
