@@ -137,7 +137,8 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     fn to_f32(self) -> f32 {
         self.value.to_f32()
     }
-    #[inline(always)]
+    // The target has too few registers for a copy in every place that uses it.
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.through(sin, cos), self.through(cos, -sin))

@@ -25,7 +25,8 @@ impl<S: Scalar> ShearStress<S> {
     }
 
     /// τ, Pa, under the normal stress σ (Pa) at the displacement q = a j / r.
-    #[inline(always)]
+    // The target has too few registers for a copy in every place that uses it.
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn at(&self, normal_pa: S, displacement: S) -> S {
         let held_pa = self.strength_pa(normal_pa) * self.mobilised(displacement.abs());
         if displacement < S::zero() { -held_pa } else { held_pa }
