@@ -137,6 +137,8 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     fn to_f32(self) -> f32 {
         self.value.to_f32()
     }
+    // The target has too few registers for a copy in every place that uses it.
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.through(sin, cos), self.through(cos, -sin))
@@ -146,10 +148,12 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         let sine = (S::one() - self.value * self.value).sqrt();
         self.through(self.value.acos(), if sine == S::zero() { S::zero() } else { -S::one() / sine })
     }
+    #[inline(always)]
     fn exp(self) -> Self {
         let value = self.value.exp();
         self.through(value, value)
     }
+    #[inline(always)]
     fn ln(self) -> Self {
         self.through(self.value.ln(), S::one() / self.value)
     }
@@ -166,6 +170,7 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         let root = self.value.sqrt();
         self.through(root, if root == S::zero() { S::zero() } else { S::constant(0.5) / root })
     }
+    #[inline(always)]
     fn abs(self) -> Self {
         if self.value < S::zero() { -self } else { self }
     }

@@ -8,7 +8,7 @@ use crate::math;
 
 /// A real number with the elementary functions that the wheel–soil equations need.
 ///
-/// Each implementation gives the same bits on every target: `f64` calls `libm`, `f32` calls [`crate::math`].
+/// Each implementation gives the same bits on every target: `f64` has those of `libm`, `f32` calls [`crate::math`].
 pub trait Scalar:
     Copy
     + Debug
@@ -102,17 +102,20 @@ impl Scalar for f64 {
     fn to_f32(self) -> f32 {
         self as f32
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        libm::sincos(self)
+        math::double::sin_cos(self)
     }
     fn acos(self) -> Self {
         libm::acos(self)
     }
+    #[inline]
     fn exp(self) -> Self {
-        libm::exp(self)
+        math::double::exp(self)
     }
+    #[inline]
     fn ln(self) -> Self {
-        libm::log(self)
+        math::double::ln(self)
     }
     fn powf(self, exponent: Self) -> Self {
         libm::pow(self, exponent)

@@ -5,6 +5,10 @@ use std::process::ExitCode;
 use clap::Parser;
 use kapvik_host::commands::Command;
 
+/// Fits make and drop many small vectors; this allocator takes half of the system's time for them.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Soil from a rover's own wheels: the host side of the Kapvik estimator.
 #[derive(Parser)]
 #[command(name = "kapvik", version, about)]

@@ -14,7 +14,10 @@
 //! the stated range by `tests/math_exhaustive.rs`, which fails where a result is worse than stated here. Coefficients
 //! are our own minimax fits: linear programming on 600 to 3000 Chebyshev nodes in 40-digit arithmetic, each
 //! coefficient rounded to f32 in turn from the lowest degree, the rest refitted. Each file states interval, weight, error.
+//!
+//! What the host computes in double precision is in [`double`].
 
+pub mod double;
 mod exp;
 mod hyperbolic;
 mod limit;

@@ -23,6 +23,7 @@ impl<S: Scalar> NormalStress<S> {
     }
 
     /// σ, Pa, at a point that is `sunk` radii below the undisturbed surface.
+    #[inline(always)]
     pub fn at(&self, sunk: S) -> S {
         self.at_one_radius_pa * power(sunk, self.exponent)
     }
@@ -30,6 +31,7 @@ impl<S: Scalar> NormalStress<S> {
 
 /// baseⁿ for a base of zero or more: logarithm and exponential, which is cheaper than a correctly rounded power and as
 /// good here (the error is the rounding of n ln base).
+#[inline(always)]
 fn power<S: Scalar>(base: S, exponent: S) -> S {
     (exponent * base.max(S::constant(1e-30)).ln()).exp()
 }

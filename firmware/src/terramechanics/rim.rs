@@ -34,6 +34,8 @@ impl<S: Scalar> Rim<S> {
     /// The point at θ₁ − `from_entry_rad`.
     ///
     /// Both differences are taken as products, so that neither loses digits near the entry; one sine and cosine serve all.
+    // The target has too few registers for a copy in every place that uses it.
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn point(&self, from_entry_rad: S) -> RimPoint<S> {
         let (sin_half, cos_half) = (S::constant(0.5) * from_entry_rad).sin_cos();
         let chord = sin_half + sin_half;

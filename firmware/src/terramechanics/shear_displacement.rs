@@ -30,11 +30,13 @@ impl<S: Scalar> ShearDisplacement<S> {
     }
 
     /// q = a j / r at a point.
+    #[inline(always)]
     pub fn at(&self, point: &RimPoint<S>) -> S {
         self.slip * point.from_entry_rad + self.ground_share * (point.from_entry_rad - point.behind)
     }
 
     /// The same across the wheel per tangent of the slip angle: a j_y / (r tan β) = aV (θ₁ − θ).
+    #[inline(always)]
     pub fn across(&self, point: &RimPoint<S>) -> S {
         self.ground_share * point.from_entry_rad
     }

@@ -37,6 +37,7 @@ impl<S: Scalar> ShearLaw<S> for PlainShear<'_, S> {
         S::one()
     }
 
+    #[inline(always)]
     fn at(&self, normal_pa: S, point: &RimPoint<S>) -> Traction<S> {
         Traction { along_pa: self.stress.at(normal_pa, self.displacement.at(point)), across_pa: S::zero() }
     }
@@ -118,6 +119,7 @@ impl<S: Scalar> ShearLaw<S> for AlteredShear<'_, S> {
         self.conditions.radius_ratio.unwrap_or(S::one())
     }
 
+    #[inline(always)]
     fn at(&self, normal_pa: S, point: &RimPoint<S>) -> Traction<S> {
         let along = self.displacement.at(point) + self.ahead;
         let Some(tan_slip_angle) = self.conditions.tan_slip_angle else {
@@ -133,6 +135,7 @@ impl<S: Scalar> ShearLaw<S> for AlteredShear<'_, S> {
 
 impl<S: Scalar> AlteredShear<'_, S> {
     /// The size of the stress at a displacement |q|, Pa.
+    #[inline(always)]
     fn held_pa(&self, normal_pa: S, displacement: S) -> S {
         let mobilised = self.stress.mobilised(displacement);
         let mobilised = self.conditions.hump.map_or(mobilised, |hump| hump.mobilised(mobilised));
@@ -143,6 +146,7 @@ impl<S: Scalar> AlteredShear<'_, S> {
 
 impl<S: Scalar> Hump<S> {
     /// The share that is mobilised where it would be 1 − e^(−j/K) without a peak: Wong's law, as a function of that.
+    #[inline(always)]
     fn mobilised(&self, plain: S) -> S {
         const E: f64 = core::f64::consts::E;
         let remaining = S::one() - plain;

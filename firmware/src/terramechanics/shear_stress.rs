@@ -25,17 +25,21 @@ impl<S: Scalar> ShearStress<S> {
     }
 
     /// τ, Pa, under the normal stress σ (Pa) at the displacement q = a j / r.
+    // The target has too few registers for a copy in every place that uses it.
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn at(&self, normal_pa: S, displacement: S) -> S {
         let held_pa = self.strength_pa(normal_pa) * self.mobilised(displacement.abs());
         if displacement < S::zero() { -held_pa } else { held_pa }
     }
 
     /// Coulomb's strength c + σ tan φ, Pa.
+    #[inline(always)]
     pub fn strength_pa(&self, normal_pa: S) -> S {
         self.cohesion_pa + normal_pa * self.tan_friction
     }
 
     /// The share of it that is mobilised at a displacement |q|.
+    #[inline(always)]
     pub fn mobilised(&self, displacement: S) -> S {
         S::one() - (-(displacement / self.scale)).exp()
     }

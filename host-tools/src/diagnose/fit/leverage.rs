@@ -8,6 +8,7 @@ use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel};
 use super::problem::Problem;
 use super::row_terms::RowTerms;
 use super::run_terms::RunTerms;
+use super::slices::add_times;
 use super::state::State;
 
 /// Variance of what the fit expects of each reading, offset included, times the reading's weight: its share of the degrees of
@@ -46,7 +47,7 @@ pub(super) fn spread(covariance: &DMatrix<f64>, by_parameter: &ParameterByChanne
         }
         along.fill(0.0);
         for (column, by) in covariance.column_iter().zip(by.iter()) {
-            along.axpy(*by, &column, 1.0);
+            add_times(along.as_mut_slice(), *by, column.as_slice());
         }
         for d in 0..=c {
             spread[(c, d)] = by_parameter.column(d).dot(&along);

@@ -104,10 +104,11 @@ fn inverse(matrix: &Matrix2<f64>) -> (Matrix2<f64>, f64) {
 
 /// Change of the predicted channels with a step of the parameters. What is not measured (no weight) does not count.
 pub(super) fn shift_by(slopes: &Derivatives, weight: &Channels, step: &[f64]) -> Channels {
-    Channels::from_fn(|c, _| {
-        if weight[c] == 0.0 {
-            return 0.0;
+    let mut shift = Channels::zeros();
+    for (derivatives, step) in slopes.by_parameter.iter().zip(step) {
+        for (shift, derivative) in shift.iter_mut().zip(derivatives) {
+            *shift += derivative * step;
         }
-        slopes.by_parameter.iter().zip(step).map(|(derivatives, step)| derivatives[c] * step).sum()
-    })
+    }
+    shift.zip_map(weight, |shift, weight| if weight == 0.0 { 0.0 } else { shift })
 }

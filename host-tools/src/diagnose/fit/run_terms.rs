@@ -3,15 +3,12 @@
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::model::Derivatives;
-use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel, Reading};
+use super::observation::{CHANNELS, ChannelMatrix, Channels, ParameterByChannel};
 use super::problem::Problem;
 use super::row_terms::{RowTerms, shift_by};
+use super::run_sums::RunSums;
+use super::slices::add_times;
 use super::state::{Scales, State};
-
-/// The channels before slip and load.
-const JUDGED: usize = Reading::JUDGED.len();
-/// Those before the side force.
-const SIDE: usize = Reading::SideForce.index();
 
 /// What a run says of the parameters once latents and offsets follow them.
 pub(super) struct RunTerms {
@@ -30,7 +27,9 @@ pub(super) struct RunTerms {
     pub pull: DVector<f64>,
     /// ln det of all that was eliminated.
     pub ln_det: f64,
-    sums: Sums,
+    sums: RunSums,
+    /// Mixed curvature of parameters and offsets.
+    cross: ParameterByChannel,
 }
 
 impl RunTerms {
@@ -41,7 +40,7 @@ impl RunTerms {
             places.map(|place| RowTerms::new(problem, state, scales, (run, place), damping)).collect();
         let active = active_offsets(problem, scales, run, &rows);
         let count = state.parameters.len();
-        let mut sums = Sums::new(count);
+        let mut sums = RunSums::new(count);
         for (row, slopes) in rows.iter().zip(&state.slopes[run]) {
             sums.add(row, slopes);
         }
@@ -54,6 +53,7 @@ impl RunTerms {
             pull: DVector::zeros(count),
             ln_det: 0.0,
             rows,
+            cross: sums.cross(count),
             sums,
         };
         terms.eliminate_offsets(&state.offsets[run], scales, damping);
@@ -62,8 +62,8 @@ impl RunTerms {
 
     /// Lets the offsets, of these standard deviations, follow the parameters.
     pub(super) fn eliminate_offsets(&mut self, offsets: &Channels, scales: &Scales, damping: f64) {
-        self.sums.whole(&mut self.information);
-        self.pull.copy_from(&self.sums.pull);
+        self.sums.information(&mut self.information);
+        self.sums.pull(&mut self.pull);
         self.ln_det = self.sums.ln_det;
         if !self.active.contains(&true) {
             return;
@@ -88,18 +88,21 @@ impl RunTerms {
         self.offset_covariance = ChannelMatrix::component_mul(&factor.inverse(), &(mask * mask.transpose()));
         for c in (0..CHANNELS).filter(|&c| self.active[c]) {
             let mut following = self.following.column_mut(c);
+            let following = following.as_mut_slice();
             following.fill(0.0);
             for d in (0..CHANNELS).filter(|&d| self.active[d]) {
-                following.axpy(self.offset_covariance[(d, c)], &self.sums.cross.column(d), 1.0);
+                add_times(following, self.offset_covariance[(d, c)], self.cross.column(d).as_slice());
             }
-            self.information.ger(-1.0, &following, &self.sums.cross.column(c), 1.0);
-            self.pull.axpy(-self.offset_pull[c], &following, 1.0);
+            add_times(self.pull.as_mut_slice(), -self.offset_pull[c], following);
+            for (mut column, cross) in self.information.column_iter_mut().zip(self.cross.column(c).iter()) {
+                add_times(column.as_mut_slice(), -cross, following);
+            }
         }
     }
 
     /// Steps of the offsets and latents that go with a step of the parameters.
     pub(super) fn follow(&self, slopes: &[Derivatives], step: &DVector<f64>) -> (Channels, Vec<Vector2<f64>>) {
-        let offset = self.offset_covariance * (self.offset_pull - self.sums.cross.tr_mul(step));
+        let offset = self.offset_covariance * (self.offset_pull - self.cross.tr_mul(step));
         let latents = self
             .rows
             .iter()
@@ -113,80 +116,4 @@ impl RunTerms {
 fn active_offsets(problem: &Problem<'_>, scales: &Scales, run: usize, rows: &[RowTerms]) -> [bool; CHANNELS] {
     let large = problem.runs[run].rows.len() >= problem.options.smallest_run_with_offset;
     std::array::from_fn(|c| large && scales.offset[c] > 0.0 && rows.iter().any(|row| row.weight[c] > 0.0))
-}
-
-/// Sums over the rows of a run, offsets where they are.
-struct Sums {
-    /// Curvature along the parameters: its upper triangle.
-    information: DMatrix<f64>,
-    /// Mixed curvature of parameters and the channels' offsets.
-    cross: ParameterByChannel,
-    pull: DVector<f64>,
-    /// Curvature along the channels' offsets.
-    by_channel: ChannelMatrix,
-    /// Negative slope of the objective along them.
-    channel_pull: Channels,
-    /// ln det of the latents' information.
-    ln_det: f64,
-    /// Of the row at hand, the derivatives by each parameter.
-    derivatives: Vec<[f64; CHANNELS]>,
-}
-
-impl Sums {
-    fn new(count: usize) -> Self {
-        Self {
-            information: DMatrix::zeros(count, count),
-            cross: ParameterByChannel::zeros(count),
-            pull: DVector::zeros(count),
-            by_channel: ChannelMatrix::zeros(),
-            channel_pull: Channels::zeros(),
-            ln_det: 0.0,
-            derivatives: Vec::with_capacity(count),
-        }
-    }
-
-    fn add(&mut self, row: &RowTerms, slopes: &Derivatives) {
-        self.by_channel += row.information;
-        self.channel_pull += row.pull;
-        self.ln_det += row.ln_det;
-        let is_seen: [bool; CHANNELS] = std::array::from_fn(|c| row.weight[c] > 0.0);
-        let measured = |by: &[f64; CHANNELS]| std::array::from_fn(|c| if is_seen[c] { by[c] } else { 0.0 });
-        self.derivatives.clear();
-        self.derivatives.extend(slopes.by_parameter.iter().map(measured));
-        // Slip and load come last, and but for a few effects of their sensors no parameter changes what is read of them; before
-        // them the side force, which few campaigns measure.
-        let is_done = |first: usize| self.derivatives.iter().all(|by| by[first..].iter().all(|slope| *slope == 0.0));
-        if is_done(SIDE) {
-            self.add_first::<SIDE>(row);
-        } else if is_done(JUDGED) {
-            self.add_first::<JUDGED>(row);
-        } else {
-            self.add_first::<CHANNELS>(row);
-        }
-    }
-
-    /// Adds what the parameters do in the first `N` channels, which is all that they do.
-    fn add_first<const N: usize>(&mut self, row: &RowTerms) {
-        for (p, by_p) in self.derivatives.iter().enumerate() {
-            let mut informed = [0.0; CHANNELS];
-            for (by, shared) in by_p[..N].iter().zip(row.information.column_iter()) {
-                for (informed, shared) in informed.iter_mut().zip(shared.iter()) {
-                    *informed += shared * by;
-                }
-            }
-            self.pull[p] += (0..N).map(|c| by_p[c] * row.pull[c]).sum::<f64>();
-            for (c, informed) in informed.iter().enumerate() {
-                self.cross[(p, c)] += informed;
-            }
-            for (sum, by_q) in self.information.column_mut(p).iter_mut().zip(&self.derivatives[..=p]) {
-                *sum += (0..N).map(|c| informed[c] * by_q[c]).sum::<f64>();
-            }
-        }
-    }
-
-    /// The curvature along the parameters, both triangles.
-    fn whole(&self, information: &mut DMatrix<f64>) {
-        information.copy_from(&self.information);
-        information.fill_lower_triangle_with_upper_triangle();
-    }
 }
