@@ -47,8 +47,8 @@ fn drawn(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> Option<Drawn> {
     let (mean_n, spread) = (prior::KAPVIK_LOADS_N.at(share()), prior::LOAD_SPREAD.at(share()));
     let offset = f64::from(OFFSET);
     let (least, most) = (libm::log(0.02 + offset), libm::log(0.70 + offset));
-    let (mut places, mut values) = (Vec::new(), [(); 3].map(|()| DVector::zeros(WHEELS)));
-    for place in 0..WHEELS {
+    let (mut places, mut seen) = (Vec::new(), Vec::new());
+    for _ in 0..WHEELS {
         let slip = low + (high - low) * share();
         let load_n = mean_n * (1.0 + spread * (2.0 * share() - 1.0));
         let state = WheelState::under_load(&wheel, &soil, slip, load_n).ok()?;
@@ -59,19 +59,18 @@ fn drawn(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> Option<Drawn> {
         let u = (2.0 * libm::log(slip + offset) - least - most) / (most - least);
         places.push((u, 10.0 * libm::log(load_n / mean_n)));
         let torque = state.torque_nm / (wheel.radius_m * load_n);
-        values[0][place] = torque - state.drawbar_pull_n / load_n;
-        values[1][place] = libm::log(sinkage_m / wheel.radius_m);
-        values[2][place] = torque;
+        seen.push([torque - state.drawbar_pull_n / load_n, libm::log(sinkage_m / wheel.radius_m), torque]);
     }
+    let values = |channel: usize| DVector::from_iterator(WHEELS, seen.iter().map(|values| values[channel]));
     let regressors = |bend: Bend| {
         let terms = places.iter().flat_map(|&(u, q)| terms(bend, u, q));
         DMatrix::from_row_iterator(WHEELS, TERMS, terms)
     };
     let of_sinkage = regressors(Bend { slip: 0.0, load: 0.0, both: 0.0 }).remove_column(5).remove_column(3);
     let [of_resistance, of_torque] = BENDS.map(regressors);
-    let [resistance, sinkage, torque] = values;
     let mean_square_q = places.iter().map(|(_, q)| q * q).sum::<f64>() / WHEELS as f64;
-    Some(Drawn { channels: [(of_resistance, resistance), (of_sinkage, sinkage), (of_torque, torque)], mean_square_q })
+    let channels = [(of_resistance, values(0)), (of_sinkage, values(1)), (of_torque, values(2))];
+    Some(Drawn { channels, mean_square_q })
 }
 
 /// Coefficients of all three channels on one soil, of Legendre's polynomials; none where it does not carry all wheels.
