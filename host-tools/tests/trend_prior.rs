@@ -19,7 +19,8 @@ const WHEELS: usize = 40;
 /// Where the coefficients of (T/r − DP)/W, of ln(z/r) and of T/(rW) stand in one list, and the end of the list.
 const PLACES: [usize; 4] = [0, TERMS, TERMS + SINKAGE_TERMS, 2 * TERMS + SINKAGE_TERMS];
 
-/// Powers of the slip's measure, that of the load and the product, of which the sinkage has fewer, as combinations of Legendre's polynomials: a column a power.
+/// Powers of the slip's measure, that of the load and the product, of which the sinkage has fewer, as combinations of Legendre's
+/// polynomials: a column a power.
 fn powers_by_legendre(terms: usize) -> DMatrix<f64> {
     let mut all = DMatrix::identity(TERMS, TERMS);
     (all[(0, 2)], all[(2, 2)], all[(1, 3)], all[(3, 3)]) = (1.0 / 3.0, 2.0 / 3.0, 0.6, 0.4);

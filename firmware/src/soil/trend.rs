@@ -39,14 +39,13 @@ pub struct Bend {
     pub both: f32,
 }
 
-/// Bends of (T/r − DP)/W and of T/(rW): those that leave the least misfit over soils under loads that differ by ±50 %, a
-/// twentieth and a third of what is left without.
+/// Bends of (T/r − DP)/W and of T/(rW): those that leave the least variance over soils under loads that differ by ±50 %, a
+/// fortieth and a third of what is left without.
 pub const BENDS: [Bend; 2] =
     [Bend { slip: 0.031, load: 0.019, both: 0.031 }, Bend { slip: 0.055, load: 0.0, both: -0.015 }];
 
-/// Regressors of resistance and torque but for the constant and powers.
+/// What the regressors of resistance and torque are made of: v, the measure of load, and the product of both.
 struct Terms {
-    /// v.
     slip: f32,
     load: f32,
     both: f32,
@@ -105,11 +104,11 @@ impl LoadSums {
 /// three numbers about the loads.
 ///
 /// The six are those of Legendre's polynomials of degree 3, 0, 1 and 2 in v, of the load, and of the product, the four those
-/// of degree 0, 1 and 2 in u and of q; where the sinkage is not known they are what the forces let expect. Of the six the one of degree 0, the
-/// level, stands as its logarithm, and the torque's others are over its level: K shows in the shape of the torque against
-/// slip, whatever the strength, and a network learns a product more slowly than a sum. The three are the logarithms of
-/// the standard deviations of the torque's coefficients of the load, if that of the product were known, and of the product;
-/// and the mean of ln W.
+/// of degree 0, 1 and 2 in u and of q; where the sinkage is not known they are what the forces let expect. Of the six the one
+/// of degree 0, the level, stands as its logarithm, and the torque's others are over its level: K shows in the shape of the
+/// torque against slip, whatever the strength, and a network learns a product more slowly than a sum. The three are the
+/// logarithms of the standard deviations of the torque's coefficients of the load, if that of the product were known, and of
+/// the product; and the mean of ln W.
 pub type Trend = [f32; TREND_FEATURES];
 
 /// A wheel's place on the regressors, and what it shows.
