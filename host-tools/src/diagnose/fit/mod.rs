@@ -8,9 +8,9 @@
 //! likelihood by Laplace's method: for a linear model without outliers it is the exact marginal one.
 //!
 //! From the ground up: `observation` and `model` are what a caller brings, `options` what one may ask for; `problem` and
-//! `state` hold both together; `row_terms`, `run_sums`, `run_terms` and `normal_equations` are the linear algebra; `bounds` keeps a step in
-//! its box; `levenberg_marquardt`, `tempering` and `variances` find the optimum, `outcome` describes it; `leave_out`,
-//! `measured_latents` and `predictive` predict runs that a fit has not seen; `multistart` fits from many places.
+//! `state` hold both together; `row_terms`, `run_sums`, `run_terms` and `normal_equations` are the linear algebra, on `slices`;
+//! `bounds` keeps a step in its box; `levenberg_marquardt`, `tempering` and `variances` find the optimum, `outcome` describes it;
+//! `leave_out`, `measured_latents` and `predictive` predict runs that a fit has not seen; `multistart` fits from many places.
 
 mod bend;
 mod bounds;
