@@ -7,6 +7,7 @@ use crate::filter::trial::{self, Scales, Trial};
 use crate::filter::{Gate, Gaussian, SigmaPointFilter};
 use crate::link::CHECKSUM;
 use crate::math;
+use crate::network::fixed_point::{FixedLayer, Pair, gated, rounded};
 use crate::network::{Layer, Numbers};
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
@@ -19,7 +20,7 @@ pub struct Fingerprint {
 }
 
 /// Everything that flight computes with, from the elementary functions up.
-pub const FINGERPRINTS: [Fingerprint; 12] = [
+pub const FINGERPRINTS: [Fingerprint; 13] = [
     Fingerprint {
         name: "sin_cos",
         compute: || sweep(|x, digest| digest.add_all([math::sin_cos(x).0, math::sin_cos(x).1])),
@@ -31,6 +32,7 @@ pub const FINGERPRINTS: [Fingerprint; 12] = [
     Fingerprint { name: "sqrt", compute: || sweep(|x, digest| digest.add(math::sqrt(x))) },
     Fingerprint { name: "tanh", compute: || sweep(|x, digest| digest.add(math::tanh(x))) },
     Fingerprint { name: "weighted_sums", compute: || sweep(weighted_sums) },
+    Fingerprint { name: "fixed_point", compute: || sweep(fixed_point) },
     Fingerprint { name: "wheel_forces", compute: || grid(forces) },
     Fingerprint { name: "sinkage_for_load", compute: || grid(sinkage) },
     Fingerprint { name: "filter_6_6", compute: filter::<6, 6> },
@@ -53,6 +55,10 @@ impl Digest {
     pub(crate) fn add(&mut self, value: f32) {
         let value = if value.is_nan() { f32::NAN } else { value };
         self.0.update(&value.to_bits().to_le_bytes());
+    }
+
+    fn add_word(&mut self, word: u32) {
+        self.0.update(&word.to_le_bytes());
     }
 
     pub(crate) fn add_all<const N: usize>(&mut self, values: [f32; N]) {
@@ -100,6 +106,38 @@ fn layer_sums<const I: usize, const O: usize>(input: f32, state: &mut u32, diges
 fn even(state: &mut u32) -> f32 {
     *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
     state.cast_signed() as f32 * (1.0 / 2_147_483_648.0)
+}
+
+/// Layers of whole numbers: as many quads of inputs as the target's loop has beginnings, and a gate. One input is
+/// swept, all else are any numbers, so that sums wrap around and saturate now and then.
+fn fixed_point(input: f32, digest: &mut Digest) {
+    let mut state = input.to_bits();
+    fixed_layer::<5, 1>(input, &mut state, digest);
+    fixed_layer::<2, 2>(input, &mut state, digest);
+    fixed_layer::<3, 1>(input, &mut state, digest);
+    fixed_layer::<4, 1>(input, &mut state, digest);
+}
+
+fn fixed_layer<const H: usize, const T: usize>(input: f32, state: &mut u32, digest: &mut Digest) {
+    let mut layer = FixedLayer::<H, T>::ZERO;
+    let weights = layer.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+    weights.iter_mut().for_each(|place| *place = Pair(word(state)));
+    layer.bias.as_flattened_mut().iter_mut().for_each(|place| *place = word(state).cast_signed());
+    layer.fraction_bits = word(state) % 16;
+    let swept = [input, even(state), even(state), even(state), even(state)];
+    let mut inputs = rounded::<H, _>([(&swept, 15), (&swept, 12)]);
+    inputs.iter_mut().skip(3).for_each(|quad| *quad = [Pair(word(state)), Pair(word(state))]);
+    let run = layer.run(&inputs);
+    run.as_flattened().iter().for_each(|pair| digest.add_word(pair.0));
+    let gate = [[Pair(word(state)), Pair(word(state))]; T];
+    gated(&gate, &run).as_flattened().iter().for_each(|pair| digest.add_word(pair.0));
+    digest.add_all(layer.outputs::<4>(&inputs));
+}
+
+/// The next of a row of 32-bit numbers; the lower half of the generator's is not even by itself.
+fn word(state: &mut u32) -> u32 {
+    even(state);
+    *state ^ *state >> 16
 }
 
 /// A wheel on three soils, braking to spinning, barely sunk to deep.

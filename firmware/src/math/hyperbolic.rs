@@ -18,7 +18,7 @@ const SATURATED: f32 = 8.0;
 /// D₁z + D₂z², z = x². No value of n/d gets it past 1, and as n/d goes to 2 the error of the quotient vanishes. Fitted on
 /// |x| ≤ 8 for the absolute error of the tangent, which is 1.7·10⁻⁷, the leading coefficients held at 1.
 #[inline]
-pub fn tanh(x: f32) -> f32 {
+pub const fn tanh(x: f32) -> f32 {
     const N: [f32; 2] = [0.027_050_784, 5.556_190_8e-5];
     const D: [f32; 2] = [0.110_383_18, 0.000_921_583_73];
     if !magnitude_between(x, SMALL, SATURATED) {

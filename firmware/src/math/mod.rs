@@ -47,6 +47,6 @@ const fn magnitude_between(x: f32, from: f32, to: f32) -> bool {
 
 /// Magnitude, exact. The sign of a NaN is cleared as well.
 #[inline]
-pub fn abs(x: f32) -> f32 {
+pub const fn abs(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0x7fff_ffff)
 }

@@ -3,6 +3,7 @@
 //! Nothing here knows what its inputs mean; [`crate::soil`] does. The build script compiles this folder, too, to
 //! reproduce the golden pairs of a table before it is frozen in.
 
+pub mod fixed_point;
 mod golden;
 mod layer;
 mod multiply_accumulate;
