@@ -13,7 +13,7 @@ use std::process::exit;
 use std::{env, fs};
 
 use kapvik_table_file::TableFile;
-use network::{FLOWN_PAIRS, GOLDEN_PAIRS, Numbers, PartVisitor, RoverTable, WheelTable, checksum};
+use network::{FLOWN_PAIRS, GOLDEN_PAIRS, PartVisitor, RoverTable, WheelTable, Words, checksum};
 
 /// Names another table than the one in the source tree; `none` builds without one, to train the first of a new shape.
 const OVERRIDE: &str = "KAPVIK_WEIGHTS";
@@ -71,27 +71,36 @@ struct Fill<'a> {
     wrong: Option<String>,
 }
 
-impl PartVisitor for Fill<'_> {
-    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Numbers) {
+impl Fill<'_> {
+    /// Fills a part from the block of its name; what it says of a block that does not fit.
+    fn fill(&self, name: &str, shape: &[usize], numbers: &mut impl Words) -> Result<&[u32], String> {
         let mut count = 0;
         numbers.for_each(&mut |_| count += 1);
-        let wrong = match self.file.block(name) {
-            None => Some(format!("the frozen table has no block {name}")),
-            Some(block) if block.shape != shape || block.words.len() != count => Some(format!(
+        let block = self.file.block(name).ok_or_else(|| format!("the frozen table has no block {name}"))?;
+        if block.shape != shape || block.words.len() != count {
+            return Err(format!(
                 "block {name} of the frozen table has shape {:?} and {} numbers, this build needs {shape:?} and {count}",
                 block.shape,
                 block.words.len()
-            )),
-            Some(block) => {
-                let mut words = block.words.iter();
-                numbers.for_each_mut(&mut |place| *place = words.next().map_or(0.0, |&word| f32::from_bits(word)));
-                block
-                    .words
-                    .iter()
-                    .any(|&word| !f32::from_bits(word).is_finite())
-                    .then(|| format!("block {name} of the frozen table holds a number that is not finite"))
-            }
+            ));
+        }
+        let mut words = block.words.iter();
+        numbers.for_each_mut(&mut |place| *place = words.next().copied().unwrap_or(0));
+        Ok(&block.words)
+    }
+}
+
+impl PartVisitor for Fill<'_> {
+    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Words) {
+        let finite = |words: &[u32]| match words.iter().all(|&word| f32::from_bits(word).is_finite()) {
+            true => Ok(()),
+            false => Err(format!("block {name} of the frozen table holds a number that is not finite")),
         };
+        let wrong = self.fill(name, shape, numbers).and_then(finite).err();
+        self.wrong = self.wrong.take().or(wrong);
+    }
+    fn whole_part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Words) {
+        let wrong = self.fill(name, shape, numbers).err();
         self.wrong = self.wrong.take().or(wrong);
     }
 }
@@ -104,6 +113,9 @@ fn fill(file: &TableFile, wheel: &mut WheelTable, rover: &mut RoverTable) -> Res
 }
 
 fn prove(wheel: &WheelTable, rover: &RoverTable) -> Result<(), String> {
+    if !rover.network.head.cannot_overflow() {
+        return Err("block rover.network.head of the frozen table has sums that can overflow 32 bits".into());
+    }
     for (name, reproduced) in [("wheel", wheel.golden_reproduced()), ("rover", rover.golden_reproduced())] {
         if reproduced != GOLDEN_PAIRS {
             let missed = GOLDEN_PAIRS - reproduced;

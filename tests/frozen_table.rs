@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::Output;
 
 use kapvik_firmware::frozen;
-use kapvik_firmware::network::{FLOWN_PAIRS, Numbers, checksum};
+use kapvik_firmware::network::{FLOWN_PAIRS, Words, checksum};
 use kapvik_firmware::self_test;
 use kapvik_host::process::{command, workspace};
 use kapvik_table_file::{TableError, TableFile};
@@ -46,9 +46,9 @@ fn flip_all<T: Numbers + Clone + Sync>(table: &T) -> (usize, usize) {
     let sound = checksum(table);
     let flip = |copy: &mut T, bit: usize| {
         let mut place = 0;
-        copy.for_each_mut(&mut |number| {
+        copy.for_each_mut(&mut |word| {
             if place == bit / 32 {
-                *number = f32::from_bits(number.to_bits() ^ (1 << (bit % 32)));
+                *word ^= 1 << (bit % 32);
             }
             place += 1;
         });
@@ -76,7 +76,7 @@ fn every_flipped_bit_in_memory_is_noticed() {
 fn the_self_test_fails_on_a_flipped_bit_and_passes_without() {
     assert!(self_test::run().passed());
     let mut rover = frozen::ROVER.clone();
-    rover.network.output.bias[0] = f32::from_bits(rover.network.output.bias[0].to_bits() ^ (1 << 12));
+    rover.network.head.output.bias[0][0] ^= 1 << 16;
     let report = self_test::examine(&frozen::WHEEL, &rover);
     assert!(!report.tables_intact && !report.passed());
     assert_eq!(usize::from(report.wheel_pairs), FLOWN_PAIRS);
@@ -114,16 +114,17 @@ fn a_table_that_is_wrong_stops_the_build_and_says_why() {
     assert!(build_with("sound", &sound).status.success());
     let mut altered = sound.clone();
     altered[sound.len() / 2] ^= 1;
-    let other_version = String::from_utf8_lossy(&sound).replace("\nversion 2\n", "\nversion 3\n");
+    let other_version = String::from_utf8_lossy(&sound).replace("\nversion 3\n", "\nversion 2\n");
     let body = &other_version[..other_version.rfind("crc32 ").unwrap_or(0)];
     let sealed = format!("{body}crc32 {:08x}\n", kapvik_table_file::checksum(body.as_bytes()));
     assert!(matches!(TableFile::parse(sealed.as_bytes()), Err(TableError::Version { .. })));
-    let cases: [(&str, Vec<u8>, &str); 6] = [
+    let cases: [(&str, Vec<u8>, &str); 7] = [
         ("truncated", sound[..sound.len() - 100].to_vec(), "truncated"),
         ("altered", altered, "was altered"),
-        ("version", sealed.into_bytes(), "is of version 3, this build reads version 2"),
+        ("version", sealed.into_bytes(), "is of version 2, this build reads version 3"),
         ("shape", edited(|file| file.blocks[2].shape[1] += 1), "block wheel.network of the frozen table has shape"),
-        ("golden", edited(|file| *first_word(file, "rover.network") ^= 1 << 20), "golden pairs"),
+        ("golden", edited(|file| *first_word(file, "rover.network.head") ^= 1 << 10), "golden pairs"),
+        ("overflow", edited(|file| *first_word(file, "rover.network.head") = 0x7fff_7fff), "can overflow 32 bits"),
         ("not-finite", edited(|file| *first_word(file, "wheel.network") = 0x7fc0_0000), "not finite"),
     ];
     for (name, bytes, reason) in cases {

@@ -8,7 +8,7 @@ use crate::filter::{Gate, Gaussian, SigmaPointFilter};
 use crate::link::CHECKSUM;
 use crate::math;
 use crate::network::fixed_point::{FixedLayer, Pair, gated, rounded};
-use crate::network::{Layer, Numbers};
+use crate::network::{Layer, Words};
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
 /// A function's name and the fingerprint of its outputs.
@@ -93,7 +93,7 @@ fn weighted_sums(input: f32, digest: &mut Digest) {
 
 fn layer_sums<const I: usize, const O: usize>(input: f32, state: &mut u32, digest: &mut Digest) {
     let mut layer = Layer::<I, O>::ZERO;
-    layer.for_each_mut(&mut |place| *place = even(state));
+    layer.for_each_mut(&mut |place| *place = even(state).to_bits());
     let mut inputs = [0.0; I];
     inputs.iter_mut().for_each(|place| *place = even(state));
     if let Some(last) = inputs.last_mut() {

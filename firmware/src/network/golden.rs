@@ -1,7 +1,7 @@
 //! Inputs and the outputs that a sound table gives for them, bit for bit.
 
-use super::numbers;
 use super::shape::{OUTPUTS, ROVER_CONTEXT, ROVER_WHEELS, WHEEL_FEATURES, WHEEL_INPUTS};
+use super::words;
 
 /// Golden pairs of each network in a table's file, which the build script proves.
 pub const GOLDEN_PAIRS: usize = 32;
@@ -17,7 +17,7 @@ pub struct WheelGolden {
     /// Outputs.
     pub output: [f32; OUTPUTS],
 }
-numbers!(WheelGolden: input, output);
+words!(WheelGolden: input, output);
 
 impl WheelGolden {
     /// All zero, for a table that is about to be filled.
@@ -36,7 +36,7 @@ pub struct RoverGolden {
     /// Outputs.
     pub output: [f32; OUTPUTS],
 }
-numbers!(RoverGolden: count, context, wheels, output);
+words!(RoverGolden: count, context, wheels, output);
 
 impl RoverGolden {
     /// All zero, for a table that is about to be filled.

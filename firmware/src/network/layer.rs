@@ -1,7 +1,7 @@
 //! One layer of weighted sums, equation 12.
 
 use super::multiply_accumulate::{HALF, TILE, add_to_half, add_to_tile};
-use super::{Numbers, activate};
+use super::{Words, activate, words};
 
 /// Weights from `I` inputs to `O` sums; one row an input, so that sums run in parallel and their order is fixed.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,11 +25,11 @@ impl<const I: usize, const O: usize> Weights<I, O> {
     }
 }
 
-impl<const I: usize, const O: usize> Numbers for Weights<I, O> {
-    fn for_each(&self, see: &mut impl FnMut(f32)) {
+impl<const I: usize, const O: usize> Words for Weights<I, O> {
+    fn for_each(&self, see: &mut impl FnMut(u32)) {
         self.0.for_each(see);
     }
-    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut f32)) {
+    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32)) {
         self.0.for_each_mut(set);
     }
 }
@@ -63,13 +63,4 @@ impl<const I: usize, const O: usize> Layer<I, O> {
     }
 }
 
-impl<const I: usize, const O: usize> Numbers for Layer<I, O> {
-    fn for_each(&self, see: &mut impl FnMut(f32)) {
-        self.weights.for_each(see);
-        self.bias.for_each(see);
-    }
-    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut f32)) {
-        self.weights.for_each_mut(set);
-        self.bias.for_each_mut(set);
-    }
-}
+words!(Layer<I, O> where I, O: weights, bias);

@@ -1,6 +1,6 @@
 //! Inputs on the scale that a network was trained on, and whether they lie where it was trained.
 
-use super::Numbers;
+use super::words;
 
 /// Offset, scale and training range of `N` inputs, in the inputs' own units.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,17 +34,4 @@ impl<const N: usize> Normalisation<N> {
     }
 }
 
-impl<const N: usize> Numbers for Normalisation<N> {
-    fn for_each(&self, see: &mut impl FnMut(f32)) {
-        self.offset.for_each(see);
-        self.scale.for_each(see);
-        self.low.for_each(see);
-        self.high.for_each(see);
-    }
-    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut f32)) {
-        self.offset.for_each_mut(set);
-        self.scale.for_each_mut(set);
-        self.low.for_each_mut(set);
-        self.high.for_each_mut(set);
-    }
-}
+words!(Normalisation<N> where N: offset, scale, low, high);

@@ -1,12 +1,14 @@
 //! The named parts of the tables: what the trainer writes to a file and the build script reads from it.
 
-use super::shape::{ROVER_SHAPE, WHEEL_SHAPE};
-use super::{Numbers, RoverTable, WheelTable};
+use super::shape::{ROVER_CONTEXT, ROVER_HEAD_SHAPE, ROVER_HIDDEN, WHEEL_FEATURES, WHEEL_SHAPE};
+use super::{RoverNetwork, RoverTable, WheelTable, Words};
 
 /// Sees each part of a table in turn.
 pub trait PartVisitor {
-    /// A part: its name in the file, its layer sizes (empty for a plain list), its numbers.
-    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Numbers);
+    /// A part of numbers in single precision: its name in the file, its layer sizes (empty for a plain list), the numbers.
+    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Words);
+    /// A part of whole numbers.
+    fn whole_part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Words);
 }
 
 impl WheelTable {
@@ -26,7 +28,10 @@ impl RoverTable {
         visitor.part("rover.gradient", &[], &mut self.gradient);
         visitor.part("rover.context", &[], &mut self.context);
         visitor.part("rover.wheel", &[], &mut self.wheel);
-        visitor.part("rover.network", &ROVER_SHAPE, &mut self.network);
+        let RoverNetwork { context, wheel, head } = &mut self.network;
+        visitor.part("rover.network.context", &[ROVER_CONTEXT, ROVER_HIDDEN], context);
+        visitor.part("rover.network.wheel", &[WHEEL_FEATURES, ROVER_HIDDEN], wheel);
+        visitor.whole_part("rover.network.head", &ROVER_HEAD_SHAPE, head);
         visitor.part("rover.posterior", &[], &mut self.posterior);
         visitor.part("rover.golden", &[], &mut self.golden);
     }

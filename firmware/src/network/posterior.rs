@@ -2,8 +2,8 @@
 
 use crate::math;
 
-use super::numbers;
 use super::shape::{OUTPUTS, TARGETS};
+use super::words;
 
 /// Knots of the interval factors.
 pub const KNOTS: usize = 6;
@@ -21,7 +21,7 @@ pub struct IntervalFactors {
     /// Half-width of the 95 % interval in standard deviations, at each ratio.
     pub factor_95: [f32; KNOTS],
 }
-numbers!(IntervalFactors: ratio, factor_68, factor_95);
+words!(IntervalFactors: ratio, factor_68, factor_95);
 
 impl IntervalFactors {
     /// All zero, for a table that is about to be filled.
@@ -61,7 +61,7 @@ pub struct PosteriorScale {
     /// Interval factors of each target.
     pub intervals: [IntervalFactors; TARGETS],
 }
-numbers!(PosteriorScale: mean, std, low, high, intervals);
+words!(PosteriorScale: mean, std, low, high, intervals);
 
 /// Mean and spread of one target.
 #[derive(Debug, Clone, Copy, PartialEq)]

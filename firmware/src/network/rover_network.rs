@@ -5,42 +5,28 @@
 
 use heapless::Vec;
 
-use super::shape::{
-    OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD,
-    ROVER_WHEELS, WHEEL_FEATURES,
-};
-use super::{Layer, Weights, activate, joined, numbers};
+use super::rover_head::{HeadInputs, RoverHead};
+use super::shape::{OUTPUTS, ROVER_CONTEXT, ROVER_HIDDEN, ROVER_WHEELS, WHEEL_FEATURES};
+use super::{Layer, Weights, activate, words};
 
-/// A shared layer for each wheel, a pool, and a head of three layers.
+/// A shared layer for each wheel, a pool, and a head.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoverNetwork {
     /// The shared inputs' part in the wheels' layer; the same for each wheel, so it is summed once.
     pub context: Layer<ROVER_CONTEXT, ROVER_HIDDEN>,
     /// A wheel's own part in that layer.
     pub wheel: Weights<WHEEL_FEATURES, ROVER_HIDDEN>,
-    /// First layer behind the pool.
-    pub first: Layer<ROVER_HEAD_INPUTS, ROVER_FIRST_HEAD>,
-    /// Second layer behind the pool.
-    pub second: Layer<ROVER_FIRST_HEAD, ROVER_SECOND_HEAD>,
-    /// Third layer behind the pool.
-    pub third: Layer<ROVER_SECOND_HEAD, ROVER_THIRD_HEAD>,
-    /// Linear output: means, then log-variances.
-    pub output: Layer<ROVER_THIRD_HEAD, OUTPUTS>,
+    /// What follows the pool.
+    pub head: RoverHead,
 }
-numbers!(RoverNetwork: context, wheel, first, second, third, output);
+words!(RoverNetwork: context, wheel, head);
 
 impl RoverNetwork {
     /// All weights zero.
-    pub const ZERO: Self = Self {
-        context: Layer::ZERO,
-        wheel: Weights::ZERO,
-        first: Layer::ZERO,
-        second: Layer::ZERO,
-        third: Layer::ZERO,
-        output: Layer::ZERO,
-    };
+    pub const ZERO: Self = Self { context: Layer::ZERO, wheel: Weights::ZERO, head: RoverHead::ZERO };
 
-    /// Runs the network on normalised inputs; wheels beyond the sixth are left out, `gradient` is A of equation 13.
+    /// Runs the network on normalised inputs; wheels beyond the sixth are left out, `gradient` is A of equation 13 in the
+    /// wheels' layer.
     pub fn run(
         &self,
         context: &[f32; ROVER_CONTEXT],
@@ -56,30 +42,27 @@ impl RoverNetwork {
             // Not `collect`: heapless panics where it overflows, which the bound above rules out.
             let _ = wheels.push(hidden);
         }
-        let pool = pool(&wheels, context);
-        let first = self.first.run(&pool, gradient);
-        let second = self.second.run(&first, gradient);
-        let third = self.third.run(&second, gradient);
-        self.output.apply(&third)
+        self.head.run(&pool(&wheels, context))
     }
 }
 
 /// The number of wheels as the head sees it: 1 for six, 0 for none.
-pub(super) fn count_feature(count: f32) -> f32 {
+fn count_feature(count: f32) -> f32 {
     count * (1.0 / ROVER_WHEELS as f32)
 }
 
 /// Mean and variance of each neuron over the wheels, then the shared inputs and the number of wheels.
-fn pool(wheels: &[[f32; ROVER_HIDDEN]], context: &[f32; ROVER_CONTEXT]) -> [f32; ROVER_HEAD_INPUTS] {
+fn pool(wheels: &[[f32; ROVER_HIDDEN]], context: &[f32; ROVER_CONTEXT]) -> HeadInputs {
     let count = wheels.len() as f32;
     let share = if count > 0.0 { 1.0 / count } else { 0.0 };
-    let (mut mean, mut variance) = ([0.0; ROVER_HIDDEN], [0.0; ROVER_HIDDEN]);
+    let mut pooled = [0.0; 2 * ROVER_HIDDEN];
+    let (mean, variance) = pooled.split_at_mut(ROVER_HIDDEN);
     let places = mean.as_chunks_mut().0.iter_mut().zip(variance.as_chunks_mut().0);
     for (place, (mean, variance)) in places.enumerate() {
         let of_wheels = wheels.iter().filter_map(|wheel| wheel.as_chunks().0.get(place));
         (*mean, *variance) = moments(of_wheels, share);
     }
-    joined([&mean, &variance, context, &[count_feature(count)]])
+    HeadInputs::new(&pooled, context, count_feature(count))
 }
 
 /// Neurons whose means and variances stay in registers together.

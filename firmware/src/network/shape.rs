@@ -25,16 +25,16 @@ pub const ROVER_WHEELS: usize = 6;
 pub const ROVER_HIDDEN: usize = 8;
 /// Inputs of the layer behind the pool: means, variances, the shared inputs and the number of wheels.
 pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_HIDDEN + ROVER_CONTEXT + 1;
-/// Neurons in the first layer behind the pool.
-pub const ROVER_FIRST_HEAD: usize = 64;
+/// Neurons in the first layer behind the pool; a multiple of four, like the next two.
+pub const ROVER_FIRST_HEAD: usize = 56;
 /// Neurons in the second layer behind the pool.
-pub const ROVER_SECOND_HEAD: usize = 48;
+pub const ROVER_SECOND_HEAD: usize = 44;
 /// Neurons in the third layer behind the pool. Of heads with as many numbers, three layers learn the map to a lower loss
 /// than two.
-pub const ROVER_THIRD_HEAD: usize = 40;
+pub const ROVER_THIRD_HEAD: usize = 44;
 
 /// Layer sizes of the per-wheel network, as its frozen table states them.
 pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];
-/// Layer sizes of the rover network, as its frozen table states them.
-pub const ROVER_SHAPE: [usize; 7] =
-    [ROVER_CONTEXT, WHEEL_FEATURES, ROVER_HIDDEN, ROVER_FIRST_HEAD, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD, OUTPUTS];
+/// Layer sizes of what follows the pool in the rover network, as its frozen table states them.
+pub const ROVER_HEAD_SHAPE: [usize; 5] =
+    [ROVER_HEAD_INPUTS, ROVER_FIRST_HEAD, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD, OUTPUTS];

@@ -2,8 +2,8 @@
 
 use super::shape::{OUTPUTS, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPUTS};
 use super::{
-    FLOWN_PAIRS, GOLDEN_PAIRS, Normalisation, Numbers, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden,
-    WheelNetwork, numbers,
+    FLOWN_PAIRS, GOLDEN_PAIRS, Normalisation, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden, WheelNetwork,
+    Words, words,
 };
 
 /// The per-wheel network, frozen.
@@ -20,7 +20,7 @@ pub struct WheelTable<const PAIRS: usize = GOLDEN_PAIRS> {
     /// Pairs that the network must reproduce.
     pub golden: [WheelGolden; PAIRS],
 }
-numbers!(WheelTable<PAIRS> where PAIRS: gradient, normalisation, network, posterior, golden);
+words!(WheelTable<PAIRS> where PAIRS: gradient, normalisation, network, posterior, golden);
 
 /// The rover network, frozen.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ pub struct RoverTable<const PAIRS: usize = GOLDEN_PAIRS> {
     /// Pairs that the network must reproduce.
     pub golden: [RoverGolden; PAIRS],
 }
-numbers!(RoverTable<PAIRS> where PAIRS: gradient, context, wheel, network, posterior, golden);
+words!(RoverTable<PAIRS> where PAIRS: gradient, context, wheel, network, posterior, golden);
 
 impl WheelTable {
     /// The table as it flies: with the first of its golden pairs.
@@ -123,16 +123,16 @@ fn same_bits(left: &[f32; OUTPUTS], right: &[f32; OUTPUTS]) -> bool {
     left.iter().zip(right).all(|(l, r)| l.to_bits() == r.to_bits())
 }
 
-/// CRC-32 (ISO-HDLC) over the bits of all numbers of a table, least significant byte first.
-pub fn checksum(table: &impl Numbers) -> u32 {
+/// CRC-32 (ISO-HDLC) over the words of all numbers of a table, least significant byte first.
+pub fn checksum(table: &impl Words) -> u32 {
     static CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
     let mut digest = CRC.digest();
-    table.for_each(&mut |number| take(&mut digest, number));
+    table.for_each(&mut |word| take(&mut digest, word));
     digest.finalize()
 }
 
 /// Never inlined: the walk over a table calls it at each of its fields, and its loop would be there as often.
 #[inline(never)]
-fn take(digest: &mut crc::Digest<'_, u32>, number: f32) {
-    digest.update(&number.to_bits().to_le_bytes());
+fn take(digest: &mut crc::Digest<'_, u32>, word: u32) {
+    digest.update(&word.to_le_bytes());
 }

@@ -1,7 +1,7 @@
 //! The per-wheel network of the seed: one wheel's state to the soil under it.
 
 use super::shape::{OUTPUTS, WHEEL_HIDDEN, WHEEL_INPUTS};
-use super::{Layer, numbers};
+use super::{Layer, words};
 
 /// Two hidden layers on the inputs of one wheel.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +13,7 @@ pub struct WheelNetwork {
     /// Linear output: means, then log-variances.
     pub output: Layer<WHEEL_HIDDEN, OUTPUTS>,
 }
-numbers!(WheelNetwork: first, second, output);
+words!(WheelNetwork: first, second, output);
 
 impl WheelNetwork {
     /// All weights zero.

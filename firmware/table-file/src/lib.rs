@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! kapvik-frozen-table
-//! version 2
+//! version 3
 //! note seed: 1
 //! block wheel.network 12 16 16 6 : 2
 //! 3f800000 bf800000
@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 use thiserror::Error;
 
 /// The version that this crate reads and writes.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 const MAGIC: &str = "kapvik-frozen-table";
 const CHECKSUM: &str = "crc32 ";
@@ -40,7 +40,7 @@ pub struct Block {
     pub name: String,
     /// Layer sizes of a network; empty where there is nothing but a list.
     pub shape: Vec<usize>,
-    /// The bits of each number.
+    /// The 32 bits of each number, in single precision or whole, or of two whole numbers of 16 bits.
     pub words: Vec<u32>,
 }
 
@@ -225,13 +225,13 @@ mod tests {
 
     #[test]
     fn another_version_and_bad_syntax_are_told_apart() {
-        assert_eq!(sealed("kapvik-frozen-table\nversion 3\n"), Err(TableError::Version { found: "3".into() }));
+        assert_eq!(sealed("kapvik-frozen-table\nversion 2\n"), Err(TableError::Version { found: "2".into() }));
         assert!(matches!(sealed("something else\n"), Err(TableError::Syntax { line: 1, .. })));
-        let short = "kapvik-frozen-table\nversion 2\nblock a : 3\n00000000\n";
+        let short = "kapvik-frozen-table\nversion 3\nblock a : 3\n00000000\n";
         assert!(matches!(sealed(short), Err(TableError::Syntax { line: 3, .. })));
-        let long = "kapvik-frozen-table\nversion 2\nblock a : 1\n00000000 00000000\n";
+        let long = "kapvik-frozen-table\nversion 3\nblock a : 1\n00000000 00000000\n";
         assert!(matches!(sealed(long), Err(TableError::Syntax { line: 3, .. })));
-        let digits = "kapvik-frozen-table\nversion 2\nblock a : 1\n+0000000\n";
+        let digits = "kapvik-frozen-table\nversion 3\nblock a : 1\n+0000000\n";
         assert!(matches!(sealed(digits), Err(TableError::Syntax { line: 4, .. })));
     }
 }

@@ -3,13 +3,11 @@
 use kapvik_firmware::network::{IntervalFactors, KNOTS, OUTPUTS, PosteriorScale, TARGETS};
 
 use super::example::Example;
-use super::score::{outputs, truth};
-use super::trainable::Trainable;
+use super::score::truth;
 
-/// Fills in the interval factors of `scale`: cases are sorted by how much the data told of them, and in each of as many
+/// Fills in the interval factors of `scale` from a network's outputs on `set`: cases are sorted by how much the data told of them, and in each of as many
 /// equal groups as there are knots the factor is the quantile of |error| over standard deviation.
-pub fn calibrate<N: Trainable>(network: &N, set: &[Example<N::Input>], scale: &mut PosteriorScale) {
-    let outputs: Vec<[f32; OUTPUTS]> = outputs(network, set);
+pub fn calibrate<I>(outputs: &[[f32; OUTPUTS]], set: &[Example<I>], scale: &mut PosteriorScale) {
     let posteriors: Vec<_> = outputs.iter().map(|outputs| scale.read(outputs)).collect();
     let truths: Vec<_> = set.iter().map(|example| truth(example, scale)).collect();
     for k in 0..TARGETS {

@@ -1,6 +1,6 @@
 //! The frozen table as a file.
 
-use kapvik_firmware::network::{Numbers, PartVisitor, RoverTable, WheelTable};
+use kapvik_firmware::network::{PartVisitor, RoverTable, WheelTable, Words};
 use kapvik_table_file::{Block, TableFile};
 
 use super::fifth_input::Candidate;
@@ -15,10 +15,13 @@ pub const EFFECTS_NOTE: &str = "effects";
 struct Blocks(Vec<Block>);
 
 impl PartVisitor for Blocks {
-    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Numbers) {
+    fn part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Words) {
         let mut words = Vec::new();
-        numbers.for_each(&mut |number| words.push(number.to_bits()));
+        numbers.for_each(&mut |word| words.push(word));
         self.0.push(Block { name: name.to_owned(), shape: shape.to_vec(), words });
+    }
+    fn whole_part(&mut self, name: &'static str, shape: &[usize], numbers: &mut impl Words) {
+        self.part(name, shape, numbers);
     }
 }
 

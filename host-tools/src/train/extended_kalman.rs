@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::example::Example;
 use super::loss::{fisher, gaussian};
-use super::trainable::{Trainable, change_each, output_jacobian, parameter_count};
+use super::trainable::{Linearised, Trainable, change_each, linearised, parameter_count};
 
 /// The filter: covariance of the weights and its growth from example to example.
 pub struct ExtendedKalman {
@@ -29,12 +29,11 @@ impl ExtendedKalman {
 
     /// Presents one example.
     pub fn step<N: Trainable>(&mut self, network: &mut N, example: &Example<N::Input>) {
-        let outputs = network.run(&example.input);
+        let Linearised { outputs, jacobian } = linearised(network, example);
         let (_, slope) = gaussian(&outputs, &example.target);
         let noise = fisher(&outputs).map(|information| 1.0 / f64::from(information));
-        let rows = output_jacobian(network, example);
         let count = parameter_count(network);
-        let h = DMatrix::from_fn(OUTPUTS, count, |k, i| f64::from(rows[k][i]));
+        let h = DMatrix::from_fn(OUTPUTS, count, |k, i| f64::from(jacobian[k][i]));
         let gain_base = &self.covariance * h.transpose();
         let mut innovation_covariance: SMatrix<f64, OUTPUTS, OUTPUTS> = (&h * &gain_base).fixed_resize(0.0);
         let mut innovation = SVector::<f64, OUTPUTS>::zeros();

@@ -1,7 +1,6 @@
 //! Levenberg–Marquardt on the Gaussian likelihood: the Gauss–Newton matrix is that of Fisher's information, in which a
 //! predicted mean counts with its precision and a predicted log-variance with one half.
 
-use kapvik_firmware::network::OUTPUTS;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -9,7 +8,7 @@ use super::back_propagation::mean_loss;
 use super::example::Example;
 use super::loss::{fisher, gaussian};
 use super::rank_update::RankUpdate;
-use super::trainable::{Trainable, change_each, flatten, output_jacobian, parameter_count};
+use super::trainable::{Linearised, Trainable, change_each, flatten, linearised, parameter_count};
 
 /// Parts of the set that are summed by themselves, so that the result does not depend on the number of cores.
 const PARTS: usize = 8;
@@ -95,10 +94,9 @@ fn normal_equations<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> (DM
             let mut update = RankUpdate::new(count);
             let mut slope = vec![0.0_f64; count];
             for example in part {
-                let outputs = network.run(&example.input);
+                let Linearised { outputs, jacobian } = linearised(network, example);
                 let (_, loss_slope) = gaussian(&outputs, &example.target);
                 let information = fisher(&outputs);
-                let jacobian: [Vec<f32>; OUTPUTS] = output_jacobian(network, example);
                 for ((row, s), f) in jacobian.iter().zip(loss_slope).zip(information) {
                     update.add(row, f.sqrt());
                     slope.iter_mut().zip(row).for_each(|(sum, x)| *sum += f64::from(s * x));

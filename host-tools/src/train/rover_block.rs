@@ -2,16 +2,18 @@
 
 use kapvik_firmware::network::{
     OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD,
-    ROVER_WHEELS, RoverNetwork, WHEEL_FEATURES, Weights,
+    ROVER_WHEELS, WHEEL_FEATURES, Weights,
 };
 use pulp::Simd;
 
 use super::example::{Example, RoverInput};
+use super::gated_layer::GatedLanes;
 use super::lanes::{
     LANES, Lane, ZERO, activate, add_gradient, add_input_slope, add_layer_gradient, add_weighted, apply_layer,
-    before_activation, run_layer,
+    before_activation,
 };
-use super::trainable::{GRADIENT, Trainable, in_lanes, layer_fan_in};
+use super::rover_weights::{FIRST_SUMS, RoverWeights, SECOND_SUMS, THIRD_SUMS};
+use super::trainable::{Trainable, in_lanes, layer_fan_in};
 
 /// What the neurons put out.
 pub struct RoverBlock {
@@ -20,9 +22,9 @@ pub struct RoverBlock {
     /// One over the number of wheels.
     share: Lane,
     pool: [Lane; ROVER_HEAD_INPUTS],
-    first: [Lane; ROVER_FIRST_HEAD],
-    second: [Lane; ROVER_SECOND_HEAD],
-    third: [Lane; ROVER_THIRD_HEAD],
+    first: GatedLanes<FIRST_SUMS, ROVER_FIRST_HEAD>,
+    second: GatedLanes<SECOND_SUMS, ROVER_SECOND_HEAD>,
+    third: GatedLanes<THIRD_SUMS, ROVER_THIRD_HEAD>,
     output: [Lane; OUTPUTS],
 }
 
@@ -46,7 +48,7 @@ impl WheelLanes {
     }
 }
 
-impl Trainable for RoverNetwork {
+impl Trainable for RoverWeights {
     type Input = RoverInput;
     type Block = RoverBlock;
 
@@ -68,14 +70,11 @@ impl Trainable for RoverNetwork {
         vec![
             [ROVER_CONTEXT + 1, ROVER_HIDDEN],
             [WHEEL_FEATURES, ROVER_HIDDEN],
-            [ROVER_HEAD_INPUTS + 1, ROVER_FIRST_HEAD],
-            [ROVER_FIRST_HEAD + 1, ROVER_SECOND_HEAD],
-            [ROVER_SECOND_HEAD + 1, ROVER_THIRD_HEAD],
+            [ROVER_HEAD_INPUTS + 1, FIRST_SUMS],
+            [ROVER_FIRST_HEAD + 1, SECOND_SUMS],
+            [ROVER_SECOND_HEAD + 1, THIRD_SUMS],
             [ROVER_THIRD_HEAD + 1, OUTPUTS],
         ]
-    }
-    fn run(&self, input: &RoverInput) -> [f32; OUTPUTS] {
-        RoverNetwork::run(self, &input.context, input.wheels.iter().copied(), GRADIENT)
     }
 
     #[inline(always)]
@@ -85,9 +84,9 @@ impl Trainable for RoverNetwork {
             wheels: std::array::from_fn(|place| WheelLanes::new(examples, place)),
             share: ZERO,
             pool: [ZERO; ROVER_HEAD_INPUTS],
-            first: [ZERO; ROVER_FIRST_HEAD],
-            second: [ZERO; ROVER_SECOND_HEAD],
-            third: [ZERO; ROVER_THIRD_HEAD],
+            first: GatedLanes::ZERO,
+            second: GatedLanes::ZERO,
+            third: GatedLanes::ZERO,
             output: [ZERO; OUTPUTS],
         };
         let mut shared = [ZERO; ROVER_HIDDEN];
@@ -98,10 +97,10 @@ impl Trainable for RoverNetwork {
             activate(&mut wheel.hidden);
         }
         pool(&mut block, examples);
-        run_layer(simd, &self.first, &block.pool, &mut block.first);
-        run_layer(simd, &self.second, &block.first, &mut block.second);
-        run_layer(simd, &self.third, &block.second, &mut block.third);
-        apply_layer(simd, &self.output, &block.third, &mut block.output);
+        block.first.run(simd, &self.first, &block.pool);
+        block.second.run(simd, &self.second, &block.first.outputs);
+        block.third.run(simd, &self.third, &block.second.outputs);
+        apply_layer(simd, &self.output, &block.third.outputs, &mut block.output);
         block
     }
     fn outputs(block: &RoverBlock) -> &[Lane; OUTPUTS] {
@@ -110,18 +109,18 @@ impl Trainable for RoverNetwork {
 
     #[inline(always)]
     fn backward<S: Simd>(&self, simd: S, block: &RoverBlock, slope: &[Lane; OUTPUTS], gradient: &mut Self) {
-        add_layer_gradient(simd, &block.third, slope, &mut gradient.output);
+        add_layer_gradient(simd, &block.third.outputs, slope, &mut gradient.output);
         let mut third = [ZERO; ROVER_THIRD_HEAD];
         add_input_slope(simd, &self.output.weights, slope, &mut third);
-        before_activation(&mut third, &block.third);
-        add_layer_gradient(simd, &block.second, &third, &mut gradient.third);
+        let third = block.third.before(&third);
+        add_layer_gradient(simd, &block.second.outputs, &third, &mut gradient.third);
         let mut second = [ZERO; ROVER_SECOND_HEAD];
         add_input_slope(simd, &self.third.weights, &third, &mut second);
-        before_activation(&mut second, &block.second);
-        add_layer_gradient(simd, &block.first, &second, &mut gradient.second);
+        let second = block.second.before(&second);
+        add_layer_gradient(simd, &block.first.outputs, &second, &mut gradient.second);
         let mut first = [ZERO; ROVER_FIRST_HEAD];
         add_input_slope(simd, &self.second.weights, &second, &mut first);
-        before_activation(&mut first, &block.first);
+        let first = block.first.before(&first);
         add_layer_gradient(simd, &block.pool, &first, &mut gradient.first);
         // The context among the pool's numbers needs no slope.
         let mut pool = [ZERO; 2 * ROVER_HIDDEN];

@@ -2,13 +2,15 @@
 
 use indicatif::ProgressBar;
 use kapvik_firmware::network::{GOLDEN_PAIRS, PosteriorScale, ROVER_WHEELS, RoverGolden, RoverNetwork, RoverTable};
+use rayon::prelude::*;
 
 use super::calibration::calibrate;
 use super::curve::Curve;
 use super::dataset::{prior_scale, rover_examples, rover_inputs, rover_inputs_anew};
 use super::epochs::train_by_epochs;
-use super::example::{RoverInput, RoverNormalisation};
+use super::example::{Example, RoverInput, RoverNormalisation};
 use super::plan::{Plan, Purpose};
+use super::rover_weights::RoverWeights;
 use super::scene::Scene;
 use super::trainable::GRADIENT;
 
@@ -18,11 +20,17 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
     let normal = RoverNormalisation::new(&raw);
     let watched = rover_examples(held_out, &raw, &normal);
     let curve = Curve::new("rover network");
-    let (network, curve) = train_by_epochs(plan, plan.rover, &watched, curve, progress, |seed| {
-        rover_examples(scenes, &rover_inputs_anew(scenes, seed), &normal)
-    });
+    let (weights, curve): (RoverWeights, Curve) =
+        train_by_epochs(plan, plan.rover, &watched, curve, progress, |seed| {
+            rover_examples(scenes, &rover_inputs_anew(scenes, seed), &normal)
+        });
     let mut posterior = prior_scale();
-    calibrate(&network, &watched, &mut posterior);
+    let network = weights.rounded();
+    let flown: Vec<_> = watched
+        .par_iter()
+        .map(|Example { input, .. }| network.run(&input.context, input.wheels.iter().copied(), GRADIENT))
+        .collect();
+    calibrate(&flown, &watched, &mut posterior);
     (table(network, normal, posterior, &raw), curve)
 }
 

@@ -10,7 +10,7 @@ use super::dataset::stream;
 use super::example::{Example, targets};
 use super::observe::observe;
 use super::scene::Scene;
-use super::trainable::Trainable;
+use super::trainable::{Trainable, outputs_of};
 
 /// Errors and coverage of one target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +83,7 @@ pub fn score_rover<const PAIRS: usize>(table: &RoverTable<PAIRS>, scenes: &[Scen
 
 /// Outputs of a network on a set.
 pub fn outputs<N: Trainable>(network: &N, set: &[Example<N::Input>]) -> Vec<[f32; OUTPUTS]> {
-    set.par_iter().map(|example| network.run(&example.input)).collect()
+    set.par_chunks(64).flat_map_iter(|part| outputs_of(network, part)).collect()
 }
 
 /// Scores a network on a set.

@@ -1,6 +1,6 @@
 //! What the trainers need of a network: outputs, and a loss's way back to the weights.
 
-use kapvik_firmware::network::{Layer, Numbers, OUTPUTS, Weights};
+use kapvik_firmware::network::{Layer, OUTPUTS, Weights, Words};
 use pulp::{Arch, Simd, WithSimd};
 use rand::RngExt;
 
@@ -14,7 +14,7 @@ use super::loss::Loss;
 pub const GRADIENT: f32 = 2.0;
 
 /// A network that can be trained, a block of examples at a time.
-pub trait Trainable: Numbers + Clone + Send + Sync {
+pub trait Trainable: Words + Clone + Send + Sync {
     /// Normalised inputs.
     type Input: Send + Sync + Clone;
     /// Inputs and what the neurons put out, example by example in lanes.
@@ -24,12 +24,10 @@ pub trait Trainable: Numbers + Clone + Send + Sync {
     fn zero() -> Self;
     /// Fan-in of each number that is to be drawn at random, 0 for those that start at zero.
     fn fan_in() -> Self;
-    /// Rows and columns of the matrices of numbers that follow each other in [`Numbers`]: one a layer, an input a row, the
+    /// Rows and columns of the matrices of numbers that follow each other in [`Words`]: one a layer, an input a row, the
     /// bias the last.
     fn matrices() -> Vec<[usize; 2]>;
-    /// Runs the network as it flies.
-    fn run(&self, input: &Self::Input) -> [f32; OUTPUTS];
-    /// Runs it on at most `LANES` examples, with the same bits; lanes without an example hold anything finite.
+    /// Runs it on at most `LANES` examples; lanes without an example hold anything finite.
     fn run_block<S: Simd>(&self, simd: S, examples: &[Example<Self::Input>]) -> Self::Block;
     /// The outputs in a block.
     fn outputs(block: &Self::Block) -> &[Lane; OUTPUTS];
@@ -37,30 +35,32 @@ pub trait Trainable: Numbers + Clone + Send + Sync {
     fn backward<S: Simd>(&self, simd: S, block: &Self::Block, slope: &[Lane; OUTPUTS], gradient: &mut Self);
 }
 
-/// Numbers of a network.
-pub fn parameter_count<N: Numbers>(network: &N) -> usize {
+/// Words of a network.
+pub fn parameter_count<N: Words>(network: &N) -> usize {
     let mut count = 0;
     network.for_each(&mut |_| count += 1);
     count
 }
 
 /// All numbers of a network in order.
-pub fn flatten<N: Numbers>(network: &N) -> Vec<f32> {
+pub fn flatten<N: Words>(network: &N) -> Vec<f32> {
     let mut flat = Vec::new();
-    network.for_each(&mut |number| flat.push(number));
+    network.for_each(&mut |word| flat.push(f32::from_bits(word)));
     flat
 }
 
 /// Calls `change` with each number of a network and the value that belongs to it, in order.
-pub fn change_each<N: Numbers, V>(
+pub fn change_each<N: Words, V>(
     network: &mut N,
     values: impl IntoIterator<Item = V>,
     mut change: impl FnMut(&mut f32, V),
 ) {
     let mut values = values.into_iter();
-    network.for_each_mut(&mut |number| {
+    network.for_each_mut(&mut |word| {
         if let Some(value) = values.next() {
-            change(number, value);
+            let mut number = f32::from_bits(*word);
+            change(&mut number, value);
+            *word = number.to_bits();
         }
     });
 }
@@ -120,29 +120,38 @@ impl<N: Trainable> WithSimd for Pass<'_, N> {
     }
 }
 
-/// Derivative of each output with respect to every weight.
-pub fn output_jacobian<N: Trainable>(network: &N, example: &Example<N::Input>) -> [Vec<f32>; OUTPUTS] {
-    Arch::new().dispatch(Jacobian { network, example })
+/// The outputs for an example, and the derivative of each with respect to every weight.
+pub struct Linearised {
+    /// Outputs.
+    pub outputs: [f32; OUTPUTS],
+    /// Derivatives of each output, in the order of the weights.
+    pub jacobian: [Vec<f32>; OUTPUTS],
 }
 
-struct Jacobian<'a, N: Trainable> {
+/// Linearises a network about its weights.
+pub fn linearised<N: Trainable>(network: &N, example: &Example<N::Input>) -> Linearised {
+    Arch::new().dispatch(Linearise { network, example })
+}
+
+struct Linearise<'a, N: Trainable> {
     network: &'a N,
     example: &'a Example<N::Input>,
 }
 
-impl<N: Trainable> WithSimd for Jacobian<'_, N> {
-    type Output = [Vec<f32>; OUTPUTS];
+impl<N: Trainable> WithSimd for Linearise<'_, N> {
+    type Output = Linearised;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let block = self.network.run_block(simd, std::slice::from_ref(self.example));
-        std::array::from_fn(|k| {
+        let jacobian = std::array::from_fn(|k| {
             let mut slope = [ZERO; OUTPUTS];
             slope[k][0] = 1.0;
             let mut gradient = N::zero();
             self.network.backward(simd, &block, &slope, &mut gradient);
             flatten(&gradient)
-        })
+        });
+        Linearised { outputs: N::outputs(&block).map(|output| output[0]), jacobian }
     }
 }
 
@@ -150,24 +159,50 @@ impl<N: Trainable> WithSimd for Jacobian<'_, N> {
 pub fn initial<N: Trainable>(seed: u64) -> N {
     let mut random = stream(seed, 0);
     let mut network = N::fan_in();
-    network.for_each_mut(&mut |weight| {
-        if *weight > 0.0 {
+    let fan_in = flatten(&network);
+    change_each(&mut network, fan_in, |weight, fan_in| {
+        if fan_in > 0.0 {
             let share: f32 = random.random();
-            *weight = (2.0 * share - 1.0) * (3.0 / *weight).sqrt();
+            *weight = (2.0 * share - 1.0) * (3.0 / fan_in).sqrt();
         }
     });
     network
 }
 
+/// A network's outputs for some examples.
+pub fn outputs_of<N: Trainable>(network: &N, examples: &[Example<N::Input>]) -> Vec<[f32; OUTPUTS]> {
+    Arch::new().dispatch(Outputs { network, examples })
+}
+
+struct Outputs<'a, N: Trainable> {
+    network: &'a N,
+    examples: &'a [Example<N::Input>],
+}
+
+impl<N: Trainable> WithSimd for Outputs<'_, N> {
+    type Output = Vec<[f32; OUTPUTS]>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let mut all = Vec::with_capacity(self.examples.len());
+        for examples in self.examples.chunks(LANES) {
+            let block = self.network.run_block(simd, examples);
+            all.extend((0..examples.len()).map(|lane| N::outputs(&block).map(|output| output[lane])));
+        }
+        all
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use kapvik_firmware::network::{RoverNetwork, TARGETS, WheelNetwork};
+    use kapvik_firmware::network::{TARGETS, WheelNetwork};
 
     use super::*;
     use crate::train::example::RoverInput;
     use crate::train::loss::gaussian;
+    use crate::train::rover_weights::RoverWeights;
 
-    /// Numbers without a pattern, −1 … 1.
+    /// Words without a pattern, −1 … 1.
     fn wave(seed: usize) -> f32 {
         (seed as f32 * 2.399).sin()
     }
@@ -190,33 +225,30 @@ mod tests {
         (0..LANES + 5).map(|seed| Example { input: wheel(seed), target: target(seed) }).collect()
     }
 
-    struct Outputs<'a, N: Trainable>(&'a N, &'a [Example<N::Input>]);
-
-    impl<N: Trainable> WithSimd for Outputs<'_, N> {
-        type Output = Vec<[f32; OUTPUTS]>;
-
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-            let blocks = self.1.chunks(LANES).flat_map(|examples| {
-                let block = self.0.run_block(simd, examples);
-                (0..examples.len()).map(|lane| N::outputs(&block).map(|output| output[lane])).collect::<Vec<_>>()
-            });
-            blocks.collect()
-        }
-    }
-
+    /// Lanes' outputs, whatever the machine, have the bits of an example by itself in narrow registers.
     fn check_bits<N: Trainable>(examples: &[Example<N::Input>]) {
         let network: N = initial(3);
-        let flown: Vec<_> = examples.iter().map(|example| network.run(&example.input).map(f32::to_bits)).collect();
+        let narrow = |examples| Outputs { network: &network, examples }.with_simd(pulp::Scalar::new());
+        let alone: Vec<_> = examples.chunks(1).flat_map(narrow).collect();
         let bits = |outputs: Vec<[f32; OUTPUTS]>| outputs.into_iter().map(|o| o.map(f32::to_bits)).collect::<Vec<_>>();
-        assert_eq!(bits(Arch::new().dispatch(Outputs(&network, examples))), flown);
-        assert_eq!(bits(Outputs(&network, examples).with_simd(pulp::Scalar::new())), flown);
+        let alone = bits(alone);
+        assert_eq!(bits(outputs_of(&network, examples)), alone);
+        assert_eq!(bits(narrow(examples)), alone);
     }
 
     #[test]
-    fn blocks_have_the_bits_of_the_flight_code_whatever_the_machine() {
-        check_bits::<RoverNetwork>(&rovers());
+    fn outputs_are_the_same_bits_whatever_the_machine() {
+        check_bits::<RoverWeights>(&rovers());
         check_bits::<WheelNetwork>(&wheels());
+    }
+
+    #[test]
+    fn blocks_have_the_bits_of_the_flown_per_wheel_network() {
+        let (network, examples): (WheelNetwork, _) = (initial(3), wheels());
+        let flown: Vec<_> =
+            examples.iter().map(|example| network.run(&example.input, GRADIENT).map(f32::to_bits)).collect();
+        let blocks = outputs_of(&network, &examples);
+        assert_eq!(blocks.into_iter().map(|outputs| outputs.map(f32::to_bits)).collect::<Vec<_>>(), flown);
     }
 
     fn check_gradient<N: Trainable>(examples: &[Example<N::Input>]) {
@@ -246,14 +278,14 @@ mod tests {
 
     #[test]
     fn gradients_are_those_of_differences() {
-        check_gradient::<RoverNetwork>(&rovers());
+        check_gradient::<RoverWeights>(&rovers());
         check_gradient::<WheelNetwork>(&wheels());
     }
 
     #[test]
     fn matrices_hold_every_number_once() {
         let numbers = |matrices: Vec<[usize; 2]>| matrices.iter().map(|[rows, columns]| rows * columns).sum::<usize>();
-        assert_eq!(numbers(RoverNetwork::matrices()), parameter_count(&RoverNetwork::ZERO));
+        assert_eq!(numbers(RoverWeights::matrices()), parameter_count(&RoverWeights::ZERO));
         assert_eq!(numbers(WheelNetwork::matrices()), parameter_count(&WheelNetwork::ZERO));
     }
 }

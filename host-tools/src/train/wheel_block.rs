@@ -5,7 +5,7 @@ use pulp::Simd;
 
 use super::example::{Example, WheelInput};
 use super::lanes::{Lane, ZERO, add_input_slope, add_layer_gradient, apply_layer, before_activation, run_layer};
-use super::trainable::{GRADIENT, Trainable, in_lanes, layer_fan_in};
+use super::trainable::{Trainable, in_lanes, layer_fan_in};
 
 /// What the neurons put out.
 pub struct WheelBlock {
@@ -31,9 +31,6 @@ impl Trainable for WheelNetwork {
     }
     fn matrices() -> Vec<[usize; 2]> {
         vec![[WHEEL_INPUTS + 1, WHEEL_HIDDEN], [WHEEL_HIDDEN + 1, WHEEL_HIDDEN], [WHEEL_HIDDEN + 1, OUTPUTS]]
-    }
-    fn run(&self, input: &WheelInput) -> [f32; OUTPUTS] {
-        WheelNetwork::run(self, input, GRADIENT)
     }
 
     #[inline(always)]

@@ -11,6 +11,7 @@ use super::example::normalisation;
 use super::fifth_input::Candidate;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
+use super::score::outputs;
 use super::trainable::GRADIENT;
 
 /// Trains the per-wheel network on the first wheel of each scene, watches and calibrates it on `held_out`.
@@ -29,7 +30,7 @@ pub fn train_wheel(
         wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
     });
     let mut posterior = prior_scale();
-    calibrate(&network, &watched, &mut posterior);
+    calibrate(&outputs(&network, &watched), &watched, &mut posterior);
     let golden = [const { WheelGolden::ZERO }; GOLDEN_PAIRS];
     let mut table = WheelTable { gradient: GRADIENT, normalisation: normal, network, posterior, golden };
     let pairs = raw.iter().take(GOLDEN_PAIRS);

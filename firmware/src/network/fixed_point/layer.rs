@@ -3,6 +3,7 @@
 use super::activation::{ACTIVATION_BITS, SUM_BITS, activated};
 use super::multiply_accumulate::weighted_sums;
 use super::{Pair, Quad, power_of_two};
+use crate::network::words;
 
 /// The most fraction bits that weights have.
 pub const MAX_WEIGHT_BITS: u32 = 15;
@@ -23,6 +24,8 @@ pub struct FixedLayer<const H: usize, const T: usize> {
     /// Fraction bits of the weights, 0 … 15; more count as 15.
     pub fraction_bits: u32,
 }
+
+words!(FixedLayer<H, T> where H, T: weights, bias, fraction_bits);
 
 impl<const H: usize, const T: usize> FixedLayer<H, T> {
     /// All weights zero.

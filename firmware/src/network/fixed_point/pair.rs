@@ -3,6 +3,8 @@
 #[cfg(target_arch = "arm")]
 use core::arch::asm;
 
+use crate::network::Words;
+
 /// Two whole numbers of 16 bits side by side, the first in the lower half.
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,6 +55,15 @@ impl Pair {
             );
         }
         total
+    }
+}
+
+impl Words for Pair {
+    fn for_each(&self, see: &mut impl FnMut(u32)) {
+        see(self.0);
+    }
+    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32)) {
+        set(&mut self.0);
     }
 }
 

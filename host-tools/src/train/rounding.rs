@@ -1,0 +1,123 @@
+//! Rounding of a trained layer to the whole numbers of 16 bits that fly.
+
+use kapvik_firmware::network::Layer;
+use kapvik_firmware::network::fixed_point::{FixedLayer, MAX_WEIGHT_BITS, Pair};
+
+/// What the numbers of a layer stand for beside single precision.
+pub struct Scales<F, G> {
+    /// What the full range of each input, 32 768, stands for.
+    pub input_range: F,
+    /// Multiplies each sum.
+    pub sums: G,
+    /// Fraction bits that the sums are cut to on their way to an activation, if they are: half of the last is added.
+    pub cut_to: Option<u32>,
+}
+
+impl<F: Fn(usize) -> f32, G: Fn(usize) -> f32> Scales<F, G> {
+    /// The layer with as many fraction bits as its weights and sums leave room for. Inputs and sums that the flown layer has
+    /// beyond those of `layer`, because it takes them by fours, are zero.
+    ///
+    /// A network that has diverged saturates; [`FixedLayer::cannot_overflow`] tells then that it cannot fly.
+    pub fn round<const I: usize, const O: usize, const H: usize, const T: usize>(
+        &self,
+        layer: &Layer<I, O>,
+    ) -> FixedLayer<H, T> {
+        let most = (0..=MAX_WEIGHT_BITS).rev();
+        let layers = most.map(|bits| self.with_fraction_bits(layer, bits));
+        let fits = |(fixed, saturated): &(FixedLayer<H, T>, bool)| !saturated && fixed.cannot_overflow();
+        let mut coarsest = FixedLayer::ZERO;
+        for layer in layers {
+            if fits(&layer) {
+                return layer.0;
+            }
+            coarsest = layer.0;
+        }
+        coarsest
+    }
+
+    /// The layer with so many fraction bits, and whether a number of it did not fit.
+    fn with_fraction_bits<const I: usize, const O: usize, const H: usize, const T: usize>(
+        &self,
+        layer: &Layer<I, O>,
+        fraction_bits: u32,
+    ) -> (FixedLayer<H, T>, bool) {
+        let unit = libm::exp2(f64::from(fraction_bits));
+        let mut saturated = false;
+        let mut whole = |number: f64, greatest: f64| {
+            saturated |= number.abs() > greatest;
+            number.round().clamp(-greatest, greatest) as i32
+        };
+        let mut weight = |input: usize, sum: usize| {
+            let weight = layer.weights.0.get(input).and_then(|row| row.get(sum)).copied().unwrap_or(0.0);
+            let scale = (self.input_range)(input) * (self.sums)(sum);
+            whole(f64::from(weight) * f64::from(scale) * unit, f64::from(i16::MAX)) as i16
+        };
+        let weights = std::array::from_fn(|tile| {
+            std::array::from_fn(|quad| {
+                std::array::from_fn(|pair| {
+                    let input = 4 * quad + 2 * pair;
+                    std::array::from_fn(|neuron| {
+                        let sum = 4 * tile + neuron;
+                        Pair::new(weight(input, sum), weight(input + 1, sum))
+                    })
+                })
+            })
+        });
+        let full_range = f64::from(i16::MIN).abs();
+        let half = self.cut_to.map_or(0.0, |bits| 0.5 * unit * full_range * libm::exp2(-f64::from(bits)));
+        let bias = std::array::from_fn(|tile| {
+            std::array::from_fn(|neuron| {
+                let sum = 4 * tile + neuron;
+                let bias = layer.bias.get(sum).copied().unwrap_or(0.0) * (self.sums)(sum);
+                whole(f64::from(bias) * unit * full_range + half, f64::from(i32::MAX))
+            })
+        });
+        (FixedLayer { weights, bias, fraction_bits }, saturated)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::network::fixed_point::{ACTIVATION_BITS, rounded};
+
+    use super::*;
+
+    /// Numbers without a pattern, −1 … 1.
+    fn wave(seed: usize) -> f32 {
+        (seed as f32 * 2.399).sin()
+    }
+
+    fn layer(scale: f32) -> Layer<5, 6> {
+        let mut layer = Layer::ZERO;
+        layer.weights.0.as_flattened_mut().iter_mut().enumerate().for_each(|(k, w)| *w = scale * wave(k));
+        layer.bias.iter_mut().enumerate().for_each(|(k, b)| *b = scale * wave(100 + k));
+        layer
+    }
+
+    const PLAIN: Scales<fn(usize) -> f32, fn(usize) -> f32> =
+        Scales { input_range: |_| 1.0, sums: |_| 1.0, cut_to: None };
+
+    #[test]
+    fn sums_are_those_of_the_layer() {
+        let input = [0.5, -0.25, 0.125, -0.9375, 0.75];
+        let whole = rounded([(&input, ACTIVATION_BITS)]);
+        for scale in [1e-3, 0.1, 1.0, 30.0, 3000.0] {
+            let layer = layer(scale);
+            let fixed: FixedLayer<2, 2> = PLAIN.round(&layer);
+            assert!(fixed.cannot_overflow());
+            let sums: [f32; 8] = fixed.outputs(&whole);
+            let unit = 0.5_f32.powi(fixed.fraction_bits as i32);
+            for (sum, exact) in sums.iter().zip(layer.apply(&input)) {
+                assert!((sum - exact).abs() <= 3.0 * unit + 1e-6 * scale, "{scale}: {sum}, {exact}");
+            }
+            assert_eq!(sums[6..], [0.0; 2], "sums that the layer does not have");
+            assert!(unit < 2e-4 * scale.max(0.2), "{scale}: weights are multiples of {unit}");
+        }
+    }
+
+    #[test]
+    fn what_has_diverged_cannot_fly() {
+        let fixed: FixedLayer<2, 2> = PLAIN.round(&layer(1e9));
+        assert!(!fixed.cannot_overflow());
+    }
+}
