@@ -60,6 +60,10 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("passes", format!("{} rover network, {} per-wheel network", plan.rover, plan.wheel)),
         ("held-out loss", format!("{:.4} per-wheel, {:.4} rover (nats)", losses[0], losses[1])),
         ("activation", "bipolar sigmoid 2 / (1 + exp(-A x)) - 1, A in the blocks *.gradient".into()),
+        (
+            "whole numbers",
+            "rover.network.head: pairs of 16 bits, A/2 within; neurons are the products of two activations".into(),
+        ),
         (EFFECTS_NOTE, world.to_string()),
         ("fifth input", fifth.name().into()),
         ("targets", "ln c (Pa), phi (rad), ln K (m); means, then log-variances on the scale of the prior".into()),
