@@ -40,7 +40,7 @@ fn every_flipped_bit_of_the_file_is_noticed() {
 
 /// Flips each bit of each number of a table in memory; returns how many were flipped and how many left the checksum as
 /// it was.
-fn flip_all<T: Numbers + Clone + Sync>(table: &T) -> (usize, usize) {
+fn flip_all<T: Words + Clone + Sync>(table: &T) -> (usize, usize) {
     let mut count = 0;
     table.for_each(&mut |_| count += 1);
     let sound = checksum(table);

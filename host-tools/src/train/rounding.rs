@@ -94,8 +94,9 @@ mod tests {
         layer
     }
 
-    const PLAIN: Scales<fn(usize) -> f32, fn(usize) -> f32> =
-        Scales { input_range: |_| 1.0, sums: |_| 1.0, cut_to: None };
+    fn rounded_plainly(layer: &Layer<5, 6>) -> FixedLayer<2, 2> {
+        Scales { input_range: |_| 1.0, sums: |_| 1.0, cut_to: None }.round(layer)
+    }
 
     #[test]
     fn sums_are_those_of_the_layer() {
@@ -103,7 +104,7 @@ mod tests {
         let whole = rounded([(&input, ACTIVATION_BITS)]);
         for scale in [1e-3, 0.1, 1.0, 30.0, 3000.0] {
             let layer = layer(scale);
-            let fixed: FixedLayer<2, 2> = PLAIN.round(&layer);
+            let fixed = rounded_plainly(&layer);
             assert!(fixed.cannot_overflow());
             let sums: [f32; 8] = fixed.outputs(&whole);
             let unit = 0.5_f32.powi(fixed.fraction_bits as i32);
@@ -117,7 +118,7 @@ mod tests {
 
     #[test]
     fn what_has_diverged_cannot_fly() {
-        let fixed: FixedLayer<2, 2> = PLAIN.round(&layer(1e9));
+        let fixed = rounded_plainly(&layer(1e9));
         assert!(!fixed.cannot_overflow());
     }
 }
