@@ -1,7 +1,7 @@
 //! One layer of weighted sums, equation 12.
 
 use super::multiply_accumulate::{HALF, TILE, add_to_half, add_to_tile};
-use super::{Words, activate, words};
+use super::{activate, words};
 
 /// Weights from `I` inputs to `O` sums; one row an input, so that sums run in parallel and their order is fixed.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,14 +25,7 @@ impl<const I: usize, const O: usize> Weights<I, O> {
     }
 }
 
-impl<const I: usize, const O: usize> Words for Weights<I, O> {
-    fn for_each(&self, see: &mut impl FnMut(u32)) {
-        self.0.for_each(see);
-    }
-    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32)) {
-        self.0.for_each_mut(set);
-    }
-}
+words!(Weights<I, O> where I, O: 0);
 
 /// A layer of `O` neurons on `I` inputs, before their activation.
 #[derive(Debug, Clone, PartialEq)]

@@ -55,9 +55,10 @@ fn for_each_of<T: Words>(parts: &[T], see: &mut impl FnMut(u32)) {
     parts.iter().for_each(|part| part.for_each(see));
 }
 
-/// Writes [`Words`] for a struct: its fields in the order given.
+/// Writes [`Words`](crate::network::Words) for a struct: its fields in the order given.
+#[macro_export]
 macro_rules! words {
-    ($name:ty $(where $($size:ident),+)? : $($field:ident),+) => {
+    ($name:ty $(where $($size:ident),+)? : $($field:tt),+) => {
         impl$(<$(const $size: usize),+>)? $crate::network::Words for $name {
             fn for_each(&self, see: &mut impl FnMut(u32)) {
                 $(self.$field.for_each(see);)+

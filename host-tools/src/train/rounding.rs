@@ -22,17 +22,9 @@ impl<F: Fn(usize) -> f32, G: Fn(usize) -> f32> Scales<F, G> {
         &self,
         layer: &Layer<I, O>,
     ) -> FixedLayer<H, T> {
-        let most = (0..=MAX_WEIGHT_BITS).rev();
-        let layers = most.map(|bits| self.with_fraction_bits(layer, bits));
+        let mut finest_first = (0..=MAX_WEIGHT_BITS).rev().map(|bits| self.with_fraction_bits(layer, bits));
         let fits = |(fixed, saturated): &(FixedLayer<H, T>, bool)| !saturated && fixed.cannot_overflow();
-        let mut coarsest = FixedLayer::ZERO;
-        for layer in layers {
-            if fits(&layer) {
-                return layer.0;
-            }
-            coarsest = layer.0;
-        }
-        coarsest
+        finest_first.find(fits).unwrap_or_else(|| self.with_fraction_bits(layer, 0)).0
     }
 
     /// The layer with so many fraction bits, and whether a number of it did not fit.

@@ -1,14 +1,15 @@
 //! The rover network while it is trained: the same network as the flown one, in single precision.
 
+use kapvik_firmware::network::fixed_point::SUM_BITS;
 use kapvik_firmware::network::{
     Layer, OUTPUTS, ROVER_CONTEXT, ROVER_FIRST_HEAD, ROVER_HEAD_INPUTS, ROVER_HIDDEN, ROVER_SECOND_HEAD,
-    ROVER_THIRD_HEAD, RoverHead, RoverNetwork, WHEEL_FEATURES, Weights, Words, head_input_range,
+    ROVER_THIRD_HEAD, RoverHead, RoverNetwork, WHEEL_FEATURES, Weights, head_input_range,
 };
+use kapvik_firmware::words;
 
 use super::gated_layer::VALUE_RANGE;
 use super::rounding::Scales;
 use super::trainable::GRADIENT;
-use kapvik_firmware::network::fixed_point::SUM_BITS;
 
 /// Weighted sums of a gated layer: each neuron's gate and, behind all of them, each neuron's value.
 pub const FIRST_SUMS: usize = 2 * ROVER_FIRST_HEAD;
@@ -33,6 +34,7 @@ pub struct RoverWeights {
     /// Linear output: means, then log-variances.
     pub output: Layer<ROVER_THIRD_HEAD, OUTPUTS>,
 }
+words!(RoverWeights: context, wheel, first, second, third, output);
 
 impl RoverWeights {
     /// All weights zero.
@@ -63,25 +65,6 @@ impl RoverWeights {
 fn gated<const O: usize>(sum: usize) -> f32 {
     let of_value = if sum < O { 1.0 } else { 1.0 / VALUE_RANGE };
     0.5 * GRADIENT * of_value
-}
-
-impl Words for RoverWeights {
-    fn for_each(&self, see: &mut impl FnMut(u32)) {
-        self.context.for_each(see);
-        self.wheel.for_each(see);
-        self.first.for_each(see);
-        self.second.for_each(see);
-        self.third.for_each(see);
-        self.output.for_each(see);
-    }
-    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32)) {
-        self.context.for_each_mut(set);
-        self.wheel.for_each_mut(set);
-        self.first.for_each_mut(set);
-        self.second.for_each_mut(set);
-        self.third.for_each_mut(set);
-        self.output.for_each_mut(set);
-    }
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ pub trait Trainable: Words + Clone + Send + Sync {
     fn backward<S: Simd>(&self, simd: S, block: &Self::Block, slope: &[Lane; OUTPUTS], gradient: &mut Self);
 }
 
-/// Words of a network.
+/// Numbers of a network.
 pub fn parameter_count<N: Words>(network: &N) -> usize {
     let mut count = 0;
     network.for_each(&mut |_| count += 1);
@@ -202,7 +202,7 @@ mod tests {
     use crate::train::loss::gaussian;
     use crate::train::rover_weights::RoverWeights;
 
-    /// Words without a pattern, −1 … 1.
+    /// Numbers without a pattern, −1 … 1.
     fn wave(seed: usize) -> f32 {
         (seed as f32 * 2.399).sin()
     }

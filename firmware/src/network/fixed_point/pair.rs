@@ -3,7 +3,7 @@
 #[cfg(target_arch = "arm")]
 use core::arch::asm;
 
-use crate::network::Words;
+use crate::network::words;
 
 /// Two whole numbers of 16 bits side by side, the first in the lower half.
 #[repr(transparent)]
@@ -58,14 +58,7 @@ impl Pair {
     }
 }
 
-impl Words for Pair {
-    fn for_each(&self, see: &mut impl FnMut(u32)) {
-        see(self.0);
-    }
-    fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32)) {
-        set(&mut self.0);
-    }
-}
+words!(Pair: 0);
 
 #[cfg(test)]
 mod tests {
