@@ -125,8 +125,9 @@ fn fixed_layer<const H: usize, const T: usize>(input: f32, state: &mut u32, dige
     layer.bias.as_flattened_mut().iter_mut().for_each(|place| *place = word(state).cast_signed());
     layer.fraction_bits = word(state) % 16;
     let swept = [input, even(state), even(state), even(state), even(state)];
-    let mut inputs = rounded::<H, _>([(&swept, 15), (&swept, 12)]);
-    inputs.iter_mut().skip(3).for_each(|quad| *quad = [Pair(word(state)), Pair(word(state))]);
+    rounded::<2>(&swept, 12).as_flattened().iter().for_each(|pair| digest.add_word(pair.0));
+    let mut inputs = rounded::<H>(&swept, 15);
+    inputs.iter_mut().skip(2).for_each(|quad| *quad = [Pair(word(state)), Pair(word(state))]);
     let run = layer.run(&inputs);
     run.as_flattened().iter().for_each(|pair| digest.add_word(pair.0));
     let gate = [[Pair(word(state)), Pair(word(state))]; T];

@@ -1,7 +1,7 @@
 //! The named parts of the tables: what the trainer writes to a file and the build script reads from it.
 
-use super::shape::{ROVER_CONTEXT, ROVER_HEAD_SHAPE, ROVER_HIDDEN, WHEEL_FEATURES, WHEEL_SHAPE};
-use super::{RoverNetwork, RoverTable, WheelTable, Words};
+use super::shape::{ROVER_SHAPE, WHEEL_SHAPE};
+use super::{RoverTable, WheelTable, Words};
 
 /// Sees each part of a table in turn.
 pub trait PartVisitor {
@@ -25,13 +25,9 @@ impl WheelTable {
 impl RoverTable {
     /// Shows every part to the visitor.
     pub fn visit_parts(&mut self, visitor: &mut impl PartVisitor) {
-        visitor.part("rover.gradient", &[], &mut self.gradient);
         visitor.part("rover.context", &[], &mut self.context);
         visitor.part("rover.wheel", &[], &mut self.wheel);
-        let RoverNetwork { context, wheel, head } = &mut self.network;
-        visitor.part("rover.network.context", &[ROVER_CONTEXT, ROVER_HIDDEN], context);
-        visitor.part("rover.network.wheel", &[WHEEL_FEATURES, ROVER_HIDDEN], wheel);
-        visitor.whole_part("rover.network.head", &ROVER_HEAD_SHAPE, head);
+        visitor.whole_part("rover.network", &ROVER_SHAPE, &mut self.network);
         visitor.part("rover.posterior", &[], &mut self.posterior);
         visitor.part("rover.golden", &[], &mut self.golden);
     }

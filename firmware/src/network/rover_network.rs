@@ -1,86 +1,60 @@
 //! The rover network: any one to six wheels of one instant to the soil under all of them.
 //!
-//! Each wheel passes through the same layer; mean and variance over the wheels go on, so that neither their order nor
-//! their number matters to the shape (Zaheer et al. 2017, "Deep Sets", is the pattern).
+//! Three gated layers (Dauphin et al. 2017, "Language Modeling with Gated Convolutional Networks") and a linear one, in whole
+//! numbers of 16 bits, of which the target multiplies two pairs at once and the image holds twice as many.
 
-use heapless::Vec;
+use super::fixed_point::{FixedLayer, Pair, Quad, SUM_BITS, gated, rounded};
+use super::shape::{OUTPUTS, ROVER_FIRST, ROVER_INPUTS, ROVER_SECOND, ROVER_THIRD};
+use super::words;
 
-use super::rover_head::{HeadInputs, RoverHead};
-use super::shape::{OUTPUTS, ROVER_CONTEXT, ROVER_HIDDEN, ROVER_WHEELS, WHEEL_FEATURES};
-use super::{Layer, Weights, activate, words};
+const INPUT_QUADS: usize = ROVER_INPUTS.div_ceil(4);
+const FIRST_QUADS: usize = ROVER_FIRST / 4;
+const SECOND_QUADS: usize = ROVER_SECOND / 4;
+const THIRD_QUADS: usize = ROVER_THIRD / 4;
+const OUTPUT_QUADS: usize = OUTPUTS.div_ceil(4);
 
-/// A shared layer for each wheel, a pool, and a head.
+/// A gated layer has two sums a neuron, those of all gates first: what a neuron puts out is the product of their bipolar
+/// sigmoids.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoverNetwork {
-    /// The shared inputs' part in the wheels' layer; the same for each wheel, so it is summed once.
-    pub context: Layer<ROVER_CONTEXT, ROVER_HIDDEN>,
-    /// A wheel's own part in that layer.
-    pub wheel: Weights<WHEEL_FEATURES, ROVER_HIDDEN>,
-    /// What follows the pool.
-    pub head: RoverHead,
+    /// First layer.
+    pub first: FixedLayer<INPUT_QUADS, { 2 * FIRST_QUADS }>,
+    /// Second layer.
+    pub second: FixedLayer<FIRST_QUADS, { 2 * SECOND_QUADS }>,
+    /// Third layer.
+    pub third: FixedLayer<SECOND_QUADS, { 2 * THIRD_QUADS }>,
+    /// Linear output: means, then log-variances.
+    pub output: FixedLayer<THIRD_QUADS, OUTPUT_QUADS>,
 }
-words!(RoverNetwork: context, wheel, head);
+words!(RoverNetwork: first, second, third, output);
 
 impl RoverNetwork {
     /// All weights zero.
-    pub const ZERO: Self = Self { context: Layer::ZERO, wheel: Weights::ZERO, head: RoverHead::ZERO };
+    pub const ZERO: Self =
+        Self { first: FixedLayer::ZERO, second: FixedLayer::ZERO, third: FixedLayer::ZERO, output: FixedLayer::ZERO };
 
-    /// Runs the network on normalised inputs; wheels beyond the sixth are left out, `gradient` is A of equation 13 in the
-    /// wheels' layer.
-    pub fn run(
-        &self,
-        context: &[f32; ROVER_CONTEXT],
-        inputs: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
-        gradient: f32,
-    ) -> [f32; OUTPUTS] {
-        let shared = self.context.apply(context);
-        let mut wheels = Vec::<_, ROVER_WHEELS>::new();
-        for features in inputs.into_iter().take(ROVER_WHEELS) {
-            let mut hidden = shared;
-            self.wheel.add_to(&mut hidden, &features);
-            activate(&mut hidden, gradient);
-            // Not `collect`: heapless panics where it overflows, which the bound above rules out.
-            let _ = wheels.push(hidden);
-        }
-        self.head.run(&pool(&wheels, context))
+    /// The outputs for normalised [`super::rover_inputs`], which are taken to 1/4096 and saturate at ±8.
+    pub fn run(&self, inputs: &[f32; ROVER_INPUTS]) -> [f32; OUTPUTS] {
+        let inputs = rounded(inputs, SUM_BITS);
+        let first: [Quad; FIRST_QUADS] = neurons(&self.first.run(&inputs));
+        let second: [Quad; SECOND_QUADS] = neurons(&self.second.run(&first));
+        let third: [Quad; THIRD_QUADS] = neurons(&self.third.run(&second));
+        self.output.outputs(&third)
+    }
+
+    /// Whether no inputs whatever can bring a sum past 32 bits, on which flight relies.
+    pub fn cannot_overflow(&self) -> bool {
+        self.first.cannot_overflow()
+            && self.second.cannot_overflow()
+            && self.third.cannot_overflow()
+            && self.output.cannot_overflow()
     }
 }
 
-/// The number of wheels as the head sees it: 1 for six, 0 for none.
-fn count_feature(count: f32) -> f32 {
-    count * (1.0 / ROVER_WHEELS as f32)
-}
-
-/// Mean and variance of each neuron over the wheels, then the shared inputs and the number of wheels.
-fn pool(wheels: &[[f32; ROVER_HIDDEN]], context: &[f32; ROVER_CONTEXT]) -> HeadInputs {
-    let count = wheels.len() as f32;
-    let share = if count > 0.0 { 1.0 / count } else { 0.0 };
-    let mut pooled = [0.0; 2 * ROVER_HIDDEN];
-    let (mean, variance) = pooled.split_at_mut(ROVER_HIDDEN);
-    let places = mean.as_chunks_mut().0.iter_mut().zip(variance.as_chunks_mut().0);
-    for (place, (mean, variance)) in places.enumerate() {
-        let of_wheels = wheels.iter().filter_map(|wheel| wheel.as_chunks().0.get(place));
-        (*mean, *variance) = moments(of_wheels, share);
+/// What the neurons of a gated layer put out: of its `S` = 2 `N` quads of activations the first half are gates.
+fn neurons<const S: usize, const N: usize>(activations: &[Quad; S]) -> [Quad; N] {
+    match (activations.first_chunk(), activations.last_chunk()) {
+        (Some(gates), Some(values)) => gated(gates, values),
+        _ => [[Pair::ZERO; 2]; N],
     }
-    HeadInputs::new(&pooled, context, count_feature(count))
-}
-
-/// Neurons whose means and variances stay in registers together.
-const POOL_TILE: usize = 8;
-
-/// Mean and variance of a few neurons over the wheels, of which each has the same `share`.
-fn moments<'a>(
-    wheels: impl Iterator<Item = &'a [f32; POOL_TILE]> + Clone,
-    share: f32,
-) -> ([f32; POOL_TILE], [f32; POOL_TILE]) {
-    let mut mean = [0.0_f32; POOL_TILE];
-    wheels.clone().for_each(|wheel| mean.iter_mut().zip(wheel).for_each(|(m, x)| *m += x));
-    mean.iter_mut().for_each(|m| *m *= share);
-    let mut variance = [0.0_f32; POOL_TILE];
-    for wheel in wheels {
-        for ((v, x), m) in variance.iter_mut().zip(wheel).zip(&mean) {
-            *v += share * (x - m) * (x - m);
-        }
-    }
-    (mean, variance)
 }

@@ -2,6 +2,10 @@
 
 /// Inputs that each wheel has of its own: DP/W, T/(rW), slip, the fifth input, ln(W/(rb)).
 pub const WHEEL_FEATURES: usize = 5;
+/// Place of the slip among them.
+pub const WHEEL_SLIP: usize = 2;
+/// Place of ln(W/(rb)) among them.
+pub const WHEEL_LN_LOAD: usize = 4;
 /// Inputs that all wheels share: wheel geometry (2) and how noisy the states are (5).
 pub const CONTEXT_FEATURES: usize = 7;
 /// Inputs of the rover network that say how the wheels' states go with slip and load.
@@ -20,21 +24,16 @@ pub const WHEEL_HIDDEN: usize = 16;
 
 /// The most wheels that the rover network takes.
 pub const ROVER_WHEELS: usize = 6;
-/// Neurons in the layer of each wheel, whose mean and variance over the wheels are pooled. Few are enough beside the trend:
-/// what they would cost is worth more in the head.
-pub const ROVER_HIDDEN: usize = 8;
-/// Inputs of the layer behind the pool: means, variances, the shared inputs and the number of wheels.
-pub const ROVER_HEAD_INPUTS: usize = 2 * ROVER_HIDDEN + ROVER_CONTEXT + 1;
-/// Neurons in the first layer behind the pool; a multiple of four, like the next two.
-pub const ROVER_FIRST_HEAD: usize = 56;
-/// Neurons in the second layer behind the pool.
-pub const ROVER_SECOND_HEAD: usize = 44;
-/// Neurons in the third layer behind the pool. Of heads with as many numbers, three layers learn the map to a lower loss
-/// than two.
-pub const ROVER_THIRD_HEAD: usize = 44;
+/// Inputs of the rover network: the shared ones, six wheels' own, and the number of wheels.
+pub const ROVER_INPUTS: usize = ROVER_CONTEXT + ROVER_WHEELS * WHEEL_FEATURES + 1;
+/// Neurons in the first layer of the rover network; a multiple of four, like the next two.
+pub const ROVER_FIRST: usize = 60;
+/// Neurons in the second layer.
+pub const ROVER_SECOND: usize = 44;
+/// Neurons in the third layer. Of networks with as many numbers, three layers learn the map to a lower loss than two.
+pub const ROVER_THIRD: usize = 44;
 
 /// Layer sizes of the per-wheel network, as its frozen table states them.
 pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];
-/// Layer sizes of what follows the pool in the rover network, as its frozen table states them.
-pub const ROVER_HEAD_SHAPE: [usize; 5] =
-    [ROVER_HEAD_INPUTS, ROVER_FIRST_HEAD, ROVER_SECOND_HEAD, ROVER_THIRD_HEAD, OUTPUTS];
+/// Layer sizes of the rover network, as its frozen table states them.
+pub const ROVER_SHAPE: [usize; 5] = [ROVER_INPUTS, ROVER_FIRST, ROVER_SECOND, ROVER_THIRD, OUTPUTS];

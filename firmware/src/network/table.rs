@@ -3,7 +3,7 @@
 use super::shape::{OUTPUTS, ROVER_CONTEXT, WHEEL_FEATURES, WHEEL_INPUTS};
 use super::{
     FLOWN_PAIRS, GOLDEN_PAIRS, Normalisation, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden, WheelNetwork,
-    Words, words,
+    Words, rover_inputs, words,
 };
 
 /// The per-wheel network, frozen.
@@ -25,8 +25,6 @@ words!(WheelTable<PAIRS> where PAIRS: gradient, normalisation, network, posterio
 /// The rover network, frozen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoverTable<const PAIRS: usize = GOLDEN_PAIRS> {
-    /// Coefficient A of the bipolar sigmoid, equation 13.
-    pub gradient: f32,
     /// Of the inputs that the wheels share.
     pub context: Normalisation<ROVER_CONTEXT>,
     /// Of each wheel's own inputs.
@@ -38,7 +36,7 @@ pub struct RoverTable<const PAIRS: usize = GOLDEN_PAIRS> {
     /// Pairs that the network must reproduce.
     pub golden: [RoverGolden; PAIRS],
 }
-words!(RoverTable<PAIRS> where PAIRS: gradient, context, wheel, network, posterior, golden);
+words!(RoverTable<PAIRS> where PAIRS: context, wheel, network, posterior, golden);
 
 impl WheelTable {
     /// The table as it flies: with the first of its golden pairs.
@@ -74,15 +72,14 @@ impl<const PAIRS: usize> WheelTable<PAIRS> {
 impl RoverTable {
     /// The table as it flies: with the first of its golden pairs.
     pub fn flown(&self) -> RoverTable<FLOWN_PAIRS> {
-        let Self { gradient, context, wheel, network, posterior, golden } = self.clone();
-        RoverTable { gradient, context, wheel, network, posterior, golden: first_of(&golden, RoverGolden::ZERO) }
+        let Self { context, wheel, network, posterior, golden } = self.clone();
+        RoverTable { context, wheel, network, posterior, golden: first_of(&golden, RoverGolden::ZERO) }
     }
 }
 
 impl<const PAIRS: usize> RoverTable<PAIRS> {
     /// All zero, to be filled.
     pub const ZERO: Self = Self {
-        gradient: 0.0,
         context: Normalisation::ZERO,
         wheel: Normalisation::ZERO,
         network: RoverNetwork::ZERO,
@@ -99,7 +96,7 @@ impl<const PAIRS: usize> RoverTable<PAIRS> {
         wheels: impl IntoIterator<Item = [f32; WHEEL_FEATURES]>,
     ) -> [f32; OUTPUTS] {
         let wheels = wheels.into_iter().map(|features| self.wheel.apply(&features));
-        self.network.run(&self.context.apply(context), wheels, self.gradient)
+        self.network.run(&rover_inputs(&self.context.apply(context), wheels))
     }
 
     /// Golden pairs that the network reproduces bit for bit.

@@ -6,7 +6,7 @@ use crate::error::HostError;
 use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
 use crate::train::progress::with_progress;
-use crate::train::rover_training::train_rover;
+use crate::train::rover_training::{rover_scenes, train_rover};
 use crate::train::scene::{Design, Scene, scenes_in};
 use crate::train::score::{Score, score_rover};
 use crate::train::wheel_training::train_wheel;
@@ -33,12 +33,13 @@ pub fn train(world: &World, plan: &Plan, with_wheel: bool) -> Result<Trained, Ho
     let drawn = |count, seed| scenes_in(world, Design::Training, count, seed);
     let training = with_progress("scenes", |_| drawn(plan.scenes, plan.seed))?;
     let held_out = with_progress("held-out scenes", |_| drawn(plan.held_out, !plan.seed))?;
-    let (rover, curve) = with_progress("rover network", |bar| train_rover(plan, &training, &held_out, bar));
     let wheel = with_wheel.then(|| {
         let (table, curve) =
             with_progress("per-wheel network", |bar| train_wheel(plan, SHIPPED_FIFTH, &training, &held_out, bar));
         (table, curve.last())
     });
+    let training = with_progress("scenes", |_| rover_scenes(plan, world, training))?;
+    let (rover, curve) = with_progress("rover network", |bar| train_rover(plan, &training, &held_out, bar));
     Ok(Trained { rover, loss: curve.last(), wheel })
 }
 

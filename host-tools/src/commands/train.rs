@@ -14,7 +14,7 @@ use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
 use crate::train::prior::COMPARED_SLOPE_STD_RAD;
 use crate::train::progress::with_progress;
-use crate::train::rover_training::train_rover;
+use crate::train::rover_training::{rover_scenes, train_rover};
 use crate::train::scene::{Design, Scene, scenes_in};
 use crate::train::wheel_training::train_wheel;
 use crate::train::world::World;
@@ -69,6 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     judge_fifth_inputs(&inputs);
     let (wheel, wheel_curve) =
         with_progress("per-wheel network", |bar| train_wheel(&plan, SHIPPED, &training, &held_out, bar));
+    let training = with_progress("scenes", |_| rover_scenes(&plan, &world, training))?;
     let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
     println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
     let losses = [wheel_curve.last(), rover_curve.last()];

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::example::{Example, RoverInput, RoverNormalisation, WheelInput, rover_features, targets};
+use super::example::{Example, RoverFeatures, RoverInput, RoverNormalisation, WheelInput, rover_features, targets};
 use super::fifth_input::Candidate;
 use super::observe::observe;
 use super::prior::{self, Range};
@@ -37,14 +37,14 @@ fn standardised(scene: &Scene, scale: &PosteriorScale) -> [f32; TARGETS] {
     std::array::from_fn(|k| (truth[k] as f32 - scale.mean[k]) / scale.std[k])
 }
 
-/// The rover network's inputs, in their own units, for one noisy observation of each scene.
-pub fn rover_inputs(scenes: &[Scene], seed: u64) -> Vec<RoverInput> {
+/// What the rover network's inputs for one noisy observation of each scene are made of.
+pub fn seen_by_rover(scenes: &[Scene], seed: u64) -> Vec<RoverFeatures> {
     let seen = scenes.par_iter().enumerate();
     seen.map(|(index, scene)| rover_features(&observe(scene, &mut stream(seed, index)))).collect()
 }
 
 /// The same with each scene as this pass of training sees it, [`Scene::seen_anew`].
-pub fn rover_inputs_anew(scenes: &[Scene], seed: u64) -> Vec<RoverInput> {
+pub fn seen_by_rover_anew(scenes: &[Scene], seed: u64) -> Vec<RoverFeatures> {
     let seen = |(index, scene): (usize, &Scene)| {
         let mut random = stream(seed, index);
         let scene = scene.seen_anew(|| random.random());
@@ -53,13 +53,13 @@ pub fn rover_inputs_anew(scenes: &[Scene], seed: u64) -> Vec<RoverInput> {
     scenes.par_iter().enumerate().map(seen).collect()
 }
 
-/// Examples of the rover network from its inputs.
+/// Examples of the rover network from what its inputs are made of.
 pub fn rover_examples(
     scenes: &[Scene],
-    inputs: &[RoverInput],
+    features: &[RoverFeatures],
     normal: &RoverNormalisation,
 ) -> Vec<Example<RoverInput>> {
-    examples(scenes, inputs, |input| normal.apply(input))
+    examples(scenes, features, |features| normal.apply(features))
 }
 
 /// The per-wheel network's inputs, in their own units, for the first wheel of each scene.
@@ -84,10 +84,16 @@ pub fn wheel_examples(
     examples(scenes, inputs, |input| normal.apply(input))
 }
 
-fn examples<I: Sync + Send>(scenes: &[Scene], inputs: &[I], normalised: impl Fn(&I) -> I + Sync) -> Vec<Example<I>> {
+fn examples<F: Sync, I: Send>(
+    scenes: &[Scene],
+    features: &[F],
+    normalised: impl Fn(&F) -> I + Sync,
+) -> Vec<Example<I>> {
     let scale = prior_scale();
-    let pairs = scenes.par_iter().zip(inputs);
-    pairs.map(|(scene, input)| Example { input: normalised(input), target: standardised(scene, &scale) }).collect()
+    let pairs = scenes.par_iter().zip(features);
+    pairs
+        .map(|(scene, features)| Example { input: normalised(features), target: standardised(scene, &scale) })
+        .collect()
 }
 
 /// Shuffles (Fisher–Yates).

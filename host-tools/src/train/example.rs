@@ -1,6 +1,8 @@
 //! Examples for the trainers: normalised inputs, standardised targets.
 
-use kapvik_firmware::network::{Normalisation, ROVER_CONTEXT, ROVER_WHEELS, TARGETS, WHEEL_FEATURES, WHEEL_INPUTS};
+use kapvik_firmware::network::{
+    Normalisation, ROVER_CONTEXT, ROVER_INPUTS, ROVER_WHEELS, TARGETS, WHEEL_FEATURES, WHEEL_INPUTS, rover_inputs,
+};
 use kapvik_firmware::soil::{RoverContext, WheelFeatures};
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::SoilQuery;
@@ -11,8 +13,11 @@ use super::scene::Scene;
 pub type WheelInput = [f32; WHEEL_INPUTS];
 
 /// Normalised inputs of the rover network.
+pub type RoverInput = [f32; ROVER_INPUTS];
+
+/// What the rover network's inputs are made of, in their own units.
 #[derive(Debug, Clone)]
-pub struct RoverInput {
+pub struct RoverFeatures {
     /// Those that the wheels share.
     pub context: RoverContext,
     /// Those of each wheel.
@@ -38,10 +43,10 @@ pub fn soil_targets(soil: &Soil<f64>) -> [f64; TARGETS] {
     [libm::log(soil.cohesion_pa), soil.friction_angle_rad, libm::log(soil.shear_modulus_m)]
 }
 
-/// The rover network's inputs for a query, in their own units.
-pub fn rover_features(query: &SoilQuery) -> RoverInput {
+/// What the rover network's inputs for a query are made of.
+pub fn rover_features(query: &SoilQuery) -> RoverFeatures {
     let (context, wheels) = query.rover_features();
-    RoverInput { context, wheels }
+    RoverFeatures { context, wheels }
 }
 
 /// Normalisation of a set of inputs: mean, standard deviation, and the range that all but one in 5000 lie in, each side
@@ -77,7 +82,7 @@ pub struct RoverNormalisation {
 
 impl RoverNormalisation {
     /// From a set of inputs in their own units.
-    pub fn new(inputs: &[RoverInput]) -> Self {
+    pub fn new(inputs: &[RoverFeatures]) -> Self {
         Self {
             context: normalisation(inputs.iter().map(|input| &input.context)),
             wheel: normalisation(inputs.iter().flat_map(|input| &input.wheels)),
@@ -85,10 +90,8 @@ impl RoverNormalisation {
     }
 
     /// Inputs on the network's scale.
-    pub fn apply(&self, input: &RoverInput) -> RoverInput {
-        RoverInput {
-            context: self.context.apply(&input.context),
-            wheels: input.wheels.iter().map(|features| self.wheel.apply(features)).collect(),
-        }
+    pub fn apply(&self, features: &RoverFeatures) -> RoverInput {
+        let wheels = features.wheels.iter().map(|wheel| self.wheel.apply(wheel));
+        rover_inputs(&self.context.apply(&features.context), wheels)
     }
 }

@@ -23,7 +23,7 @@ const TILE: usize = 8;
 
 /// Adds the weighted inputs to `sums`.
 #[inline(always)]
-pub fn add_weighted<S: Simd, const I: usize, const O: usize>(
+fn add_weighted<S: Simd, const I: usize, const O: usize>(
     simd: S,
     weights: &Weights<I, O>,
     input: &[Lane; I],
@@ -98,7 +98,7 @@ pub fn add_layer_gradient<S: Simd, const I: usize, const O: usize>(
 
 /// Adds to the gradient of weights that of a block.
 #[inline(always)]
-pub fn add_gradient<S: Simd, const I: usize, const O: usize>(
+fn add_gradient<S: Simd, const I: usize, const O: usize>(
     simd: S,
     input: &[Lane; I],
     slope: &[Lane; O],

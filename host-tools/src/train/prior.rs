@@ -88,6 +88,16 @@ pub const WHOLE_ROVER_SHARE: f64 = 0.8;
 /// Share of scenes whose wheels are driven at deliberately different rim speeds.
 pub const SPREAD_SHARE: f64 = 0.8;
 
+/// Share of the scenes for the rover network's training in which Kapvik drives its six wheels at slips from small to great: what
+/// makes a soil observable, and what asks most of a network. What it is judged and its intervals are calibrated on is the rest.
+pub const MANOEUVRE_SHARE: f64 = 0.5;
+/// Mean load of the wheels there, N.
+pub const MANOEUVRE_LOADS_N: Range = Range::linear(50.0, 80.0);
+/// Least slip there.
+pub const MANOEUVRE_SLIP_LOW: Range = Range::linear(0.02, 0.10);
+/// Greatest slip there.
+pub const MANOEUVRE_SLIP_HIGH: Range = Range::linear(0.50, 0.70);
+
 /// Kapvik's wheel. Assumed, not published (assumption set K0).
 pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 /// Kapvik's grousers. Assumed, not published (assumption set K0). They act only through an effect.

@@ -4,16 +4,16 @@ use kapvik_firmware::network::Layer;
 use kapvik_firmware::network::fixed_point::{FixedLayer, MAX_WEIGHT_BITS, Pair};
 
 /// What the numbers of a layer stand for beside single precision.
-pub struct Scales<F, G> {
-    /// What the full range of each input, 32 768, stands for.
-    pub input_range: F,
+pub struct Scales<G> {
+    /// What the full range of the inputs, 32 768, stands for.
+    pub input_range: f32,
     /// Multiplies each sum.
     pub sums: G,
     /// Fraction bits that the sums are cut to on their way to an activation, if they are: half of the last is added.
     pub cut_to: Option<u32>,
 }
 
-impl<F: Fn(usize) -> f32, G: Fn(usize) -> f32> Scales<F, G> {
+impl<G: Fn(usize) -> f32> Scales<G> {
     /// The layer with as many fraction bits as its weights and sums leave room for. Inputs and sums that the flown layer has
     /// beyond those of `layer`, because it takes them by fours, are zero.
     ///
@@ -41,7 +41,7 @@ impl<F: Fn(usize) -> f32, G: Fn(usize) -> f32> Scales<F, G> {
         };
         let mut weight = |input: usize, sum: usize| {
             let weight = layer.weights.0.get(input).and_then(|row| row.get(sum)).copied().unwrap_or(0.0);
-            let scale = (self.input_range)(input) * (self.sums)(sum);
+            let scale = self.input_range * (self.sums)(sum);
             whole(f64::from(weight) * f64::from(scale) * unit, f64::from(i16::MAX)) as i16
         };
         let weights = std::array::from_fn(|tile| {
@@ -87,13 +87,13 @@ mod tests {
     }
 
     fn rounded_plainly(layer: &Layer<5, 6>) -> FixedLayer<2, 2> {
-        Scales { input_range: |_| 1.0, sums: |_| 1.0, cut_to: None }.round(layer)
+        Scales { input_range: 1.0, sums: |_| 1.0, cut_to: None }.round(layer)
     }
 
     #[test]
     fn sums_are_those_of_the_layer() {
         let input = [0.5, -0.25, 0.125, -0.9375, 0.75];
-        let whole = rounded([(&input, ACTIVATION_BITS)]);
+        let whole = rounded(&input, ACTIVATION_BITS);
         for scale in [1e-3, 0.1, 1.0, 30.0, 3000.0] {
             let layer = layer(scale);
             let fixed = rounded_plainly(&layer);

@@ -4,32 +4,44 @@ use indicatif::ProgressBar;
 use kapvik_firmware::network::{GOLDEN_PAIRS, PosteriorScale, ROVER_WHEELS, RoverGolden, RoverNetwork, RoverTable};
 use rayon::prelude::*;
 
+use crate::error::HostError;
+
 use super::calibration::calibrate;
 use super::curve::Curve;
-use super::dataset::{prior_scale, rover_examples, rover_inputs, rover_inputs_anew};
+use super::dataset::{prior_scale, rover_examples, seen_by_rover, seen_by_rover_anew};
 use super::epochs::train_by_epochs;
-use super::example::{Example, RoverInput, RoverNormalisation};
+use super::example::{Example, RoverFeatures, RoverNormalisation};
 use super::plan::{Plan, Purpose};
+use super::prior::MANOEUVRE_SHARE;
 use super::rover_weights::RoverWeights;
-use super::scene::Scene;
-use super::trainable::GRADIENT;
+use super::scene::{Design, Scene, scenes_in};
+use super::world::World;
+
+/// The scenes that the rover network is trained on: of `drawn`, scenes of all kinds, a part, and the rest of the manoeuvre that
+/// makes a soil observable.
+///
+/// # Errors
+/// Where no rover could drive with the effects of the world.
+pub fn rover_scenes(plan: &Plan, world: &World, mut drawn: Vec<Scene>) -> Result<Vec<Scene>, HostError> {
+    let of_manoeuvre = (MANOEUVRE_SHARE * drawn.len() as f64) as usize;
+    drawn.truncate(drawn.len() - of_manoeuvre);
+    drawn.extend(scenes_in(world, Design::Manoeuvre, of_manoeuvre, plan.seed)?);
+    Ok(drawn)
+}
 
 /// Trains the rover network on `scenes`, watches and calibrates it on `held_out`.
 pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: &ProgressBar) -> (RoverTable, Curve) {
-    let raw = rover_inputs(held_out, plan.stream(Purpose::HeldOutNoise));
+    let raw = seen_by_rover(held_out, plan.stream(Purpose::HeldOutNoise));
     let normal = RoverNormalisation::new(&raw);
     let watched = rover_examples(held_out, &raw, &normal);
     let curve = Curve::new("rover network");
     let (weights, curve): (RoverWeights, Curve) =
         train_by_epochs(plan, plan.rover, &watched, curve, progress, |seed| {
-            rover_examples(scenes, &rover_inputs_anew(scenes, seed), &normal)
+            rover_examples(scenes, &seen_by_rover_anew(scenes, seed), &normal)
         });
     let mut posterior = prior_scale();
     let network = weights.rounded();
-    let flown: Vec<_> = watched
-        .par_iter()
-        .map(|Example { input, .. }| network.run(&input.context, input.wheels.iter().copied(), GRADIENT))
-        .collect();
+    let flown: Vec<_> = watched.par_iter().map(|Example { input, .. }| network.run(input)).collect();
     calibrate(&flown, &watched, &mut posterior);
     (table(network, normal, posterior, &raw), curve)
 }
@@ -38,11 +50,11 @@ fn table(
     network: RoverNetwork,
     normal: RoverNormalisation,
     posterior: PosteriorScale,
-    raw: &[RoverInput],
+    raw: &[RoverFeatures],
 ) -> RoverTable {
     let RoverNormalisation { context, wheel } = normal;
     let golden = [const { RoverGolden::ZERO }; GOLDEN_PAIRS];
-    let mut table = RoverTable { gradient: GRADIENT, context, wheel, network, posterior, golden };
+    let mut table = RoverTable { context, wheel, network, posterior, golden };
     let pairs = raw.iter().take(GOLDEN_PAIRS).map(|input| {
         let mut pair = RoverGolden::ZERO;
         pair.count = input.wheels.len().min(ROVER_WHEELS) as f32;

@@ -72,6 +72,8 @@ fn slope_rad(wheels: &[WheelState]) -> f32 {
 pub enum Design {
     /// Mostly Kapvik, some other wheels; mostly six wheels at spread slips, some fewer or alike; all noise levels.
     Training,
+    /// Kapvik, six wheels at slips from small to great, loads alike or not; all noise levels.
+    Manoeuvre,
     /// Kapvik, six wheels at slips 0.05–0.60, loads within ±8 % of 65.4 N.
     Kapvik {
         /// Independent instants that are averaged.
@@ -158,27 +160,30 @@ fn draw(world: &World, design: Design, index: u32, seed: u32) -> Option<Scene> {
         faultless: world.is_seed(),
     };
     match design {
-        Design::Training => draw_training(&mut shares, &ground),
+        Design::Training => draw_training(&mut shares, &ground, false),
+        Design::Manoeuvre => draw_training(&mut shares, &ground, true),
         Design::Kapvik { instants, sinkage } => draw_kapvik(&mut shares, &ground, instants, sinkage),
     }
 }
 
-fn draw_training(shares: &mut Shares, ground: &Ground) -> Option<Scene> {
-    let kapvik = shares.next() < prior::KAPVIK_SHARE;
+fn draw_training(shares: &mut Shares, ground: &Ground, is_manoeuvre: bool) -> Option<Scene> {
+    let kapvik = shares.next() < prior::KAPVIK_SHARE || is_manoeuvre;
+    let kapvik_loads_n = if is_manoeuvre { prior::MANOEUVRE_LOADS_N } else { prior::KAPVIK_LOADS_N };
     let (radius, width, load) = (shares.next(), shares.next(), shares.next());
     let radius_m = prior::RADIUS_M.at(radius);
     let other = Wheel { radius_m, width_m: radius_m * prior::WIDTH_RATIO.at(width) };
     let (wheel, grousers, load_n) = if kapvik {
-        (prior::KAPVIK_WHEEL, prior::KAPVIK_GROUSERS, prior::KAPVIK_LOADS_N.at(load))
+        (prior::KAPVIK_WHEEL, prior::KAPVIK_GROUSERS, kapvik_loads_n.at(load))
     } else {
         let load_n = prior::PRESSURE_PA.at(load) * other.radius_m * other.width_m;
         (other, ground.drive.other_grousers(other.radius_m), load_n)
     };
     let spread = prior::LOAD_SPREAD.at(shares.next());
-    let slips = Slips::draw(shares);
+    let slips = if is_manoeuvre { Slips::of_manoeuvre(shares) } else { Slips::draw(shares) };
     let noise = draw_noise(shares, &wheel, load_n);
     let (fewer, count) = (shares.next(), shares.next());
-    let count = if fewer < prior::WHOLE_ROVER_SHARE { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
+    let count =
+        if fewer < prior::WHOLE_ROVER_SHARE || is_manoeuvre { WHEELS } else { 1 + (count * WHEELS as f64) as usize };
     let sinkage_seen = shares.next() < SINKAGE_SEEN_SHARE;
     let (slope_seen, slope_std) = (shares.next() < 0.7, prior::SLOPE_STD_RAD.at(shares.next()));
     let mut asked = heapless::Vec::new();
@@ -207,6 +212,11 @@ impl Slips {
         let (low, high) =
             if stepped { (prior::SPREAD_SLIP_LOW, prior::SPREAD_SLIP_HIGH) } else { (prior::SLIP, prior::SLIP) };
         Self { ends: (low.at(one), high.at(two)), stepped }
+    }
+
+    fn of_manoeuvre(shares: &mut Shares) -> Self {
+        let ends = (prior::MANOEUVRE_SLIP_LOW.at(shares.next()), prior::MANOEUVRE_SLIP_HIGH.at(shares.next()));
+        Self { ends, stepped: true }
     }
 
     fn of(&self, place: usize, count: usize, share: f64) -> f64 {

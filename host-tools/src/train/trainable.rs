@@ -198,7 +198,6 @@ mod tests {
     use kapvik_firmware::network::{TARGETS, WheelNetwork};
 
     use super::*;
-    use crate::train::example::RoverInput;
     use crate::train::loss::gaussian;
     use crate::train::rover_weights::RoverWeights;
 
@@ -211,18 +210,10 @@ mod tests {
         std::array::from_fn(|k| wave(seed * 5 + k))
     }
 
-    /// More than fill a block, with one wheel to six.
-    fn rovers() -> Vec<Example<RoverInput>> {
-        let rover = |seed: usize| RoverInput {
-            context: std::array::from_fn(|k| wave(seed * 100 + k)),
-            wheels: (0..1 + seed % 6).map(|w| std::array::from_fn(|k| wave(seed * 200 + w * 10 + k))).collect(),
-        };
-        (0..LANES + 5).map(|seed| Example { input: rover(seed), target: target(seed) }).collect()
-    }
-
-    fn wheels() -> Vec<Example<<WheelNetwork as Trainable>::Input>> {
-        let wheel = |seed: usize| std::array::from_fn(|k| wave(seed * 100 + k));
-        (0..LANES + 5).map(|seed| Example { input: wheel(seed), target: target(seed) }).collect()
+    /// More than fill a block.
+    fn examples<const I: usize>() -> Vec<Example<[f32; I]>> {
+        let input = |seed: usize| std::array::from_fn(|k| wave(seed * 100 + k));
+        (0..LANES + 5).map(|seed| Example { input: input(seed), target: target(seed) }).collect()
     }
 
     /// Lanes' outputs, whatever the machine, have the bits of an example by itself in narrow registers.
@@ -238,13 +229,13 @@ mod tests {
 
     #[test]
     fn outputs_are_the_same_bits_whatever_the_machine() {
-        check_bits::<RoverWeights>(&rovers());
-        check_bits::<WheelNetwork>(&wheels());
+        check_bits::<RoverWeights>(&examples());
+        check_bits::<WheelNetwork>(&examples());
     }
 
     #[test]
     fn blocks_have_the_bits_of_the_flown_per_wheel_network() {
-        let (network, examples): (WheelNetwork, _) = (initial(3), wheels());
+        let (network, examples): (WheelNetwork, _) = (initial(3), examples());
         let flown: Vec<_> =
             examples.iter().map(|example| network.run(&example.input, GRADIENT).map(f32::to_bits)).collect();
         let blocks = outputs_of(&network, &examples);
@@ -278,8 +269,8 @@ mod tests {
 
     #[test]
     fn gradients_are_those_of_differences() {
-        check_gradient::<RoverWeights>(&rovers());
-        check_gradient::<WheelNetwork>(&wheels());
+        check_gradient::<RoverWeights>(&examples());
+        check_gradient::<WheelNetwork>(&examples());
     }
 
     #[test]

@@ -2,29 +2,17 @@
 
 use super::{Pair, Quad, power_of_two};
 
-/// Rounds runs of numbers, each with its own count of fraction bits, and puts them one behind the other.
-///
-/// A run whose length is not a multiple of four is filled up with zeros, so that each begins with a quad of its own;
-/// zeros follow the last one, and what has no place is left out. Fraction bits are at most 111.
+/// Rounds numbers to so many fraction bits, four a quad; zeros follow the last one, and what has no place is left out. Fraction
+/// bits are at most 111.
 ///
 /// Each number goes to the nearest whole multiple of 2^−(fraction bits), the upper one of two that are as near. It is
 /// off by at most 0.500 02 of that: negative ones less than 2⁻¹⁶ of it below the middle go up as well. Numbers out of
 /// range saturate at −32 768 and 32 767, infinite ones too; NaN gives 0.
-pub fn rounded<const H: usize, const RUNS: usize>(runs: [(&[f32], u32); RUNS]) -> [Quad; H] {
+pub fn rounded<const H: usize>(numbers: &[f32], fraction_bits: u32) -> [Quad; H] {
+    // Sixteen bits more, for the number is then in the upper half of a register, and the conversion saturates.
+    let scale = power_of_two(fraction_bits.wrapping_add(16).cast_signed());
     let mut all = [[Pair::ZERO; 2]; H];
-    let mut places = all.as_mut_slice();
-    for (numbers, fraction_bits) in runs {
-        // Sixteen bits more, for the number is then in the upper half of a register, and the conversion saturates.
-        round_run(numbers, power_of_two(fraction_bits.wrapping_add(16).cast_signed()), places);
-        places = places.get_mut(numbers.len().div_ceil(4)..).unwrap_or_default();
-    }
-    all
-}
-
-// One copy in the image for runs of all lengths.
-#[inline(never)]
-fn round_run(numbers: &[f32], scale: f32, places: &mut [Quad]) {
-    let mut places = places.iter_mut();
+    let mut places = all.iter_mut();
     let (quads, rest) = numbers.as_chunks::<4>();
     for (numbers, place) in quads.iter().zip(&mut places) {
         *place = quad(numbers, scale);
@@ -34,6 +22,7 @@ fn round_run(numbers: &[f32], scale: f32, places: &mut [Quad]) {
     {
         *place = quad(&[0, 1, 2, 3].map(|index| rest.get(index).copied().unwrap_or(0.0)), scale);
     }
+    all
 }
 
 #[inline]
@@ -49,7 +38,7 @@ mod tests {
     use crate::network::fixed_point::{Pair, Quad};
 
     fn one(number: f32, fraction_bits: u32) -> i16 {
-        let [[pair, _]]: [Quad; 1] = rounded([(&[number], fraction_bits)]);
+        let [[pair, _]]: [Quad; 1] = rounded(&[number], fraction_bits);
         pair.halves()[0]
     }
 
@@ -82,12 +71,11 @@ mod tests {
     }
 
     #[test]
-    fn runs_begin_with_quads_of_their_own() {
-        let all: [Quad; 5] = rounded([(&[1.0, 2.0, 3.0, 4.0], 0), (&[], 3), (&[1.0, 2.0, 3.0, 4.0, -5.0], 1)]);
-        let numbers = [[1, 2], [3, 4], [2, 4], [6, 8], [-10, 0], [0; 2], [0; 2], [0; 2], [0; 2], [0; 2]];
-        let expected = numbers.map(|[a, b]| Pair::new(a, b));
-        assert_eq!(all.as_flattened(), expected);
-        let short: [Quad; 1] = rounded([(&[1.0; 9], 0), (&[2.0; 2], 0)]);
+    fn zeros_follow_and_what_has_no_place_is_left_out() {
+        let all: [Quad; 3] = rounded(&[1.0, 2.0, 3.0, 4.0, -5.0], 1);
+        let numbers = [[2, 4], [6, 8], [-10, 0], [0; 2], [0; 2], [0; 2]];
+        assert_eq!(all.as_flattened(), numbers.map(|[a, b]| Pair::new(a, b)));
+        let short: [Quad; 1] = rounded(&[1.0; 9], 0);
         assert_eq!(short, [[Pair::new(1, 1); 2]]);
     }
 }
