@@ -123,8 +123,28 @@ impl<S: Scalar, const N: usize> SubAssign for Dual<S, N> {
 }
 
 impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
-    const EPSILON: f64 = S::EPSILON;
+    type Plain = S;
 
+    const EPSILON: f64 = S::EPSILON;
+    // Fewer slopes than this are carried through every operation in less time.
+    const IS_CHAINED: bool = N > 3;
+
+    fn plain(self) -> S {
+        self.value
+    }
+    fn from_plain(value: S) -> Self {
+        Self::fixed(value)
+    }
+    #[inline(always)]
+    fn scaled(self, factor: S) -> Self {
+        self.through(self.value * factor, factor)
+    }
+    #[inline(always)]
+    fn follow(&mut self, input: &Self, derivative: S) {
+        for (slope, input) in self.slopes.iter_mut().zip(&input.slopes) {
+            *slope += derivative * *input;
+        }
+    }
     fn constant(value: f64) -> Self {
         Self::fixed(S::constant(value))
     }

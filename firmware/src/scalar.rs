@@ -22,8 +22,24 @@ pub trait Scalar:
     + SubAssign
     + 'static
 {
+    /// The number without what it carries along: itself, but for a dual number, which is a plain value with slopes.
+    type Plain: Scalar;
+
     /// The distance from one to the next number: what a computation can hope for. That of `f64` unless said otherwise.
     const EPSILON: f64 = f64::EPSILON;
+    /// Whether it carries so much that a long computation is done sooner on plain values, with the derivatives by what it
+    /// starts from, and these then given to [`Scalar::follow`].
+    const IS_CHAINED: bool = false;
+
+    /// The value alone.
+    fn plain(self) -> Self::Plain;
+    /// A number that carries nothing but the value.
+    fn from_plain(value: Self::Plain) -> Self;
+    /// This number times a plain value.
+    fn scaled(self, factor: Self::Plain) -> Self;
+    /// Lets what this number carries follow what `input` carries: the chain rule's term of an input by which the value has
+    /// this derivative. A plain number carries nothing and stays as it is.
+    fn follow(&mut self, input: &Self, derivative: Self::Plain);
 
     /// The nearest number to a constant of the equations.
     fn constant(value: f64) -> Self;
@@ -96,6 +112,18 @@ impl Tabulated {
 }
 
 impl Scalar for f64 {
+    type Plain = Self;
+
+    fn plain(self) -> Self {
+        self
+    }
+    fn from_plain(value: Self) -> Self {
+        value
+    }
+    fn scaled(self, factor: Self) -> Self {
+        self * factor
+    }
+    fn follow(&mut self, _input: &Self, _derivative: Self) {}
     fn constant(value: f64) -> Self {
         value
     }
@@ -132,7 +160,20 @@ impl Scalar for f64 {
 }
 
 impl Scalar for f32 {
+    type Plain = Self;
+
     const EPSILON: f64 = f32::EPSILON as f64;
+
+    fn plain(self) -> Self {
+        self
+    }
+    fn from_plain(value: Self) -> Self {
+        value
+    }
+    fn scaled(self, factor: Self) -> Self {
+        self * factor
+    }
+    fn follow(&mut self, _input: &Self, _derivative: Self) {}
 
     fn constant(value: f64) -> Self {
         value as f32

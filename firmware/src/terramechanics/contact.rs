@@ -29,6 +29,11 @@ impl<S: Scalar> Contact<S> {
         Self { entry_rad, peak_rad, exit_rad }.held()
     }
 
+    /// The same without what the scalar carries along.
+    pub(super) fn plain(&self) -> Contact<S::Plain> {
+        Contact { entry_rad: self.entry_rad.plain(), peak_rad: self.peak_rad.plain(), exit_rad: self.exit_rad.plain() }
+    }
+
     /// The same with the peak held inside the contact.
     pub(super) fn held(self) -> Self {
         let margin = S::constant(1e-6) * self.span_rad();

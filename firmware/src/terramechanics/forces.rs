@@ -2,13 +2,12 @@
 
 use crate::scalar::Scalar;
 
+use super::integrals::{Place, integrate};
 use super::normal_stress::NormalStress;
-use super::panels::{Panels, ShearLayer};
 use super::quadrature::Quadrature;
-use super::rim::Rim;
 use super::shear_displacement::ShearDisplacement;
-use super::shear_law::{PlainShear, ShearLaw};
-use super::shear_stress::ShearStress;
+use super::shear_law::PlainShear;
+use super::shear_stress::{Mobilisation, Strength};
 use super::{Contact, Soil, Wheel};
 
 /// What the soil does to a wheel, equations 3–5.
@@ -73,9 +72,15 @@ pub fn wheel_forces_by<S: Scalar>(
     check(wheel, soil, slip, sinkage_m)?;
     let contact = Contact::new(wheel, soil, slip, sinkage_m);
     let displacement = ShearDisplacement::new(slip);
-    let stress = ShearStress::new(soil, wheel.radius_m, &displacement);
-    let law = PlainShear { displacement: &displacement, stress: &stress };
-    let found = integrate(quadrature, wheel, soil, &contact, (&displacement, &stress), &law);
+    let mobilisation = Mobilisation::new(soil, wheel.radius_m, &displacement);
+    let place = Place {
+        contact: &contact,
+        normal: &NormalStress::new(wheel, soil),
+        displacement: &displacement,
+        strength: &Strength::new(soil, None),
+        layer: mobilisation.scale,
+    };
+    let found = integrate(quadrature, &place, &PlainShear { mobilisation });
     let area = wheel.radius_m * wheel.width_m;
     let forces = WheelForces {
         drawbar_pull_n: area * found.pull,
@@ -83,54 +88,6 @@ pub fn wheel_forces_by<S: Scalar>(
         torque_nm: area * wheel.radius_m * found.torque,
     };
     if forces.is_finite() { Ok(forces) } else { Err(ForceError::Overflow) }
-}
-
-/// The integrals of equations 3–5 without the factors rb and r²b, Pa, and that of the stress along the axle.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Integrals<S> {
-    pub pull: S,
-    pub load: S,
-    pub torque: S,
-    pub side: S,
-}
-
-/// Integrates the stresses over the contact. `parts` are the displacement and the stress of equations 1 and 2, which say
-/// where the contact is to be divided; `law` is what the soil does.
-pub(super) fn integrate<S: Scalar>(
-    quadrature: &Quadrature,
-    wheel: &Wheel<S>,
-    soil: &Soil<S>,
-    contact: &Contact<S>,
-    parts: (&ShearDisplacement<S>, &ShearStress<S>),
-    law: &impl ShearLaw<S>,
-) -> Integrals<S> {
-    let (displacement, stress) = parts;
-    let rim = Rim::new(contact.entry_rad);
-    let normal = NormalStress::new(wheel, soil);
-    let layer = ShearLayer { displacement: *displacement, thickness: quadrature.layer::<S>() * stress.scale };
-    let panels = Panels::new(quadrature, contact, &rim, &layer);
-    let ratio = law.radius_ratio();
-
-    let (front, rear, span) = (contact.front_rad(), contact.rear_rad(), contact.span_rad());
-    let mut sum = Integrals { pull: S::zero(), load: S::zero(), torque: S::zero(), side: S::zero() };
-    for (start, length) in panels.iter() {
-        for node in quadrature.place(start, length) {
-            let ahead = rim.point(front * node.share);
-            let behind = rim.point(span - rear * node.share);
-            // Equation 8 gives the point behind the peak the normal stress of the point ahead of it.
-            let sigma = normal.at(ahead.sunk);
-            for (point, width) in [(&ahead, front), (&behind, rear)] {
-                let traction = law.at(sigma, point);
-                let tau = ratio * traction.along_pa;
-                let weight = node.weight * width;
-                sum.pull += weight * (tau * point.cos - sigma * point.sin);
-                sum.load += weight * (sigma * point.cos + tau * point.sin);
-                sum.torque += weight * (ratio * tau);
-                sum.side += weight * traction.across_pa;
-            }
-        }
-    }
-    sum
 }
 
 impl<S: Scalar> WheelForces<S> {

@@ -11,8 +11,9 @@ use super::{Soil, Wheel};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NormalStress<S> {
     /// (k_c/b + k_φ) rⁿ, Pa: the stress at a depth of one radius.
-    at_one_radius_pa: S,
-    exponent: S,
+    pub at_one_radius_pa: S,
+    /// n.
+    pub exponent: S,
 }
 
 impl<S: Scalar> NormalStress<S> {

@@ -37,7 +37,7 @@ impl<S: Scalar> Rim<S> {
     // The target has too few registers for a copy in every place that uses it.
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn point(&self, from_entry_rad: S) -> RimPoint<S> {
-        let (sin_half, cos_half) = (S::constant(0.5) * from_entry_rad).sin_cos();
+        let (sin_half, cos_half) = from_entry_rad.scaled(S::Plain::constant(0.5)).sin_cos();
         let chord = sin_half + sin_half;
         let sunk = chord * (self.sin_entry * cos_half - self.cos_entry * sin_half);
         let behind = chord * (self.cos_entry * cos_half + self.sin_entry * sin_half);

@@ -29,6 +29,11 @@ impl<S: Scalar> ShearDisplacement<S> {
         }
     }
 
+    /// The slip that it is at.
+    pub fn slip(&self) -> S {
+        self.slip
+    }
+
     /// q = a j / r at a point.
     #[inline(always)]
     pub fn at(&self, point: &RimPoint<S>) -> S {

@@ -74,7 +74,7 @@ impl<S: Scalar> Soil<S> {
             self.peak_stress_c1,
             self.peak_stress_c2,
         ];
-        finite.iter().all(|parameter| parameter.is_finite())
+        finite.iter().all(|parameter| parameter.plain().is_finite())
             && self.sinkage_exponent >= S::zero()
             && self.shear_modulus_m >= S::zero()
             && self.friction_angle_rad.abs() < S::constant(core::f64::consts::FRAC_PI_2)

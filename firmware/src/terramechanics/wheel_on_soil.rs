@@ -3,11 +3,13 @@
 use crate::scalar::Scalar;
 
 use super::effects::{Circumstances, Conditions, Effects, Grousers};
-use super::forces::{Integrals, check, integrate};
+use super::forces::check;
+use super::integrals::{Integrals, Place, integrate};
+use super::normal_stress::NormalStress;
 use super::quadrature::Quadrature;
 use super::shear_displacement::ShearDisplacement;
 use super::shear_law::{AlteredShear, PlainShear, ShearConditions};
-use super::shear_stress::ShearStress;
+use super::shear_stress::{Mobilisation, Strength};
 use super::sinkage::LoadCurve;
 use super::{Contact, ForceError, SinkageError, Soil, Wheel};
 
@@ -148,14 +150,19 @@ impl<S: Scalar> WheelOnSoil<'_, S> {
     fn integrals(&self, soil: &Soil<S>, contact: &Contact<S>, slip: S, conditions: ShearConditions<S>) -> Integrals<S> {
         let displacement = ShearDisplacement::new(slip);
         let shear_radius_m = conditions.radius_ratio.map_or(self.wheel.radius_m, |ratio| self.wheel.radius_m * ratio);
-        let stress = ShearStress::new(soil, shear_radius_m, &displacement);
-        let parts = (&displacement, &stress);
+        let mobilisation = Mobilisation::new(soil, shear_radius_m, &displacement);
+        let place = Place {
+            contact,
+            normal: &NormalStress::new(self.wheel, soil),
+            displacement: &displacement,
+            strength: &Strength::new(soil, conditions.cap),
+            layer: mobilisation.scale,
+        };
         if conditions.is_plain() {
-            let law = PlainShear { displacement: &displacement, stress: &stress };
-            integrate(&self.quadrature, self.wheel, soil, contact, parts, &law)
+            integrate(&self.quadrature, &place, &PlainShear { mobilisation })
         } else {
-            let law = AlteredShear::new(&displacement, &stress, conditions, contact);
-            integrate(&self.quadrature, self.wheel, soil, contact, parts, &law)
+            let law = AlteredShear::new(&displacement, mobilisation, &conditions, contact);
+            integrate(&self.quadrature, &place, &law)
         }
     }
 }

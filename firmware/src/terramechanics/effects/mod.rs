@@ -32,7 +32,8 @@ mod torque_scale;
 
 use crate::scalar::Scalar;
 
-use super::shear_law::{Cap, Hump, ShearConditions};
+use super::shear_law::{Hump, ShearConditions};
+use super::shear_stress::Cap;
 use super::wheel_on_soil::{Memory, Readings, WheelTruth};
 use super::{Contact, Soil};
 
