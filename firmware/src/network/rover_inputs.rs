@@ -18,32 +18,42 @@ pub fn rover_inputs(
         count += 1;
     }
     let mut inputs = [0.0; ROVER_INPUTS];
-    let mut places = inputs.iter_mut();
-    context.iter().zip(&mut places).for_each(|(value, place)| *place = *value);
-    let by_slip = in_order(&seen, count);
-    for slot in 0..ROVER_WHEELS {
-        let wheel = by_slip.get(slot * count / ROVER_WHEELS).and_then(|&place| seen.get(place));
-        wheel.into_iter().flatten().zip(&mut places).for_each(|(value, place)| *place = *value);
+    if let Some((shared, others)) = inputs.split_first_chunk_mut() {
+        *shared = *context;
+        let (slots, rest) = others.as_chunks_mut();
+        let by_slip = in_order(&seen, count);
+        for (slot, place) in slots.iter_mut().enumerate() {
+            let wheel = by_slip.get(slot * count / ROVER_WHEELS).and_then(|&wheel| seen.get(wheel));
+            *place = *wheel.unwrap_or(&[0.0; WHEEL_FEATURES]);
+        }
+        rest.iter_mut().for_each(|place| *place = count as f32 * (1.0 / ROVER_WHEELS as f32));
     }
-    places.for_each(|place| *place = count as f32 * (1.0 / ROVER_WHEELS as f32));
     inputs
 }
 
 /// The places of the first `count` wheels, the one with the least slip first.
 fn in_order(wheels: &[[f32; WHEEL_FEATURES]; ROVER_WHEELS], count: usize) -> [usize; ROVER_WHEELS] {
-    let key = |wheel: &[f32; WHEEL_FEATURES]| [wheel[WHEEL_SLIP], wheel[WHEEL_LN_LOAD]];
     let mut ranks = [0; ROVER_WHEELS];
     for (later, wheel) in wheels.iter().enumerate().take(count) {
-        for (earlier, peer) in wheels.iter().enumerate().take(later) {
-            let behind = if key(wheel) < key(peer) { earlier } else { later };
-            ranks.get_mut(behind).into_iter().for_each(|rank| *rank += 1);
+        let mut rank = later;
+        for (peer, of_peer) in wheels.iter().zip(&mut ranks).take(later) {
+            if is_before(wheel, peer) {
+                *of_peer += 1;
+                rank -= 1;
+            }
         }
+        ranks.get_mut(later).into_iter().for_each(|place| *place = rank);
     }
     let mut places = [0; ROVER_WHEELS];
     for (place, rank) in ranks.into_iter().enumerate().take(count) {
         places.get_mut(rank).into_iter().for_each(|ranked| *ranked = place);
     }
     places
+}
+
+fn is_before(wheel: &[f32; WHEEL_FEATURES], peer: &[f32; WHEEL_FEATURES]) -> bool {
+    let (slip, of_peer) = (wheel[WHEEL_SLIP], peer[WHEEL_SLIP]);
+    slip < of_peer || (slip == of_peer && wheel[WHEEL_LN_LOAD] < peer[WHEEL_LN_LOAD])
 }
 
 #[cfg(test)]
