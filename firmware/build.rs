@@ -113,8 +113,10 @@ fn fill(file: &TableFile, wheel: &mut WheelTable, rover: &mut RoverTable) -> Res
 }
 
 fn prove(wheel: &WheelTable, rover: &RoverTable) -> Result<(), String> {
-    if !rover.network.cannot_overflow() {
-        return Err("block rover.network of the frozen table has sums that can overflow 32 bits".into());
+    for (name, sound) in [("wheel", wheel.network.cannot_overflow()), ("rover", rover.network.cannot_overflow())] {
+        if !sound {
+            return Err(format!("block {name}.network of the frozen table has sums that can overflow 32 bits"));
+        }
     }
     for (name, reproduced) in [("wheel", wheel.golden_reproduced()), ("rover", rover.golden_reproduced())] {
         if reproduced != GOLDEN_PAIRS {

@@ -8,7 +8,6 @@ use crate::filter::{Gate, Gaussian, SigmaPointFilter};
 use crate::link::CHECKSUM;
 use crate::math;
 use crate::network::fixed_point::{FixedLayer, Pair, gated, rounded};
-use crate::network::{Layer, Words};
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
 /// A function's name and the fingerprint of its outputs.
@@ -20,7 +19,7 @@ pub struct Fingerprint {
 }
 
 /// Everything that flight computes with, from the elementary functions up.
-pub const FINGERPRINTS: [Fingerprint; 13] = [
+pub const FINGERPRINTS: [Fingerprint; 12] = [
     Fingerprint {
         name: "sin_cos",
         compute: || sweep(|x, digest| digest.add_all([math::sin_cos(x).0, math::sin_cos(x).1])),
@@ -31,7 +30,6 @@ pub const FINGERPRINTS: [Fingerprint; 13] = [
     Fingerprint { name: "powf", compute: || sweep(powers) },
     Fingerprint { name: "sqrt", compute: || sweep(|x, digest| digest.add(math::sqrt(x))) },
     Fingerprint { name: "tanh", compute: || sweep(|x, digest| digest.add(math::tanh(x))) },
-    Fingerprint { name: "weighted_sums", compute: || sweep(weighted_sums) },
     Fingerprint { name: "fixed_point", compute: || sweep(fixed_point) },
     Fingerprint { name: "wheel_forces", compute: || grid(forces) },
     Fingerprint { name: "sinkage_for_load", compute: || grid(sinkage) },
@@ -81,25 +79,6 @@ fn sweep(function: fn(f32, &mut Digest)) -> u32 {
 /// The exponents that the equations raise to.
 fn powers(base: f32, digest: &mut Digest) {
     digest.add_all([0.2, 0.5, 1.0, 1.1, 1.7].map(|exponent| math::powf(base, exponent)));
-}
-
-/// Layers of two shapes: an odd and an even number of inputs, whole tiles of sums and a rest. One input is swept, all other
-/// numbers lie evenly within ±1.
-fn weighted_sums(input: f32, digest: &mut Digest) {
-    let mut state = input.to_bits();
-    layer_sums::<5, 35>(input, &mut state, digest);
-    layer_sums::<6, 16>(input, &mut state, digest);
-}
-
-fn layer_sums<const I: usize, const O: usize>(input: f32, state: &mut u32, digest: &mut Digest) {
-    let mut layer = Layer::<I, O>::ZERO;
-    layer.for_each_mut(&mut |place| *place = even(state).to_bits());
-    let mut inputs = [0.0; I];
-    inputs.iter_mut().for_each(|place| *place = even(state));
-    if let Some(last) = inputs.last_mut() {
-        *last = input;
-    }
-    digest.add_all(layer.apply(&inputs));
 }
 
 /// The next of a row of numbers between −1 and 1 (a linear congruential generator).

@@ -111,19 +111,27 @@ impl Tabulated {
     }
 }
 
-impl Scalar for f64 {
-    type Plain = Self;
+/// The part of [`Scalar`] that is about derivatives, for a number that has none.
+macro_rules! without_derivatives {
+    () => {
+        type Plain = Self;
 
-    fn plain(self) -> Self {
-        self
-    }
-    fn from_plain(value: Self) -> Self {
-        value
-    }
-    fn scaled(self, factor: Self) -> Self {
-        self * factor
-    }
-    fn follow(&mut self, _input: &Self, _derivative: Self) {}
+        fn plain(self) -> Self {
+            self
+        }
+        fn from_plain(value: Self) -> Self {
+            value
+        }
+        fn scaled(self, factor: Self) -> Self {
+            self * factor
+        }
+        fn follow(&mut self, _input: &Self, _derivative: Self) {}
+    };
+}
+
+impl Scalar for f64 {
+    without_derivatives!();
+
     fn constant(value: f64) -> Self {
         value
     }
@@ -160,20 +168,9 @@ impl Scalar for f64 {
 }
 
 impl Scalar for f32 {
-    type Plain = Self;
+    without_derivatives!();
 
     const EPSILON: f64 = f32::EPSILON as f64;
-
-    fn plain(self) -> Self {
-        self
-    }
-    fn from_plain(value: Self) -> Self {
-        value
-    }
-    fn scaled(self, factor: Self) -> Self {
-        self * factor
-    }
-    fn follow(&mut self, _input: &Self, _derivative: Self) {}
 
     fn constant(value: f64) -> Self {
         value as f32

@@ -13,9 +13,9 @@ pub struct SelfTestReport {
     pub trained: bool,
     /// The tables in memory are, bit for bit, those that were built in.
     pub tables_intact: bool,
-    /// Golden pairs of the per-wheel network reproduced bit for bit, of 8.
+    /// Golden pairs of the per-wheel network reproduced bit for bit, of [`FLOWN_PAIRS`].
     pub wheel_pairs: u8,
-    /// Golden pairs of the rover network reproduced bit for bit, of 8.
+    /// Golden pairs of the rover network reproduced bit for bit, of [`FLOWN_PAIRS`].
     pub rover_pairs: u8,
 }
 

@@ -5,8 +5,6 @@
 
 pub mod fixed_point;
 mod golden;
-mod layer;
-mod multiply_accumulate;
 mod normalisation;
 mod parts;
 mod posterior;
@@ -18,7 +16,6 @@ mod wheel_network;
 mod words;
 
 pub use golden::{FLOWN_PAIRS, GOLDEN_PAIRS, RoverGolden, WheelGolden};
-pub use layer::{Layer, Weights};
 pub use normalisation::Normalisation;
 pub use parts::PartVisitor;
 pub use posterior::{IntervalFactors, KNOTS, Marginal, Posterior, PosteriorScale};
@@ -29,8 +26,6 @@ pub use table::{RoverTable, WheelTable, checksum};
 pub use wheel_network::WheelNetwork;
 pub use words::Words;
 use words::words;
-
-use crate::math;
 
 /// Lists one behind the other; what lacks at the end is zero.
 pub fn joined<const N: usize, const PARTS: usize>(parts: [&[f32]; PARTS]) -> [f32; N] {
@@ -43,18 +38,4 @@ pub fn joined<const N: usize, const PARTS: usize>(parts: [&[f32]; PARTS]) -> [f3
         }
     }
     all
-}
-
-/// The bipolar sigmoid of equation 13 on every neuron of a layer; `gradient` is its coefficient A.
-fn activate<const N: usize>(sums: &mut [f32; N], gradient: f32) {
-    let (tiles, rest) = sums.as_chunks_mut();
-    activate_tiles(tiles, gradient);
-    rest.iter_mut().for_each(|sum| *sum = math::bipolar_sigmoid(*sum, gradient));
-}
-
-/// Eight in a turn of the loop, which costs a tenth less than one.
-// One copy in the image for layers of all sizes.
-#[inline(never)]
-fn activate_tiles(tiles: &mut [[f32; 8]], gradient: f32) {
-    tiles.iter_mut().for_each(|tile| *tile = tile.map(|sum| math::bipolar_sigmoid(sum, gradient)));
 }

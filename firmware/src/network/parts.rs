@@ -14,9 +14,8 @@ pub trait PartVisitor {
 impl WheelTable {
     /// Shows every part to the visitor.
     pub fn visit_parts(&mut self, visitor: &mut impl PartVisitor) {
-        visitor.part("wheel.gradient", &[], &mut self.gradient);
         visitor.part("wheel.normalisation", &[], &mut self.normalisation);
-        visitor.part("wheel.network", &WHEEL_SHAPE, &mut self.network);
+        visitor.whole_part("wheel.network", &WHEEL_SHAPE, &mut self.network);
         visitor.part("wheel.posterior", &[], &mut self.posterior);
         visitor.part("wheel.golden", &[], &mut self.golden);
     }

@@ -19,7 +19,7 @@ pub const TARGETS: usize = 3;
 /// Outputs of a network: a mean and a log-variance for each target.
 pub const OUTPUTS: usize = 2 * TARGETS;
 
-/// Neurons in each hidden layer of the per-wheel network.
+/// Neurons in each hidden layer of the per-wheel network; a multiple of four.
 pub const WHEEL_HIDDEN: usize = 16;
 
 /// The most wheels that the rover network takes.
@@ -27,11 +27,19 @@ pub const ROVER_WHEELS: usize = 6;
 /// Inputs of the rover network: the shared ones, six wheels' own, and the number of wheels.
 pub const ROVER_INPUTS: usize = ROVER_CONTEXT + ROVER_WHEELS * WHEEL_FEATURES + 1;
 /// Neurons in the first layer of the rover network; a multiple of four, like the next two.
-pub const ROVER_FIRST: usize = 60;
+pub const ROVER_FIRST: usize = 64;
 /// Neurons in the second layer.
-pub const ROVER_SECOND: usize = 44;
+pub const ROVER_SECOND: usize = 48;
 /// Neurons in the third layer. Of networks with as many numbers, three layers learn the map to a lower loss than two.
-pub const ROVER_THIRD: usize = 44;
+pub const ROVER_THIRD: usize = 40;
+
+const _: () = assert!(
+    WHEEL_HIDDEN.is_multiple_of(4)
+        && ROVER_FIRST.is_multiple_of(4)
+        && ROVER_SECOND.is_multiple_of(4)
+        && ROVER_THIRD.is_multiple_of(4),
+    "layers are worked through by fours"
+);
 
 /// Layer sizes of the per-wheel network, as its frozen table states them.
 pub const WHEEL_SHAPE: [usize; 4] = [WHEEL_INPUTS, WHEEL_HIDDEN, WHEEL_HIDDEN, OUTPUTS];

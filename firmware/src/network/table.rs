@@ -9,8 +9,6 @@ use super::{
 /// The per-wheel network, frozen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WheelTable<const PAIRS: usize = GOLDEN_PAIRS> {
-    /// Coefficient A of the bipolar sigmoid, equation 13.
-    pub gradient: f32,
     /// Of the inputs.
     pub normalisation: Normalisation<WHEEL_INPUTS>,
     /// Weights.
@@ -20,7 +18,7 @@ pub struct WheelTable<const PAIRS: usize = GOLDEN_PAIRS> {
     /// Pairs that the network must reproduce.
     pub golden: [WheelGolden; PAIRS],
 }
-words!(WheelTable<PAIRS> where PAIRS: gradient, normalisation, network, posterior, golden);
+words!(WheelTable<PAIRS> where PAIRS: normalisation, network, posterior, golden);
 
 /// The rover network, frozen.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,15 +39,14 @@ words!(RoverTable<PAIRS> where PAIRS: context, wheel, network, posterior, golden
 impl WheelTable {
     /// The table as it flies: with the first of its golden pairs.
     pub fn flown(&self) -> WheelTable<FLOWN_PAIRS> {
-        let Self { gradient, normalisation, network, posterior, golden } = self.clone();
-        WheelTable { gradient, normalisation, network, posterior, golden: first_of(&golden, WheelGolden::ZERO) }
+        let Self { normalisation, network, posterior, golden } = self.clone();
+        WheelTable { normalisation, network, posterior, golden: first_of(&golden, WheelGolden::ZERO) }
     }
 }
 
 impl<const PAIRS: usize> WheelTable<PAIRS> {
     /// All zero, to be filled.
     pub const ZERO: Self = Self {
-        gradient: 0.0,
         normalisation: Normalisation::ZERO,
         network: WheelNetwork::ZERO,
         posterior: PosteriorScale::ZERO,
@@ -60,7 +57,7 @@ impl<const PAIRS: usize> WheelTable<PAIRS> {
     // One copy in the image: the self-test and the pipeline both call it.
     #[inline(never)]
     pub fn outputs(&self, input: &[f32; WHEEL_INPUTS]) -> [f32; OUTPUTS] {
-        self.network.run(&self.normalisation.apply(input), self.gradient)
+        self.network.run(&self.normalisation.apply(input))
     }
 
     /// Golden pairs that the network reproduces bit for bit.

@@ -1,8 +1,10 @@
 //! Observations made by the equations: Kapvik's assumed wheel on the seed's sand.
 
 use kapvik_firmware::identification::Observation;
-use kapvik_firmware::terramechanics::{Soil, Wheel};
+use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+
+pub use super::kapvik::{kapvik_wheel, table_1_sand};
 
 /// Six slips in equal steps.
 pub const SIX_SLIPS: [f64; 6] = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
@@ -11,26 +13,6 @@ pub const EQUAL_LOAD_N: f64 = 65.4;
 /// The noise of one instant.
 pub const NOISE: WheelNoise<f64> =
     WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
-
-/// A wheel of Kapvik's assumed size.
-pub const fn kapvik_wheel() -> Wheel<f64> {
-    Wheel { radius_m: 0.075, width_m: 0.070 }
-}
-
-/// The seed's Table 1.
-pub const fn table_1_sand() -> Soil<f64> {
-    Soil {
-        sinkage_exponent: 1.1,
-        cohesive_modulus: 15_600.0,
-        frictional_modulus: 2_407_400.0,
-        cohesion_pa: 250.0,
-        friction_angle_rad: 31.9_f64.to_radians(),
-        shear_modulus_m: 0.0114,
-        peak_stress_c1: 0.18,
-        peak_stress_c2: 0.32,
-        rebound_ratio: 0.0,
-    }
-}
 
 /// What faultless sensors read of Kapvik's wheel at a slip and a load.
 pub fn seen(soil: &Soil<f64>, slip: f64, load_n: f64) -> Observation<f64> {

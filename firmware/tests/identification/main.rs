@@ -8,6 +8,8 @@ mod hutangkabodee;
 mod iagnemma;
 mod iagnemma_published;
 mod independent;
+#[path = "../support/kapvik.rs"]
+mod kapvik;
 mod made;
 mod map;
 mod map_design;

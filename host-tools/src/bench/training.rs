@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use kapvik_firmware::network::{TARGETS, WHEEL_HIDDEN, WHEEL_INPUTS, WheelNetwork};
+use kapvik_firmware::network::{TARGETS, WHEEL_HIDDEN, WHEEL_INPUTS};
 use serde::{Deserialize, Serialize};
 
 use crate::error::HostError;
@@ -16,6 +16,7 @@ use crate::train::fifth_input::Candidate;
 use crate::train::loss::mean_square;
 use crate::train::scene::{Design, scenes};
 use crate::train::trainable::initial;
+use crate::train::wheel_weights::WheelWeights;
 
 const SCRIPT: &str = include_str!("training.py");
 const EPOCHS: usize = 60;
@@ -82,7 +83,7 @@ fn examples(training: usize, held_out: usize) -> [Vec<Example<WheelInput>>; 2] {
 
 fn ours(training: &[Example<WheelInput>], held_out: &[Example<WheelInput>]) -> Run {
     let mut examples = training.to_vec();
-    let mut network: WheelNetwork = initial(1);
+    let mut network: WheelWeights = initial(1);
     let mut adam = Adam::with_loss(&network, mean_square);
     let (mut spent, mut points) = (0.0, Vec::new());
     for epoch in 0..EPOCHS {

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use indicatif::ProgressBar;
-use kapvik_firmware::network::{PosteriorScale, WheelNetwork};
+use kapvik_firmware::network::PosteriorScale;
 
 use super::back_propagation::{Adam, Momentum, mean_loss};
 use super::curve::Curve;
@@ -17,6 +17,7 @@ use super::scene::Scene;
 use super::score::{Score, score_network};
 use super::soap::Soap;
 use super::trainable::initial;
+use super::wheel_weights::WheelWeights;
 
 /// A trainer of the comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,7 +112,7 @@ pub fn compare_fifth_inputs(plan: &Plan, scenes: &[Scene], held_out: &[Scene], p
 }
 
 fn run(plan: &Plan, sets: &Sets, trainer: Trainer, name: &'static str) -> Row {
-    let mut network: WheelNetwork = initial(sets.weights);
+    let mut network: WheelWeights = initial(sets.weights);
     let mut course = Course { sets, curve: Curve::new(name), begin: Instant::now(), presentations: 0 };
     match trainer {
         Trainer::BackPropagation => {
@@ -127,7 +128,7 @@ fn run(plan: &Plan, sets: &Sets, trainer: Trainer, name: &'static str) -> Row {
             });
         }
         Trainer::Soap => {
-            let mut method = Soap::new::<WheelNetwork>();
+            let mut method = Soap::new::<WheelWeights>();
             by_batches(plan, &mut course, &mut network, 1e-2, |net, batch, rate| {
                 method.step(net, batch, rate);
             });
@@ -162,7 +163,7 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
-    fn watch(&mut self, network: &WheelNetwork, presented: usize) {
+    fn watch(&mut self, network: &WheelWeights, presented: usize) {
         self.presentations += presented;
         let loss = mean_loss(network, &self.sets.watched);
         self.curve.points.push((self.begin.elapsed().as_secs_f64(), loss));
@@ -172,9 +173,9 @@ impl Course<'_> {
 fn by_batches(
     plan: &Plan,
     course: &mut Course<'_>,
-    network: &mut WheelNetwork,
+    network: &mut WheelWeights,
     greatest_rate: f32,
-    mut step: impl FnMut(&mut WheelNetwork, &[Example<WheelInput>], f32),
+    mut step: impl FnMut(&mut WheelWeights, &[Example<WheelInput>], f32),
 ) {
     let mut examples = course.sets.training.clone();
     let epochs = 10 * plan.comparison_steps;

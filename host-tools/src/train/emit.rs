@@ -59,10 +59,10 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("scenes", format!("{} for training, {} held out", plan.scenes, plan.held_out)),
         ("passes", format!("{} rover network, {} per-wheel network", plan.rover, plan.wheel)),
         ("held-out loss", format!("{:.4} per-wheel, {:.4} rover (nats)", losses[0], losses[1])),
-        ("activation", "bipolar sigmoid 2 / (1 + exp(-A x)) - 1, A in the block wheel.gradient".into()),
+        ("activation", "bipolar sigmoid 2 / (1 + exp(-A x)) - 1, A/2 within the weights".into()),
         (
             "whole numbers",
-            "rover.network: pairs of 16 bits, A/2 within; neurons are the products of two activations".into(),
+            "the networks: pairs of 16 bits; neurons of rover.network are products of two activations".into(),
         ),
         (EFFECTS_NOTE, world.to_string()),
         ("fifth input", fifth.name().into()),
@@ -78,10 +78,11 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
             "wheels",
             format!(
                 "{:.0} % Kapvik's (assumed), others of radius {}; {:.0} % of what the rover network is shown: six of Kapvik's at \
-                 slips from small to great",
+                 slips from small to great, half spread of loads {}",
                 100.0 * prior::KAPVIK_SHARE,
                 range(prior::RADIUS_M, "m"),
-                100.0 * prior::MANOEUVRE_SHARE
+                100.0 * prior::MANOEUVRE_SHARE,
+                range(prior::MANOEUVRE_LOAD_SPREAD, "")
             ),
         ),
         ("pressures", format!("W/(rb) {}", range(prior::PRESSURE_PA, "Pa"))),

@@ -1,10 +1,10 @@
 //! A layer whose neurons multiply: the bipolar sigmoid of one weighted sum, the gate, times a value that another sum gives
 //! (Dauphin et al. 2017, "Language Modeling with Gated Convolutional Networks", is the pattern; their gate is 0 … 1).
 
-use kapvik_firmware::network::Layer;
 use pulp::Simd;
 
 use super::lanes::{Lane, ZERO, activate, apply_layer, before_activation};
+use super::layer::Layer;
 
 /// Greatest magnitude of a value: so far from the sums it meets that it is nearly the sum itself, yet bounded, as numbers of
 /// 16 bits have to be.

@@ -4,9 +4,9 @@
 //! many lanes a register of the machine has.
 
 use kapvik_firmware::math::bipolar_sigmoid;
-use kapvik_firmware::network::{Layer, Weights};
 use pulp::Simd;
 
+use super::layer::{Layer, Weights};
 use super::trainable::GRADIENT;
 
 /// Examples in a block.

@@ -93,6 +93,8 @@ pub const SPREAD_SHARE: f64 = 0.8;
 pub const MANOEUVRE_SHARE: f64 = 0.5;
 /// Mean load of the wheels there, N.
 pub const MANOEUVRE_LOADS_N: Range = Range::linear(50.0, 80.0);
+/// Half of the spread of load among the wheels there, as a share of the mean: great spreads tell most, and ask most.
+pub const MANOEUVRE_LOAD_SPREAD: Range = Range::linear(0.03, 0.6);
 /// Least slip there.
 pub const MANOEUVRE_SLIP_LOW: Range = Range::linear(0.02, 0.10);
 /// Greatest slip there.

@@ -1,7 +1,11 @@
 //! Rounding of a trained layer to the whole numbers of 16 bits that fly.
 
-use kapvik_firmware::network::Layer;
-use kapvik_firmware::network::fixed_point::{FixedLayer, MAX_WEIGHT_BITS, Pair};
+use kapvik_firmware::network::fixed_point::{ACTIVATION_BITS, FixedLayer, MAX_WEIGHT_BITS, Pair, SUM_BITS};
+
+use super::layer::Layer;
+
+/// What the full range of a network's inputs stands for.
+pub const INPUT_RANGE: f32 = (1 << (ACTIVATION_BITS - SUM_BITS)) as f32;
 
 /// What the numbers of a layer stand for beside single precision.
 pub struct Scales<G> {
@@ -69,10 +73,28 @@ impl<G: Fn(usize) -> f32> Scales<G> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use kapvik_firmware::network::OUTPUTS;
     use kapvik_firmware::network::fixed_point::{ACTIVATION_BITS, rounded};
 
     use super::*;
+    use crate::train::example::Example;
+    use crate::train::trainable::{Trainable, outputs_of};
+
+    /// Of inputs between −2 and 2, the flown network makes nearly what the trained one does.
+    pub fn assert_alike<N: Trainable<Input = [f32; I]>, const I: usize>(
+        weights: &N,
+        flown: impl Fn(&[f32; I]) -> [f32; OUTPUTS],
+    ) {
+        for seed in 0..200 {
+            let input = std::array::from_fn(|k| 2.0 * wave(seed * 100 + k));
+            let of_flown = flown(&input);
+            let of_weights = outputs_of(weights, &[Example { input, target: [0.0; 3] }])[0];
+            for (flown, trained) in of_flown.iter().zip(of_weights) {
+                assert!((flown - trained).abs() < 2e-3, "{seed}: {of_flown:?}, {of_weights:?}");
+            }
+        }
+    }
 
     /// Numbers without a pattern, −1 … 1.
     fn wave(seed: usize) -> f32 {
@@ -100,7 +122,8 @@ mod tests {
             assert!(fixed.cannot_overflow());
             let sums: [f32; 8] = fixed.outputs(&whole);
             let unit = 0.5_f32.powi(fixed.fraction_bits as i32);
-            for (sum, exact) in sums.iter().zip(layer.apply(&input)) {
+            for (place, (sum, bias)) in sums.iter().zip(layer.bias).enumerate() {
+                let exact = bias + layer.weights.0.iter().zip(input).map(|(row, x)| row[place] * x).sum::<f32>();
                 assert!((sum - exact).abs() <= 3.0 * unit + 1e-6 * scale, "{scale}: {sum}, {exact}");
             }
             assert_eq!(sums[6..], [0.0; 2], "sums that the layer does not have");

@@ -1,11 +1,12 @@
 //! The rover network while it is trained: the same network as the flown one, in single precision.
 
-use kapvik_firmware::network::fixed_point::{ACTIVATION_BITS, SUM_BITS};
-use kapvik_firmware::network::{Layer, OUTPUTS, ROVER_FIRST, ROVER_INPUTS, ROVER_SECOND, ROVER_THIRD, RoverNetwork};
+use kapvik_firmware::network::fixed_point::SUM_BITS;
+use kapvik_firmware::network::{OUTPUTS, ROVER_FIRST, ROVER_INPUTS, ROVER_SECOND, ROVER_THIRD, RoverNetwork};
 use kapvik_firmware::words;
 
 use super::gated_layer::VALUE_RANGE;
-use super::rounding::Scales;
+use super::layer::Layer;
+use super::rounding::{INPUT_RANGE, Scales};
 use super::trainable::GRADIENT;
 
 /// Weighted sums of a gated layer: each neuron's gate and, behind all of them, each neuron's value.
@@ -14,9 +15,6 @@ pub const FIRST_SUMS: usize = 2 * ROVER_FIRST;
 pub const SECOND_SUMS: usize = 2 * ROVER_SECOND;
 /// The same of the third.
 pub const THIRD_SUMS: usize = 2 * ROVER_THIRD;
-
-/// What the full range of the network's inputs stands for.
-const INPUT_RANGE: f32 = (1 << (ACTIVATION_BITS - SUM_BITS)) as f32;
 
 /// Weights of [`kapvik_firmware::network::RoverNetwork`] before they are rounded.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,26 +56,14 @@ fn gated<const O: usize>(sum: usize) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::example::Example;
-    use crate::train::trainable::{initial, outputs_of};
-
-    /// Numbers without a pattern, −2 … 2.
-    fn wave(seed: usize) -> f32 {
-        2.0 * (seed as f32 * 2.399).sin()
-    }
+    use crate::train::rounding::tests::assert_alike;
+    use crate::train::trainable::initial;
 
     #[test]
     fn the_rounded_network_is_nearly_the_same() {
         let weights: RoverWeights = initial(3);
         let flown = weights.rounded();
         assert!(flown.cannot_overflow());
-        for seed in 0..200 {
-            let input = std::array::from_fn(|k| wave(seed * 100 + k));
-            let of_flown = flown.run(&input);
-            let of_weights = outputs_of(&weights, &[Example { input, target: [0.0; 3] }])[0];
-            for (flown, trained) in of_flown.iter().zip(of_weights) {
-                assert!((flown - trained).abs() < 2e-3, "{seed}: {of_flown:?}, {of_weights:?}");
-            }
-        }
+        assert_alike(&weights, |input| flown.run(input));
     }
 }

@@ -178,7 +178,8 @@ fn draw_training(shares: &mut Shares, ground: &Ground, is_manoeuvre: bool) -> Op
         let load_n = prior::PRESSURE_PA.at(load) * other.radius_m * other.width_m;
         (other, ground.drive.other_grousers(other.radius_m), load_n)
     };
-    let spread = prior::LOAD_SPREAD.at(shares.next());
+    let load_spread = if is_manoeuvre { prior::MANOEUVRE_LOAD_SPREAD } else { prior::LOAD_SPREAD };
+    let spread = load_spread.at(shares.next());
     let slips = if is_manoeuvre { Slips::of_manoeuvre(shares) } else { Slips::draw(shares) };
     let noise = draw_noise(shares, &wheel, load_n);
     let (fewer, count) = (shares.next(), shares.next());

@@ -1,12 +1,13 @@
 //! What the trainers need of a network: outputs, and a loss's way back to the weights.
 
-use kapvik_firmware::network::{Layer, OUTPUTS, Weights, Words};
+use kapvik_firmware::network::{OUTPUTS, Words};
 use pulp::{Arch, Simd, WithSimd};
 use rand::RngExt;
 
 use super::dataset::stream;
 use super::example::Example;
 use super::lanes::{LANES, Lane, ZERO};
+use super::layer::{Layer, Weights};
 use super::loss::Loss;
 
 /// Coefficient A of the bipolar sigmoid (equation 13): 2 makes it the hyperbolic tangent. Any other value is the same
@@ -195,11 +196,12 @@ impl<N: Trainable> WithSimd for Outputs<'_, N> {
 
 #[cfg(test)]
 mod tests {
-    use kapvik_firmware::network::{TARGETS, WheelNetwork};
+    use kapvik_firmware::network::TARGETS;
 
     use super::*;
     use crate::train::loss::gaussian;
     use crate::train::rover_weights::RoverWeights;
+    use crate::train::wheel_weights::WheelWeights;
 
     /// Numbers without a pattern, −1 … 1.
     fn wave(seed: usize) -> f32 {
@@ -230,16 +232,7 @@ mod tests {
     #[test]
     fn outputs_are_the_same_bits_whatever_the_machine() {
         check_bits::<RoverWeights>(&examples());
-        check_bits::<WheelNetwork>(&examples());
-    }
-
-    #[test]
-    fn blocks_have_the_bits_of_the_flown_per_wheel_network() {
-        let (network, examples): (WheelNetwork, _) = (initial(3), examples());
-        let flown: Vec<_> =
-            examples.iter().map(|example| network.run(&example.input, GRADIENT).map(f32::to_bits)).collect();
-        let blocks = outputs_of(&network, &examples);
-        assert_eq!(blocks.into_iter().map(|outputs| outputs.map(f32::to_bits)).collect::<Vec<_>>(), flown);
+        check_bits::<WheelWeights>(&examples());
     }
 
     fn check_gradient<N: Trainable>(examples: &[Example<N::Input>]) {
@@ -270,13 +263,13 @@ mod tests {
     #[test]
     fn gradients_are_those_of_differences() {
         check_gradient::<RoverWeights>(&examples());
-        check_gradient::<WheelNetwork>(&examples());
+        check_gradient::<WheelWeights>(&examples());
     }
 
     #[test]
     fn matrices_hold_every_number_once() {
         let numbers = |matrices: Vec<[usize; 2]>| matrices.iter().map(|[rows, columns]| rows * columns).sum::<usize>();
         assert_eq!(numbers(RoverWeights::matrices()), parameter_count(&RoverWeights::ZERO));
-        assert_eq!(numbers(WheelNetwork::matrices()), parameter_count(&WheelNetwork::ZERO));
+        assert_eq!(numbers(WheelWeights::matrices()), parameter_count(&WheelWeights::ZERO));
     }
 }

@@ -1,11 +1,12 @@
 //! The per-wheel network on blocks of examples.
 
-use kapvik_firmware::network::{OUTPUTS, WHEEL_HIDDEN, WHEEL_INPUTS, WheelNetwork};
+use kapvik_firmware::network::{OUTPUTS, WHEEL_HIDDEN, WHEEL_INPUTS};
 use pulp::Simd;
 
 use super::example::{Example, WheelInput};
 use super::lanes::{Lane, ZERO, add_input_slope, add_layer_gradient, apply_layer, before_activation, run_layer};
 use super::trainable::{Trainable, in_lanes, layer_fan_in};
+use super::wheel_weights::WheelWeights;
 
 /// What the neurons put out.
 pub struct WheelBlock {
@@ -15,7 +16,7 @@ pub struct WheelBlock {
     output: [Lane; OUTPUTS],
 }
 
-impl Trainable for WheelNetwork {
+impl Trainable for WheelWeights {
     type Input = WheelInput;
     type Block = WheelBlock;
 

@@ -2,17 +2,17 @@
 
 use indicatif::ProgressBar;
 use kapvik_firmware::network::{GOLDEN_PAIRS, WheelGolden, WheelTable};
+use rayon::prelude::*;
 
 use super::calibration::calibrate;
 use super::curve::Curve;
 use super::dataset::{prior_scale, wheel_examples, wheel_inputs};
 use super::epochs::train_by_epochs;
-use super::example::normalisation;
+use super::example::{Example, normalisation};
 use super::fifth_input::Candidate;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
-use super::score::outputs;
-use super::trainable::GRADIENT;
+use super::wheel_weights::WheelWeights;
 
 /// Trains the per-wheel network on the first wheel of each scene, watches and calibrates it on `held_out`.
 pub fn train_wheel(
@@ -26,13 +26,16 @@ pub fn train_wheel(
     let normal = normalisation(raw.iter());
     let watched = wheel_examples(held_out, &raw, &normal);
     let curve = Curve::new("per-wheel network");
-    let (network, curve) = train_by_epochs(plan, plan.wheel, &watched, curve, progress, |seed| {
-        wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
-    });
+    let (weights, curve): (WheelWeights, Curve) =
+        train_by_epochs(plan, plan.wheel, &watched, curve, progress, |seed| {
+            wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
+        });
     let mut posterior = prior_scale();
-    calibrate(&outputs(&network, &watched), &watched, &mut posterior);
+    let network = weights.rounded();
+    let flown: Vec<_> = watched.par_iter().map(|Example { input, .. }| network.run(input)).collect();
+    calibrate(&flown, &watched, &mut posterior);
     let golden = [const { WheelGolden::ZERO }; GOLDEN_PAIRS];
-    let mut table = WheelTable { gradient: GRADIENT, normalisation: normal, network, posterior, golden };
+    let mut table = WheelTable { normalisation: normal, network, posterior, golden };
     let pairs = raw.iter().take(GOLDEN_PAIRS);
     let pairs: Vec<WheelGolden> =
         pairs.map(|input| WheelGolden { input: *input, output: table.outputs(input) }).collect();

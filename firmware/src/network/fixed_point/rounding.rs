@@ -12,7 +12,14 @@ pub fn rounded<const H: usize>(numbers: &[f32], fraction_bits: u32) -> [Quad; H]
     // Sixteen bits more, for the number is then in the upper half of a register, and the conversion saturates.
     let scale = power_of_two(fraction_bits.wrapping_add(16).cast_signed());
     let mut all = [[Pair::ZERO; 2]; H];
-    let mut places = all.iter_mut();
+    round(numbers, scale, &mut all);
+    all
+}
+
+// One copy in the image for lists of all lengths.
+#[inline(never)]
+fn round(numbers: &[f32], scale: f32, places: &mut [Quad]) {
+    let mut places = places.iter_mut();
     let (quads, rest) = numbers.as_chunks::<4>();
     for (numbers, place) in quads.iter().zip(&mut places) {
         *place = quad(numbers, scale);
@@ -22,7 +29,6 @@ pub fn rounded<const H: usize>(numbers: &[f32], fraction_bits: u32) -> [Quad; H]
     {
         *place = quad(&[0, 1, 2, 3].map(|index| rest.get(index).copied().unwrap_or(0.0)), scale);
     }
-    all
 }
 
 #[inline]
