@@ -8,7 +8,7 @@ use kapvik_firmware::frozen;
 use kapvik_firmware::network::{FLOWN_PAIRS, Words, checksum};
 use kapvik_firmware::self_test;
 use kapvik_host::process::{command, workspace};
-use kapvik_table_file::{TableError, TableFile};
+use kapvik_table_file::{Block, TableError, TableFile};
 use rayon::prelude::*;
 
 fn shipped() -> (PathBuf, Vec<u8>) {
@@ -100,10 +100,14 @@ fn edited(edit: impl FnOnce(&mut TableFile)) -> Vec<u8> {
     file.to_text().into_bytes()
 }
 
+fn block<'a>(file: &'a mut TableFile, name: &str) -> &'a mut Block {
+    let block = file.blocks.iter_mut().find(|block| block.name == name);
+    block.unwrap_or_else(|| panic!("the table has no {name}"))
+}
+
 /// The first number of a block, as something to spoil.
 fn first_word<'a>(file: &'a mut TableFile, name: &str) -> &'a mut u32 {
-    let block = file.blocks.iter_mut().find(|block| block.name == name);
-    block.and_then(|block| block.words.first_mut()).unwrap_or_else(|| panic!("the table has no {name}"))
+    block(file, name).words.first_mut().unwrap_or_else(|| panic!("{name} is empty"))
 }
 
 /// The golden pairs see a change of a weight in its fourth digit; one in its last digit may round away in all of them,
@@ -122,10 +126,14 @@ fn a_table_that_is_wrong_stops_the_build_and_says_why() {
         ("truncated", sound[..sound.len() - 100].to_vec(), "truncated"),
         ("altered", altered, "was altered"),
         ("version", sealed.into_bytes(), "is of version 2, this build reads version 3"),
-        ("shape", edited(|file| file.blocks[2].shape[1] += 1), "block wheel.network of the frozen table has shape"),
+        (
+            "shape",
+            edited(|file| block(file, "wheel.network").shape[1] += 1),
+            "block wheel.network of the frozen table has shape",
+        ),
         ("golden", edited(|file| *first_word(file, "rover.network") ^= 1 << 10), "golden pairs"),
         ("overflow", edited(|file| *first_word(file, "rover.network") = 0x7fff_7fff), "can overflow 32 bits"),
-        ("not-finite", edited(|file| *first_word(file, "wheel.network") = 0x7fc0_0000), "not finite"),
+        ("not-finite", edited(|file| *first_word(file, "wheel.normalisation") = 0x7fc0_0000), "not finite"),
     ];
     for (name, bytes, reason) in cases {
         let output = build_with(name, &bytes);
