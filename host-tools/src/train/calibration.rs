@@ -1,15 +1,18 @@
 //! Interval factors, measured on cases that took no part in training.
 
 use kapvik_firmware::network::{IntervalFactors, KNOTS, OUTPUTS, PosteriorScale, TARGETS};
+use rayon::prelude::*;
 
+use super::dataset::prior_scale;
 use super::example::Example;
 use super::score::truth;
 
-/// Fills in the interval factors of `scale` from a network's outputs on `set`: cases are sorted by how much the data told of them, and in each of as many
-/// equal groups as there are knots the factor is the quantile of |error| over standard deviation.
-pub fn calibrate<I>(outputs: &[[f32; OUTPUTS]], set: &[Example<I>], scale: &mut PosteriorScale) {
-    let posteriors: Vec<_> = outputs.iter().map(|outputs| scale.read(outputs)).collect();
-    let truths: Vec<_> = set.iter().map(|example| truth(example, scale)).collect();
+/// What the outputs of a flown network mean, with interval factors from what it says on `set`: cases are sorted by how much the data
+/// told of them, and in each of as many equal groups as there are knots the factor is the quantile of |error| over standard deviation.
+pub fn calibrated<I: Sync>(set: &[Example<I>], flown: impl Fn(&I) -> [f32; OUTPUTS] + Sync) -> PosteriorScale {
+    let mut scale = prior_scale();
+    let posteriors: Vec<_> = set.par_iter().map(|example| scale.read(&flown(&example.input))).collect();
+    let truths: Vec<_> = set.iter().map(|example| truth(example, &scale)).collect();
     for k in 0..TARGETS {
         let prior = scale.std[k];
         let mut cases: Vec<(f32, f32)> = posteriors
@@ -23,6 +26,7 @@ pub fn calibrate<I>(outputs: &[[f32; OUTPUTS]], set: &[Example<I>], scale: &mut 
         cases.sort_by(|left, right| left.0.total_cmp(&right.0));
         scale.intervals[k] = factors(&cases);
     }
+    scale
 }
 
 /// Factors of cases (ratio, |error| in standard deviations) sorted by ratio.

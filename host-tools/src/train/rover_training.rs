@@ -2,15 +2,14 @@
 
 use indicatif::ProgressBar;
 use kapvik_firmware::network::{GOLDEN_PAIRS, PosteriorScale, ROVER_WHEELS, RoverGolden, RoverNetwork, RoverTable};
-use rayon::prelude::*;
 
 use crate::error::HostError;
 
-use super::calibration::calibrate;
+use super::calibration::calibrated;
 use super::curve::Curve;
-use super::dataset::{prior_scale, rover_examples, seen_by_rover, seen_by_rover_anew};
+use super::dataset::{rover_examples, seen_by_rover, seen_by_rover_anew};
 use super::epochs::train_by_epochs;
-use super::example::{Example, RoverFeatures, RoverNormalisation};
+use super::example::{RoverFeatures, RoverNormalisation};
 use super::plan::{Plan, Purpose};
 use super::prior::MANOEUVRE_SHARE;
 use super::rover_weights::RoverWeights;
@@ -39,10 +38,8 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
         train_by_epochs(plan, plan.rover, &watched, curve, progress, |seed| {
             rover_examples(scenes, &seen_by_rover_anew(scenes, seed), &normal)
         });
-    let mut posterior = prior_scale();
     let network = weights.rounded();
-    let flown: Vec<_> = watched.par_iter().map(|Example { input, .. }| network.run(input)).collect();
-    calibrate(&flown, &watched, &mut posterior);
+    let posterior = calibrated(&watched, |input| network.run(input));
     (table(network, normal, posterior, &raw), curve)
 }
 

@@ -2,13 +2,12 @@
 
 use indicatif::ProgressBar;
 use kapvik_firmware::network::{GOLDEN_PAIRS, WheelGolden, WheelTable};
-use rayon::prelude::*;
 
-use super::calibration::calibrate;
+use super::calibration::calibrated;
 use super::curve::Curve;
-use super::dataset::{prior_scale, wheel_examples, wheel_inputs};
+use super::dataset::{wheel_examples, wheel_inputs};
 use super::epochs::train_by_epochs;
-use super::example::{Example, normalisation};
+use super::example::normalisation;
 use super::fifth_input::Candidate;
 use super::plan::{Plan, Purpose};
 use super::scene::Scene;
@@ -30,10 +29,8 @@ pub fn train_wheel(
         train_by_epochs(plan, plan.wheel, &watched, curve, progress, |seed| {
             wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
         });
-    let mut posterior = prior_scale();
     let network = weights.rounded();
-    let flown: Vec<_> = watched.par_iter().map(|Example { input, .. }| network.run(input)).collect();
-    calibrate(&flown, &watched, &mut posterior);
+    let posterior = calibrated(&watched, |input| network.run(input));
     let golden = [const { WheelGolden::ZERO }; GOLDEN_PAIRS];
     let mut table = WheelTable { normalisation: normal, network, posterior, golden };
     let pairs = raw.iter().take(GOLDEN_PAIRS);
