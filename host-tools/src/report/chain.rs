@@ -18,7 +18,7 @@ pub fn chain(findings: &Findings) -> Markup {
         ol class="chain" {
             (link("Wheel states", &format!("{used} rows, {}", findings.campaign.provenance), "DP, W, T, slip, sinkage"))
             (link("Serial link", &count(queries, "query", "queries"), "postcard, COBS, CRC-32"))
-            (link(place, line, "frozen networks, 32-bit floats"))
+            (link(place, line, "frozen networks, 16-bit whole numbers"))
             (link("Soil", "c, φ, K", "each with its interval"))
         }
     }

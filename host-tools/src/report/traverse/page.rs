@@ -193,7 +193,7 @@ fn chain(findings: &TraverseFindings) -> Markup {
         ol class="chain" {
             (link("Sensor frames", &format!("{} of them", findings.outcome.frames), "30 readings each, some may be missing"))
             (link("Filters", "square-root sigma-point", "slip and torque; angle, load and pull"))
-            (link("Networks", "frozen, in 32-bit floats", "each wheel, and all together"))
+            (link("Networks", "frozen, in 16-bit whole numbers", "each wheel, and all together"))
             (link("Soil", "c, φ, K", "averaged over the way, until it changes"))
         }
     }
