@@ -6,6 +6,7 @@ use super::normal_equations::NormalEquations;
 use super::problem::Problem;
 use super::state::{Scales, State, Tried};
 use super::tempering::Temper;
+use super::unseen::UnseenRun;
 use super::variances::{SETTLED, are_estimated, first_scales, reestimate};
 
 const FIRST_DAMPING: f64 = 1e-3;
@@ -49,6 +50,7 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
     let estimated = are_estimated(problem);
     let mut search = Search {
         objective: start.objective(problem, &scales),
+        watched: problem.unseen.iter().filter(|run| run.is_predicted(problem, &start.parameters)).collect(),
         state: start,
         damping: FIRST_DAMPING,
         curvature: Curvature::default(),
@@ -83,8 +85,10 @@ pub(super) fn optimise(problem: &Problem<'_>, start: State) -> Optimum {
     Optimum { state: search.state, scales, objective: search.objective, iterations: search.iterations, converged }
 }
 
-struct Search {
+struct Search<'a> {
     state: State,
+    /// Runs that are not seen, and that the model is to go on predicting as it did at the start.
+    watched: Vec<&'a UnseenRun>,
     objective: f64,
     damping: f64,
     curvature: Curvature,
@@ -97,7 +101,7 @@ struct Search {
     iterations: usize,
 }
 
-impl Search {
+impl Search<'_> {
     /// From far away to where most readings are within reach of the model.
     fn temper(&mut self, problem: &Problem<'_>, scales: &Scales) {
         let mut temper = Temper::of(problem, &self.state, scales);
@@ -143,7 +147,7 @@ impl Search {
             let gain = self.objective - objective;
             let settled = gain.abs() < tolerance && self.damping < SHORT_STEP;
             if gain > 0.0 {
-                let Some(state) = tried.state(problem) else {
+                let Some(state) = self.allowed(problem, tried) else {
                     self.reject();
                     continue;
                 };
@@ -163,6 +167,13 @@ impl Search {
         }
         self.damping = self.damping.min(SHORT_STEP);
         false
+    }
+
+    /// Where a step that gains something leads, if the model predicts all there that it is to predict.
+    fn allowed(&self, problem: &Problem<'_>, tried: Tried) -> Option<State> {
+        let is_predicted = |run: &&UnseenRun| run.is_predicted(problem, &tried.place().parameters);
+        let all = self.watched.iter().all(is_predicted);
+        if all { tried.state(problem) } else { None }
     }
 
     /// A step that was too bold: the next is shorter, and without what was learned of the curvature.

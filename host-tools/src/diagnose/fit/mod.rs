@@ -37,6 +37,7 @@ mod slices;
 mod start;
 mod state;
 mod tempering;
+mod unseen;
 mod variance_share;
 mod variances;
 

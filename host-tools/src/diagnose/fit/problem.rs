@@ -9,6 +9,7 @@ use super::observation::{CHANNELS, Row};
 use super::options::{FitError, Options};
 use super::start::Start;
 use super::state::Scales;
+use super::unseen::UnseenRun;
 
 /// The rows of one run.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +25,8 @@ pub(super) struct Problem<'a> {
     pub model: &'a dyn Model,
     pub rows: &'a [Row],
     pub runs: Vec<RunRows>,
+    /// Runs that take no part.
+    pub unseen: Vec<UnseenRun>,
     pub options: &'a Options,
     pub huber: Huber,
     /// Of all rows: the middle of the latents' prior.
@@ -61,6 +64,7 @@ impl<'a> Problem<'a> {
             model,
             rows,
             runs,
+            unseen: UnseenRun::of(rows, without, options),
             options,
             huber: Huber::new(options.huber),
             latent_start,

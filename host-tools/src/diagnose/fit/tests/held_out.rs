@@ -3,8 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::dense::{Dense, gaussian};
-use super::toy::{OFFSET, campaign, plain};
-use crate::diagnose::fit::{CHANNELS, HeldOut, OffsetStd, Options, Row, Start, fit, fit_without};
+use super::toy::{Linear, OFFSET, campaign, plain};
+use crate::diagnose::fit::{
+    CHANNELS, Coordinate, HeldOut, Latent, Model, OffsetStd, Options, Prediction, Row, Start, fit, fit_without,
+};
 
 fn options() -> Options {
     let offset = |c: usize| if OFFSET[c] > 0.0 { OffsetStd::Known(OFFSET[c]) } else { OffsetStd::None };
@@ -125,4 +127,41 @@ fn each_run_in_turn_is_each_run_by_itself() {
     let each = fit.leave_each_out(&model, 0..5).unwrap();
     let alone: Vec<HeldOut> = (0..5).map(|run| fit.leave_out(&model, &[run]).unwrap()).collect();
     assert_eq!(each, alone);
+}
+
+/// A model that says nothing of one row above some value of its first parameter.
+struct Collapsing {
+    linear: Linear,
+    row: usize,
+    above: f64,
+}
+
+impl Model for Collapsing {
+    fn coordinates(&self) -> &[Coordinate] {
+        self.linear.coordinates()
+    }
+
+    fn predict(&self, parameters: &[f64], rows: &[usize], latents: &mut [Latent]) -> Option<Vec<Prediction>> {
+        let collapses = rows.contains(&self.row) && parameters[0] > self.above;
+        if collapses { None } else { self.linear.predict(parameters, rows, latents) }
+    }
+}
+
+#[test]
+fn a_fit_stays_where_the_run_that_it_does_not_see_is_predicted() {
+    let (linear, rows) = campaign(&[3, 4, 2, 5], 2, 6);
+    let start = Start::of(&linear, &rows);
+    let drawn = fit_without(&linear, &rows, &[2], &start, &options()).unwrap();
+    let end = drawn.parameters[0];
+    assert!(end > start.parameters[0] + 0.02);
+    let above = end - 0.01;
+    let model = Collapsing { linear, row: 7, above };
+    let kept = fit_without(&model, &rows, &[2], &start, &options()).unwrap();
+    assert!(kept.parameters[0] <= above && kept.parameters[0] > above - 0.1, "{:?}, {above}", kept.parameters);
+    assert!(kept.predict_unseen(&model, &[2]).unwrap().log_score().is_some());
+    // What was not predicted at the start either does not hold the fit back.
+    let lost = Collapsing { above: start.parameters[0] - 1.0, ..model };
+    let free = fit_without(&lost, &rows, &[2], &start, &options()).unwrap();
+    assert_eq!(free.parameters, drawn.parameters);
+    assert_eq!(free.predict_unseen(&lost, &[2]).unwrap().log_score(), None);
 }
