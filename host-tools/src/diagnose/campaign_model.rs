@@ -97,16 +97,14 @@ impl<'a> CampaignModel<'a> {
         site
     }
 
-    /// The same with the derivatives by all parameters.
-    fn site_by_all<const N: usize>(&self, parameters: &[f64]) -> Site<Dual<f64, N>> {
-        let mut site = self.site(parameters).map(Dual::constant);
+    /// Gives the site at some parameters its derivatives by all of them. In place, for with those it is large.
+    fn slope<const N: usize>(&self, site: &mut Site<Dual<f64, N>>, parameters: &[f64]) {
         for (slot, (parameter, &value)) in self.soil_free.iter().zip(parameters).enumerate() {
             *parameter.place(&mut site.soil) = parameter.value(Dual::variable(value, slot));
         }
         for (slot, (id, name)) in (self.soil_free.len()..).zip(&self.effects_free) {
             site.effects.set(id, name, Dual::variable(parameters[slot], slot));
         }
-        site
     }
 
     fn run<const N: usize>(
@@ -115,7 +113,10 @@ impl<'a> CampaignModel<'a> {
         rows: &[usize],
         latents: &mut [Latent],
     ) -> Option<Vec<Prediction>> {
-        let sloped = Sloped::<N>::new(self.site(parameters), self.site_by_all(parameters), parameters.len());
+        let plain = self.site(parameters);
+        let mut by_all = plain.map(Dual::constant);
+        self.slope(&mut by_all, parameters);
+        let sloped = Sloped::<N>::new(plain, &by_all, parameters.len());
         let mut carried = Carried::start();
         let predict = |(row, latent): (&usize, &mut Latent)| {
             sloped.predict(&self.measurements.conditions[*row], latent, &mut carried)

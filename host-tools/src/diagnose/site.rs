@@ -128,19 +128,19 @@ impl Bare {
 }
 
 /// A site with the derivatives by `N` variables: by the first `count` parameters, and in the last slots by slip, load and sinkage.
-pub struct Sloped<const N: usize> {
+pub struct Sloped<'a, const N: usize> {
     bare: Bare,
-    by_all: Site<Dual<f64, N>>,
+    by_all: &'a Site<Dual<f64, N>>,
     count: usize,
 }
 
-impl<const N: usize> Sloped<N> {
+impl<'a, const N: usize> Sloped<'a, N> {
     const SLIP: usize = N - 3;
     const LOAD: usize = N - 2;
     const SINKAGE: usize = N - 1;
 
     /// Of a site, plainly and with the derivatives by its `count` parameters.
-    pub fn new(plain: Site<f64>, by_all: Site<Dual<f64, N>>, count: usize) -> Self {
+    pub fn new(plain: Site<f64>, by_all: &'a Site<Dual<f64, N>>, count: usize) -> Self {
         Self { bare: Bare::new(plain), by_all, count }
     }
 
