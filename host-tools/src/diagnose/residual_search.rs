@@ -47,7 +47,7 @@ const SIGNIFICANT_STRUCTURE: f64 = 0.001;
 /// Fewest observations for each coefficient of a dependence.
 const PER_TERM: f64 = 4.0;
 /// Those of each channel that are fitted, of all that a first look is taken at.
-const FITTED: usize = 32;
+const FITTED: usize = 16;
 /// The best of each channel that are looked at again.
 const OF_CHANNEL: usize = 8;
 /// Powers of one column that are tried: a line, a bend that few observations can bear, and a curve that may turn twice.
