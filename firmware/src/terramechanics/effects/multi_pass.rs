@@ -28,6 +28,12 @@ impl<S: Scalar> Effect<S> for MultiPass<S> {
         Form { name: "stiffness, rate free", free: &["m1", "m2"], set: &[], needs: &[Column::Pass] },
         Form { name: "strength", free: &["strength"], set: &[], needs: &[Column::Pass] },
         Form { name: "stiffness and strength", free: &["m1", "strength"], set: &[], needs: &[Column::Pass] },
+        Form {
+            name: "stiffness and strength, rate free",
+            free: &["m1", "strength", "m2"],
+            set: &[],
+            needs: &[Column::Pass],
+        },
     ];
 
     fn soil(&self, soil: &mut Soil<S>, at: &Circumstances<'_, S>) {
