@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kapvik_firmware::terramechanics::effects::{EffectInfo, Effects, Form, ParameterInfo};
+use kapvik_firmware::terramechanics::effects::{EffectInfo, Effects, Form, ParameterInfo, Role};
 
 use crate::data::campaign::{Campaign, Knowledge};
 
@@ -118,7 +118,8 @@ impl EffectForm {
         let reference = reference(parameter.name, measurements);
         if self.form.free.contains(&parameter.name) {
             let start = set.or(reference).unwrap_or_else(|| self.start(parameter));
-            return Err(coordinate(parameter.low, parameter.high, start, None));
+            let expected = (parameter.role == Role::Shape).then_some((parameter.neutral, parameter.typical));
+            return Err(coordinate(parameter.low, parameter.high, start, expected));
         }
         Ok(set.or(reference).unwrap_or(parameter.neutral))
     }

@@ -17,7 +17,7 @@ effect_parameters! {
         /// Drift of the side force, N/h.
         side_force_n_per_h: "side_force_n_per_h" ["N/h"] = 0.0, -200.0 to 200.0, about 0.3;
         /// κ, 1/h.
-        settling_per_h: "settling_per_h" ["1/h"] = 0.0, 0.0 to 20.0, about 0.7;
+        settling_per_h: "settling_per_h" ["1/h"] = 0.0, 0.0 to 20.0, shape 0.7;
         /// Drift of the drawbar pull, N/K.
         drawbar_pull_n_per_c: "drawbar_pull_n_per_c" ["N/K"] = 0.0, -200.0 to 200.0, about 0.2;
         /// Drift of the load, N/K.

@@ -15,6 +15,17 @@ pub struct ParameterInfo {
     pub high: f64,
     /// A size that one may expect: where a search for it starts.
     pub typical: f64,
+    /// What it says of its effect.
+    pub role: Role,
+}
+
+/// What a parameter says of its effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// How large the effect is.
+    Size,
+    /// How its law bends. Beforehand one expects that it does so little: neutral, give or take what is typical.
+    Shape,
 }
 
 /// One way in which an effect may come: the parameters that are free in it, and what is fixed beforehand.
@@ -88,11 +99,15 @@ impl EffectInfo {
 }
 
 /// Says what an effect's parameters are, once: its struct, its neutral values, and access by name.
+///
+/// `about` goes before what is typical of a size, `shape` before what is typical of a shape.
 macro_rules! effect_parameters {
+    (@role about) => { $crate::terramechanics::effects::Role::Size };
+    (@role shape) => { $crate::terramechanics::effects::Role::Shape };
     (
         $(#[$about:meta])*
         pub struct $effect:ident {
-            $( $(#[$doc:meta])* $field:ident: $name:literal [$unit:literal] = $neutral:literal, $low:literal to $high:literal, about $typical:literal; )+
+            $( $(#[$doc:meta])* $field:ident: $name:literal [$unit:literal] = $neutral:literal, $low:literal to $high:literal, $role:ident $typical:literal; )+
         }
     ) => {
         $(#[$about])*
@@ -110,6 +125,7 @@ macro_rules! effect_parameters {
                     low: $low,
                     high: $high,
                     typical: $typical,
+                    role: $crate::terramechanics::effects::info::effect_parameters!(@role $role),
                 }, )+
             ];
 

@@ -46,7 +46,7 @@ pub use force_drift::ForceDrift;
 pub use grouser_ripple::GrouserRipple;
 pub use grouser_thrust::GrouserThrust;
 pub use guide_friction::GuideFriction;
-pub use info::{Column, EffectInfo, Form, ParameterInfo};
+pub use info::{Column, EffectInfo, Form, ParameterInfo, Role};
 pub use interface_friction::InterfaceFriction;
 pub use lateral_slip::LateralSlip;
 pub use load_stiffening::LoadStiffening;

@@ -15,7 +15,7 @@ effect_parameters! {
         /// q.
         strengthening: "strength" ["-"] = 0.0, -0.9 to 3.0, about 0.2;
         /// m₂.
-        rate: "m2" ["-"] = 1.0, 0.05 to 5.0, about 1.0;
+        rate: "m2" ["-"] = 1.0, 0.05 to 5.0, shape 1.0;
     }
 }
 

@@ -19,7 +19,7 @@ effect_parameters! {
         /// n₁.
         exponent_per_slip: "n1" ["-"] = 0.0, -0.5 to 2.0, about 0.3;
         /// a.
-        saturation: "saturation" ["-"] = 0.0, -2.0 to 25.0, about 4.0;
+        saturation: "saturation" ["-"] = 0.0, -2.0 to 25.0, shape 4.0;
         /// m.
         stretch_per_slip: "stretch" ["-"] = 0.0, -0.5 to 12.0, about 0.8;
         /// q.
