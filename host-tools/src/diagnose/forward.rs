@@ -72,7 +72,8 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         if let Some(both) = together(&steps, &selected, &here, place) {
             // What was tried without any effect is what the first was found among, whichever it became.
             let step = selected.found.pop().map_or(here, |found| found.step);
-            selected.found.extend([FoundStep { step, ..both.first }, both.second]);
+            let [first, second] = both.in_order_of(&step);
+            selected.found.extend([FoundStep { step, ..first }, second]);
             continue;
         }
         match won {

@@ -23,6 +23,18 @@ pub struct Pair<'a> {
     worth: f64,
 }
 
+impl<'a> Pair<'a> {
+    /// The two in the order in which a step without either ranks them: each stands on top of the other, and which of them the
+    /// search set out from says nothing.
+    pub fn in_order_of(self, step: &Step<'a>) -> [FoundStep<'a>; 2] {
+        let place = |found: &FoundStep<'_>| step.ranking.iter().position(|judged| judged.id() == found.winner.id());
+        match (place(&self.first), place(&self.second)) {
+            (Some(first), Some(second)) if second < first => [self.second, self.first],
+            _ => [self.first, self.second],
+        }
+    }
+}
+
 /// An effect that was found first, and what was then found.
 pub struct Known<'a> {
     /// The model with the effect.

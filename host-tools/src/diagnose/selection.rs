@@ -32,8 +32,6 @@ const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;
 /// The chance below which any gain on runs that were not seen is enough.
 const BEYOND_DOUBT: f64 = 1e-4;
-/// Standard deviations beyond a bound from which a size that is held on it is not one that the data support.
-const BEYOND_BOUND: f64 = 2.0;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 /// The same where noise does not explain what is left in any case, so that chances are guesses.
@@ -70,32 +68,12 @@ impl Judged<'_> {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
         let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
-        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.is_out_of_bounds()
+        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.trial.is_out_of_bounds()
     }
 
     /// Whether chance does not explain what it gains, whether or not it may be the effect.
     pub fn is_beyond_chance(&self) -> bool {
         self.p_value < SIGNIFICANT
-    }
-
-    /// A size that the data push out of its range, by more than they leave open, is not one that they support; nor is a shape that
-    /// they push out of it at all, for the form then stands for another law. Of a shape that may be absent, and is, the data say
-    /// just that.
-    fn is_out_of_bounds(&self) -> bool {
-        let model = &self.trial.model;
-        let Some(effect) = self.effect() else { return false };
-        let mut own = model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
-        own.any(|(place, (_, name))| {
-            let place = model.soil_count() + place;
-            let is_size = effect.form.free.first() == Some(name);
-            let neutral = effect.info.parameters.iter().find(|info| info.name == *name).map(|info| info.neutral);
-            let beyond = self.trial.fit.beyond_bound(place);
-            if is_size {
-                beyond > BEYOND_BOUND
-            } else {
-                beyond > 0.0 && neutral != Some(self.trial.fit.parameters[place])
-            }
-        })
     }
 }
 
@@ -190,11 +168,13 @@ fn predicts_better(runs: &[HeldOutRun], than: &[HeldOutRun]) -> bool {
     gain > std
 }
 
-/// The base at its best: a candidate that changes nothing may still have found a better place for the others.
+/// The base at its best: a candidate that changes nothing may still have found a better place for the others. Where that leaves
+/// the range of an effect that was found within it, it is another law's.
 fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Trial<'a> {
     let mut leaders: Vec<_> = trials.iter().collect();
     leaders.sort_by(|a, b| b.log_posterior().total_cmp(&a.log_posterior()));
     let again = leaders.par_iter().take(LEADERS).filter_map(|leader| bench.polish(base, leader));
+    let again = again.filter(|polished| base.is_out_of_bounds() || !polished.is_out_of_bounds());
     let best = again.reduce_with(|a, b| if b.log_posterior() > a.log_posterior() { b } else { a });
     best.unwrap_or_else(|| base.clone())
 }

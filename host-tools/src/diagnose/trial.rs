@@ -30,6 +30,8 @@ const CONTINUATIONS: usize = 2;
 const TOLERANCE: f64 = 1e-4;
 /// Standard deviations of each parameter within which two fits lie in one place.
 const NEAR: f64 = 0.5;
+/// Standard deviations beyond a bound from which a size that is held on it is not one that the data support.
+const BEYOND_BOUND: f64 = 2.0;
 /// Seed of the places where they lie.
 const SEED: u32 = 1;
 
@@ -337,6 +339,21 @@ impl Trial<'_> {
             coordinate.prior.map_or(0.0, |(mean, std)| -0.5 * ((value - mean) / std).powi(2))
         };
         self.model.coordinates().iter().zip(parameters).map(penalty).sum()
+    }
+
+    /// Whether its last effect is pushed out of its range. A size that the data push out of it, by more than they leave open, is
+    /// not one that they support; nor is a shape that they push out of it at all, for the form then stands for another law. Of a
+    /// shape that may be absent, and is, the data say just that.
+    pub fn is_out_of_bounds(&self) -> bool {
+        let Some(effect) = self.specification.effects.last() else { return false };
+        let mut own = self.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
+        own.any(|(place, (_, name))| {
+            let place = self.model.soil_count() + place;
+            let is_size = effect.form.free.first() == Some(name);
+            let neutral = effect.info.parameters.iter().find(|info| info.name == *name).map(|info| info.neutral);
+            let beyond = self.fit.beyond_bound(place);
+            if is_size { beyond > BEYOND_BOUND } else { beyond > 0.0 && neutral != Some(self.fit.parameters[place]) }
+        })
     }
 
     /// Parameters that its effects free.
