@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::data::atomic_write::write_atomically;
+use crate::data::atomic_write::{refuse_to_replace, write_atomically};
 use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::qemu::LogView;
@@ -38,6 +38,7 @@ pub struct Arguments {
 /// # Errors
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    refuse_to_replace(&arguments.output, &arguments.frames)?;
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
     let rover = recording.rover.map(|value| value as f32);

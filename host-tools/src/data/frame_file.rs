@@ -23,6 +23,8 @@ pub struct FrameReader {
     /// Where each sensor stands in a row, in the order of the channels.
     columns: Vec<Option<usize>>,
     last_us: Option<u64>,
+    /// No row has been read yet.
+    is_empty: bool,
 }
 
 impl FrameReader {
@@ -45,7 +47,7 @@ impl FrameReader {
             let expected = "no sensor: expected columns such as wheel_rate_fl_rad_s, load_cell_fl_n, accel_x_m_s2";
             return Err(stream.error(1, 1, format!("{expected} in the header (found {})", stream.header().join(", "))));
         }
-        Ok(Self { stream, time, columns, last_us: None })
+        Ok(Self { stream, time, columns, last_us: None, is_empty: true })
     }
 
     fn frame(&mut self, row: &Row) -> Result<SensorFrame, HostError> {
@@ -80,8 +82,12 @@ impl FrameReader {
 impl Iterator for FrameReader {
     type Item = Result<SensorFrame, HostError>;
     fn next(&mut self) -> Option<Self::Item> {
-        let row = self.stream.next_row().transpose()?;
-        Some(row.and_then(|row| self.frame(&row)))
+        let row = self.stream.next_row().transpose();
+        let is_first = std::mem::replace(&mut self.is_empty, false);
+        match row {
+            Some(row) => Some(row.and_then(|row| self.frame(&row))),
+            None => is_first.then(|| Err(self.stream.error(2, 1, "the file ends here: expected a frame"))),
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::toml_file::TomlFile;
-use super::wheel_file::Grousers;
+use super::wheel_file::{Grousers, LARGEST_M};
 use crate::error::HostError;
 
 type Number = Option<Spanned<f64>>;
@@ -64,6 +64,10 @@ struct NoiseKeys {
     velocity_m_s: Number,
 }
 
+/// Mass that no rover exceeds, kg, and distance from the differential axis that no part of one has, m: beyond them a file is in
+/// other units.
+const HEAVIEST_KG: f64 = 20_000.0;
+const FARTHEST_M: f64 = 20.0;
 /// Grousers of K0.
 const GROUSERS: Grousers = Grousers { height_m: 0.005, count: 24 };
 
@@ -97,6 +101,7 @@ impl RoverFile {
     /// As [`Self::read`].
     pub fn parse(file: &TomlFile) -> Result<Self, HostError> {
         let table: RoverTable = file.whole()?;
+        table.check_units(file)?;
         let rover = table.rover();
         rover.check().map_err(|error| {
             let place = table.to_blame(error).map_or(0, |span| span.start);
@@ -116,6 +121,36 @@ impl RoverFile {
 }
 
 impl RoverTable {
+    /// Refuses numbers that are in other units than the format's.
+    fn check_units(&self, file: &TomlFile) -> Result<(), HostError> {
+        let SuspensionKeys { front_hub, bogie_pivot, middle_hub, rear_hub, half_track, .. } = &self.suspension;
+        let numbers = [
+            ("mass_kg", &self.mass_kg, HEAVIEST_KG, "kg"),
+            ("radius_m", &self.wheel.radius_m, LARGEST_M, "m"),
+            ("width_m", &self.wheel.width_m, LARGEST_M, "m"),
+            ("half_track", half_track, FARTHEST_M, "m"),
+        ];
+        for (name, number, most, unit) in numbers {
+            if let Some(number) = number.as_ref().filter(|number| number.get_ref().abs() > most) {
+                let message = format!("{name} = {}: expected {unit}, at most {most}", number.get_ref());
+                return Err(file.error_at(number, message));
+            }
+        }
+        let points = [
+            ("front_hub", front_hub),
+            ("bogie_pivot", bogie_pivot),
+            ("middle_hub", middle_hub),
+            ("rear_hub", rear_hub),
+        ];
+        for (name, point) in points {
+            let is_far = |point: &&Spanned<[f64; 2]>| point.get_ref().iter().any(|place| place.abs() > FARTHEST_M);
+            if let Some(point) = point.as_ref().filter(is_far) {
+                return Err(file.error_at(point, format!("{name}: expected metres, at most {FARTHEST_M}")));
+            }
+        }
+        Ok(())
+    }
+
     fn rover(&self) -> Rover<f64> {
         let mut rover = Rover::assumed();
         let (suspension, noise) = (&mut rover.suspension, &mut rover.noise);

@@ -22,6 +22,9 @@ pub struct WheelTable {
     grouser_count: Option<u32>,
 }
 
+/// Radius and width that no wheel of a vehicle exceeds, m: beyond it a file is in other units.
+pub const LARGEST_M: f64 = 5.0;
+
 /// The grousers of a wheel: geometry, which acts only through an effect.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Grousers {
@@ -56,10 +59,9 @@ impl WheelTable {
     /// At the length, in `file`.
     pub fn check(&self, file: &TomlFile) -> Result<(), HostError> {
         for (name, length) in [("radius_m", &self.radius_m), ("width_m", &self.width_m)] {
-            if !(*length.get_ref() > 0.0 && length.get_ref().is_finite()) {
-                return Err(
-                    file.error_at(length, format!("{name} = {}: expected a length above 0 m", length.get_ref()))
-                );
+            if !(*length.get_ref() > 0.0 && *length.get_ref() <= LARGEST_M) {
+                let expected = format!("expected a length above 0 m and at most {LARGEST_M} m");
+                return Err(file.error_at(length, format!("{name} = {}: {expected}", length.get_ref())));
             }
         }
         match &self.grouser_height_m {

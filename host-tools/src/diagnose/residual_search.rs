@@ -7,7 +7,7 @@ use super::chance::over_all;
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
-use super::selection::{PARAMETER_COST, gain_over};
+use super::selection::{PARAMETER_COST, TELLS_APART, gain_over};
 use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
 
@@ -62,7 +62,25 @@ pub fn search(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Vec<Stru
     let (screened, tried) = screen(bench, trial, dispersion).unwrap_or_default();
     let mut found = second_look(bench, trial, dispersion, screened, tried).unwrap_or_default();
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    simpler_first(&mut found);
     found
+}
+
+/// Puts a column before products of it that do not tell themselves apart from it: a product holds its column's line, too, and
+/// takes up by chance what that leaves.
+fn simpler_first(found: &mut [Structure]) {
+    for place in 0..found.len() {
+        let single = &found[place];
+        let holds = |product: &Structure| {
+            product.channel == single.channel
+                && product.regressor.contains('*')
+                && product.regressor.split('*').any(|column| column == single.regressor)
+                && product.score < single.score + TELLS_APART
+        };
+        if let Some(product) = found[..place].iter().position(holds) {
+            found[product..=place].rotate_right(1);
+        }
+    }
 }
 
 /// All of them at the model's own scales of noise and offsets, which is quick: the best of each channel, and how many were
@@ -234,10 +252,9 @@ fn wave(regressor: &Regressor) -> Option<Vec<Term>> {
     Some(vec![constant(regressor), sine, cosine])
 }
 
-/// Share of the squares of a channel's standardised residual that is gone.
+/// Share of the squares of a channel's residual, in units of its noise, that is gone. What the rows of a run have in common
+/// belongs to it: an offset of the run takes up what the run's column does.
 fn share(before: &Fit, after: &Fit, channel: Reading) -> f64 {
-    let squares = |fit: &Fit| -> f64 {
-        fit.standardised.iter().filter_map(|row| row[channel.index()]).map(|value| value.powi(2)).sum()
-    };
+    let squares = |fit: &Fit| -> f64 { fit.whole_standardised(channel).map(|value| value.powi(2)).sum() };
     (1.0 - squares(after) / squares(before).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }

@@ -39,11 +39,12 @@ pub struct WheelMotion {
 impl WheelMotion {
     /// Slip of the direction of travel, −1 … 1; none where the wheel stands.
     ///
-    /// Of a wheel that backs up it is that of the mirrored wheel, so that driving is positive in both directions.
+    /// Of a wheel that backs up it is that of the mirrored wheel, so that driving is positive in both directions; where rim and hub
+    /// move oppositely it is 1 of a rim that drives forward, and −1 of one that turns back.
     pub fn slip(&self) -> Option<f64> {
         let fastest = self.rim_speed_m_s.abs().max(self.hub_speed_m_s.abs());
-        let forward = self.rim_speed_m_s + self.hub_speed_m_s >= 0.0;
-        (fastest > STANDING_M_S).then(|| if forward { self.forward_slip() } else { -self.forward_slip() })
+        let backs_up = self.rim_speed_m_s <= 0.0 && self.hub_speed_m_s <= 0.0;
+        (fastest > STANDING_M_S).then(|| if backs_up { -self.forward_slip() } else { self.forward_slip() })
     }
 
     /// (rω − v) over the faster of both; at most 1, where rim and hub move oppositely.

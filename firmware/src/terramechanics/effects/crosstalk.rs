@@ -6,7 +6,8 @@ use super::info::effect_parameters;
 use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
 
 effect_parameters! {
-    /// A force channel reads a share of another force, with its sign; the load also a share of the torque over a length.
+    /// A force channel reads a share of another force, with its sign; load and drawbar pull also a share of the torque over a
+    /// length.
     pub struct Crosstalk {
         /// Share of the drawbar pull in the load.
         drawbar_pull_to_load: "drawbar_pull_to_load" ["-"] = 0.0, -1.0 to 1.0, about 0.05;
@@ -22,6 +23,8 @@ effect_parameters! {
         side_force_to_load: "side_force_to_load" ["-"] = 0.0, -1.0 to 1.0, about 0.05;
         /// Load read per torque, N/(N·m).
         torque_to_load_per_m: "torque_to_load_per_m" ["1/m"] = 0.0, -20.0 to 20.0, about 1.0;
+        /// Drawbar pull read per torque, N/(N·m).
+        torque_to_drawbar_pull_per_m: "torque_to_drawbar_pull_per_m" ["1/m"] = 0.0, -20.0 to 20.0, about 1.0;
     }
 }
 
@@ -72,6 +75,12 @@ impl<S: Scalar> Effect<S> for Crosstalk<S> {
             set: &[],
             needs: &[Column::Torque, Column::Load],
         },
+        Form {
+            name: "torque into drawbar pull",
+            free: &["torque_to_drawbar_pull_per_m"],
+            set: &[],
+            needs: &[Column::Torque, Column::DrawbarPull],
+        },
     ];
 
     fn read(&self, readings: &mut Readings<S>, truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {
@@ -79,7 +88,9 @@ impl<S: Scalar> Effect<S> for Crosstalk<S> {
         readings.load_n += self.drawbar_pull_to_load * pull_n
             + self.side_force_to_load * side_n
             + self.torque_to_load_per_m * truth.torque_nm;
-        readings.drawbar_pull_n += self.load_to_drawbar_pull * load_n + self.side_force_to_drawbar_pull * side_n;
+        readings.drawbar_pull_n += self.load_to_drawbar_pull * load_n
+            + self.side_force_to_drawbar_pull * side_n
+            + self.torque_to_drawbar_pull_per_m * truth.torque_nm;
         readings.side_force_n += self.drawbar_pull_to_side_force * pull_n + self.load_to_side_force * load_n;
     }
 }

@@ -8,7 +8,7 @@ use super::{Campaign, Channel};
 /// Greatest force at the rim over the load, or over the campaign's typical load where that is greater. A soil's shear
 /// strength is of the order of the pressure that it carries; a dragged, locked wheel in sand feels twice its load.
 const GREATEST_FORCE: f64 = 5.0;
-/// Greatest load over the campaign's typical one.
+/// Greatest load over the campaign's typical one. A load of nothing, or one that pulls at the soil, is no wheel's on a soil.
 const GREATEST_LOAD: f64 = 20.0;
 
 /// What a campaign's numbers are held against.
@@ -42,7 +42,8 @@ impl Plausible {
             Channel::Torque => GREATEST_FORCE * load_n * radius_m,
             _ => GREATEST_FORCE * load_n,
         };
-        (value.abs() > limit).then_some((value, limit))
+        let is_lifted = channel == Channel::Load && value <= 0.0;
+        (value.abs() > limit || is_lifted).then_some((value, limit))
     }
 }
 
@@ -56,7 +57,8 @@ impl Campaign {
         JUDGED.into_iter().find_map(|channel| {
             let (value, limit) = self.plausible.beyond(self, row, channel)?;
             let (name, unit) = (channel.name(), unit(channel));
-            Some(format!("{name} of {value} {unit} is a gross error: at most {limit:.3} {unit} can be"))
+            let least = if channel == Channel::Load { "more than 0 and " } else { "" };
+            Some(format!("{name} of {value} {unit} is a gross error: {least}at most {limit:.3} {unit} can be"))
         })
     }
 
@@ -74,8 +76,8 @@ impl Campaign {
                     row,
                     channel,
                     format!(
-                        "{name} of {value} {unit}, and in {bad} of {all} rows more than can be (here {limit:.3} {unit}): \
-                         expected newtons, newton-metres and metres",
+                        "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (here at most {limit:.3} {unit}): \
+                         expected loads above 0, and newtons, newton-metres and metres",
                     ),
                 ));
             }

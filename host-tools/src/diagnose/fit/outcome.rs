@@ -7,7 +7,7 @@ use super::leverage::leverages;
 use super::likelihood::{log_likelihood, log_prior};
 use super::model::{Coordinate, Latent, Model};
 use super::normal_equations::{NormalEquations, bounded_covariance};
-use super::observation::{CHANNELS, Channels, Row};
+use super::observation::{CHANNELS, Channels, Reading, Row};
 use super::options::{FitError, Options};
 use super::problem::{Problem, RunRows};
 use super::run_terms::RunTerms;
@@ -103,6 +103,15 @@ impl Fit {
         }
         let variance = self.covariance[(place, place)].max(0.0);
         self.pull[place].abs() * (variance / self.dispersion.max(1.0)).sqrt()
+    }
+
+    /// Residuals of a channel at the mode in units of noise, the offsets of the runs left in.
+    pub fn whole_standardised(&self, channel: Reading) -> impl Iterator<Item = f64> {
+        let (c, scales) = (channel.index(), self.scales());
+        let offsets = &self.offsets;
+        let offset_of = move |run: usize| offsets.iter().find(|offset| offset.run == run).map_or(0.0, |o| o.offset[c]);
+        let rows = self.rows.iter().zip(&self.standardised);
+        rows.filter_map(move |(row, standardised)| Some(standardised[c]? + offset_of(row.run) / scales.noise(row, c)))
     }
 
     /// Its standard deviations.
