@@ -43,14 +43,18 @@ pub fn seen_by_rover(scenes: &[Scene], seed: u64) -> Vec<RoverFeatures> {
     seen.map(|(index, scene)| rover_features(&observe(scene, &mut stream(seed, index)))).collect()
 }
 
-/// The same with each scene as this pass of training sees it, [`Scene::seen_anew`].
-pub fn seen_by_rover_anew(scenes: &[Scene], seed: u64) -> Vec<RoverFeatures> {
-    let seen = |(index, scene): (usize, &Scene)| {
-        let mut random = stream(seed, index);
-        let scene = scene.seen_anew(|| random.random());
-        rover_features(&observe(&scene, &mut random))
-    };
-    scenes.par_iter().enumerate().map(seen).collect()
+/// The rover network's example of the scene at a place as a pass of training with that seed sees it, [`Scene::seen_anew`].
+pub fn rover_example_anew(
+    scenes: &[Scene],
+    place: usize,
+    seed: u64,
+    normal: &RoverNormalisation,
+) -> Example<RoverInput> {
+    let scene = &scenes[place];
+    let mut random = stream(seed, place);
+    let seen = scene.seen_anew(|| random.random());
+    let features = rover_features(&observe(&seen, &mut random));
+    Example { input: normal.apply(&features), target: standardised(scene, &prior_scale()) }
 }
 
 /// Examples of the rover network from what its inputs are made of.
@@ -64,15 +68,26 @@ pub fn rover_examples(
 
 /// The per-wheel network's inputs, in their own units, for the first wheel of each scene.
 pub fn wheel_inputs(scenes: &[Scene], fifth: Candidate, seed: u64) -> Vec<WheelInput> {
-    scenes
-        .par_iter()
-        .enumerate()
-        .map(|(index, scene)| {
-            let mut random = stream(seed, index);
-            let query = observe(scene, &mut random);
-            query.wheel_inputs(&query.wheels[0], fifth.observe(scene, &query, 0, &mut random))
-        })
-        .collect()
+    let seen = scenes.par_iter().enumerate();
+    seen.map(|(place, scene)| wheel_input(scene, fifth, &mut stream(seed, place))).collect()
+}
+
+fn wheel_input(scene: &Scene, fifth: Candidate, random: &mut ChaCha8Rng) -> WheelInput {
+    let query = observe(scene, random);
+    query.wheel_inputs(&query.wheels[0], fifth.observe(scene, &query, 0, random))
+}
+
+/// The per-wheel network's example of the scene at a place, with the noise of that seed.
+pub fn wheel_example(
+    scenes: &[Scene],
+    place: usize,
+    fifth: Candidate,
+    seed: u64,
+    normal: &Normalisation<WHEEL_INPUTS>,
+) -> Example<WheelInput> {
+    let scene = &scenes[place];
+    let input = wheel_input(scene, fifth, &mut stream(seed, place));
+    Example { input: normal.apply(&input), target: standardised(scene, &prior_scale()) }
 }
 
 /// Examples of the per-wheel network from its inputs.

@@ -7,7 +7,7 @@ use crate::error::HostError;
 
 use super::calibration::calibrated;
 use super::curve::Curve;
-use super::dataset::{rover_examples, seen_by_rover, seen_by_rover_anew};
+use super::dataset::{rover_example_anew, rover_examples, seen_by_rover};
 use super::epochs::train_by_epochs;
 use super::example::{RoverFeatures, RoverNormalisation};
 use super::plan::{Plan, Purpose};
@@ -35,8 +35,9 @@ pub fn train_rover(plan: &Plan, scenes: &[Scene], held_out: &[Scene], progress: 
     let watched = rover_examples(held_out, &raw, &normal);
     let curve = Curve::new("rover network");
     let (weights, curve): (RoverWeights, Curve) =
-        train_by_epochs(plan, plan.rover, &watched, curve, progress, |seed| {
-            rover_examples(scenes, &seen_by_rover_anew(scenes, seed), &normal)
+        train_by_epochs(plan, plan.rover, &watched, curve, progress, scenes.len(), |seed| {
+            let normal = &normal;
+            move |place| rover_example_anew(scenes, place, seed, normal)
         });
     let network = weights.rounded();
     let posterior = calibrated(&watched, |input| network.run(input));

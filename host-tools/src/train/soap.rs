@@ -66,21 +66,23 @@ impl Soap {
         loss
     }
 
-    /// One of the passes over the examples in mini-batches; the step size rises in the first fiftieth of all of them and
-    /// falls along a cosine to the last.
+    /// One of the passes over the examples in mini-batches, in the order of their places; `example` makes the one of a place
+    /// when its turn comes. The step size rises in the first fiftieth of all passes and falls along a cosine to the last.
     pub fn pass<N: Trainable>(
         &mut self,
         network: &mut N,
-        examples: &[Example<N::Input>],
+        order: &[u32],
         epoch: usize,
         passes: Passes,
+        example: impl Fn(usize) -> Example<N::Input> + Sync,
     ) {
         let size = passes.batch.max(1);
-        let batches = examples.len().div_ceil(size) as f32;
-        for (index, batch) in examples.chunks(size).enumerate() {
+        let batches = order.len().div_ceil(size) as f32;
+        for (index, places) in order.chunks(size).enumerate() {
             let share = (epoch as f32 + index as f32 / batches) / passes.epochs as f32;
             let fall = 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share));
-            self.step(network, batch, RATE * fall * (50.0 * share).min(1.0));
+            let batch: Vec<_> = places.par_iter().map(|&place| example(place as usize)).collect();
+            self.step(network, &batch, RATE * fall * (50.0 * share).min(1.0));
         }
     }
 

@@ -5,7 +5,7 @@ use kapvik_firmware::network::{GOLDEN_PAIRS, WheelGolden, WheelTable};
 
 use super::calibration::calibrated;
 use super::curve::Curve;
-use super::dataset::{wheel_examples, wheel_inputs};
+use super::dataset::{wheel_example, wheel_examples, wheel_inputs};
 use super::epochs::train_by_epochs;
 use super::example::normalisation;
 use super::fifth_input::Candidate;
@@ -26,8 +26,9 @@ pub fn train_wheel(
     let watched = wheel_examples(held_out, &raw, &normal);
     let curve = Curve::new("per-wheel network");
     let (weights, curve): (WheelWeights, Curve) =
-        train_by_epochs(plan, plan.wheel, &watched, curve, progress, |seed| {
-            wheel_examples(scenes, &wheel_inputs(scenes, fifth, seed), &normal)
+        train_by_epochs(plan, plan.wheel, &watched, curve, progress, scenes.len(), |seed| {
+            let normal = &normal;
+            move |place| wheel_example(scenes, place, fifth, seed, normal)
         });
     let network = weights.rounded();
     let posterior = calibrated(&watched, |input| network.run(input));
