@@ -130,7 +130,19 @@ fn missing_files_and_impossible_rovers_are_refused() {
     fs::write(case.path("empty.csv"), "").expect("written");
     case.is_refused(&["empty.csv"], &["empty.csv:1:1:"]);
     fs::write(case.path("header.csv"), "t_s,wheel_rate_fl_rad_s\n").expect("written");
-    case.is_refused(&["header.csv"], &["no frame"]);
+    case.is_refused(&["header.csv"], &["header.csv:2:1: no frame"]);
+    fs::write(case.path("rover.toml"), "mass_kg = 41\n[wheel]\nradius_m = 75\n").expect("written");
+    case.is_refused(&["frames.csv", "--rover", "rover.toml"], &["rover.toml:3:12: radius_m = 75: expected m"]);
+    fs::write(case.path("rover.toml"), "[suspension]\nfront_hub = [350, -200]\n").expect("written");
+    case.is_refused(&["frames.csv", "--rover", "rover.toml"], &["rover.toml:2:13: front_hub: expected metres"]);
+}
+
+#[test]
+fn a_recording_is_not_replaced_by_its_estimates() {
+    let case = Case::with(None);
+    let recorded = fs::read(case.path("frames.csv")).expect("readable");
+    case.command("replay").args(["frames.csv", "-o", "frames.csv"]).assert().failure();
+    assert_eq!(fs::read(case.path("frames.csv")).expect("readable"), recorded);
 }
 
 #[test]

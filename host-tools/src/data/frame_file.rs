@@ -86,7 +86,7 @@ impl Iterator for FrameReader {
         let is_first = std::mem::replace(&mut self.is_empty, false);
         match row {
             Some(row) => Some(row.and_then(|row| self.frame(&row))),
-            None => is_first.then(|| Err(self.stream.error(2, 1, "the file ends here: expected a frame"))),
+            None => is_first.then(|| Err(self.stream.error(2, 1, "no frame: expected one below the header"))),
         }
     }
 }
