@@ -131,7 +131,7 @@ impl RoverTable {
             ("half_track", half_track, FARTHEST_M, "m"),
         ];
         for (name, number, most, unit) in numbers {
-            if let Some(number) = number.as_ref().filter(|number| number.get_ref().abs() > most) {
+            if let Some(number) = number.as_ref().filter(|number| is_beyond(*number.get_ref(), most)) {
                 let message = format!("{name} = {}: expected {unit}, at most {most}", number.get_ref());
                 return Err(file.error_at(number, message));
             }
@@ -143,7 +143,7 @@ impl RoverTable {
             ("rear_hub", rear_hub),
         ];
         for (name, point) in points {
-            let is_far = |point: &&Spanned<[f64; 2]>| point.get_ref().iter().any(|place| place.abs() > FARTHEST_M);
+            let is_far = |point: &&Spanned<[f64; 2]>| point.get_ref().iter().any(|place| is_beyond(*place, FARTHEST_M));
             if let Some(point) = point.as_ref().filter(is_far) {
                 return Err(file.error_at(point, format!("{name}: expected metres, at most {FARTHEST_M}")));
             }
@@ -237,6 +237,11 @@ impl RoverTable {
             ]),
         }
     }
+}
+
+/// Whether a number is larger than can be; what is no number is refused as such elsewhere.
+fn is_beyond(number: f64, most: f64) -> bool {
+    number.is_finite() && number.abs() > most
 }
 
 /// What a person is told of an impossible rover.
