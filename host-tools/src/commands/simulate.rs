@@ -83,12 +83,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         effects,
         faults,
     };
-    let of_rover = |error: &dyn std::fmt::Display| match &arguments.rover {
-        Some(path) => HostError::Failed(format!("{}: {error}", path.display())),
-        None => HostError::Failed(error.to_string()),
-    };
-    let traverse =
-        Traverse::new(arguments.scenario, arguments.seed, &rover, &options).map_err(|error| of_rover(&error))?;
+    let traverse = Traverse::new(arguments.scenario, arguments.seed, &rover, &options).map_err(|error| {
+        HostError::Failed(match &arguments.rover {
+            Some(path) => format!("{}: {error}", path.display()),
+            None => error.to_string(),
+        })
+    })?;
     let truth = truth_path(&arguments.output);
     let told = write(&arguments.output, &truth, traverse)?;
     println!("{told}, seed {}", arguments.seed);

@@ -76,8 +76,8 @@ impl Campaign {
                     row,
                     channel,
                     format!(
-                        "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (here at most {limit:.3} {unit}): \
-                         expected loads above 0, and newtons, newton-metres and metres",
+                        "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (a load is above 0; here at most {limit:.3} {unit}): \
+                         expected newtons, newton-metres and metres",
                     ),
                 ));
             }
