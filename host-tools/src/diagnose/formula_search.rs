@@ -7,13 +7,13 @@ use super::document::{Estimate, FoundLaw};
 use super::fit::{Fit, Reading};
 use super::formula::{Group, Term, figure, terms};
 use super::formula_groups::{Scale, groups, scale};
-use super::held_out_errors::groups as folds;
 use super::linearised::{AddedTerms, Linearised, Term as AddedTerm};
 use super::measurements::COLUMNS;
 use super::residual_search::Structure;
 use super::selection::{SIGNIFICANT, family_chance};
 use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
+use super::unseen_runs::groups as folds;
 
 /// Most terms of a law.
 const MOST_TERMS: usize = 2;

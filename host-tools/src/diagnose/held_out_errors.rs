@@ -3,15 +3,9 @@
 use rayon::prelude::*;
 
 use super::fit::{CHANNELS, HeldOut};
-use super::selection::best_of;
+use super::folds::{Fold, choose};
 use super::trial::{Bench, Trial};
-
-/// Groups that many runs are divided into; each is left out in turn.
-const GROUPS: usize = 6;
-/// Runs up to which each is left out by itself.
-const FEW_RUNS: usize = 30;
-/// Rows up to which they are.
-const FEW_ROWS: usize = 60;
+use super::unseen_runs::groups;
 
 /// Predictions of each row by models that did not know its run.
 #[derive(Debug, Clone)]
@@ -38,30 +32,27 @@ pub fn held_out_errors<'a>(
     progress: &(dyn Fn(&str) + Sync),
 ) -> HeldOutErrors {
     let groups = groups(bench.measurements.runs.len(), bench.measurements.rows.len());
-    let predict = |group: &Vec<usize>| {
-        let bench = bench.without(group);
+    let fold = |(group, runs): (usize, &Vec<usize>)| {
+        let bench = bench.without(runs);
         let before = bench.refit(base)?;
-        let mut after = before.clone();
-        for shortlist in shortlists {
-            after = best_of(&bench, &after, shortlist).unwrap_or(after);
-        }
-        progress("held-out runs");
-        let predicted = |trial: &Trial<'_>| trial.fit.predict_unseen(&trial.model, group).ok();
-        Some((predicted(&before)?, predicted(&after)?))
+        Some(Fold { group, bench, after: before.clone(), before })
     };
-    let predictions: Vec<_> = groups.par_iter().filter_map(predict).collect();
+    let mut folds: Vec<Fold<'a>> = groups.par_iter().enumerate().filter_map(fold).collect();
+    for (place, shortlist) in shortlists.iter().enumerate() {
+        progress(&format!("held-out runs, effect {}", place + 1));
+        choose(&mut folds, &groups, shortlist);
+    }
+    let predicted = |fold: &Fold<'a>| {
+        let predicted = |trial: &Trial<'a>| trial.fit.predict_unseen(&trial.model, &groups[fold.group]).ok();
+        Some((predicted(&fold.before)?, predicted(&fold.after)?))
+    };
+    let predictions: Vec<_> = folds.par_iter().filter_map(predicted).collect();
     let mut errors = HeldOutErrors::none_yet(bench.measurements.rows.len());
     for (before, after) in &predictions {
         note(before, &mut errors.before);
         note(after, &mut errors.after);
     }
     errors
-}
-
-/// Runs dealt out to groups, so that neighbours, which are often alike, are in different ones.
-pub(super) fn groups(runs: usize, rows: usize) -> Vec<Vec<usize>> {
-    let count = if runs <= FEW_RUNS && rows <= FEW_ROWS { runs } else { runs.min(GROUPS) };
-    (0..count).map(|group| (group..runs).step_by(count).collect()).collect()
 }
 
 /// Puts predictions in their rows.

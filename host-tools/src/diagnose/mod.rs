@@ -3,7 +3,7 @@
 //! As data flow: `measurements` of a campaign and a `specification` of effects make a `campaign_model`, which `fit` fits;
 //! `trial` holds both. `selection` fits every one of the `candidates` on top of a model and tests it against chance;
 //! `residual_search` does the same with every column as it stands; `forward` adds what earns its place. `held_out_errors` does
-//! it all again without some runs, to predict those; `formula_search` looks for a law of what is left; `assemble` writes the
+//! it all again without some runs, in `folds`, to predict those; `formula_search` looks for a law of what is left; `assemble` writes the
 //! `document`. Beside all that, `force_channels` holds loads that are set and side forces that should be none against what
 //! sensors follow, without any model of the soil.
 
@@ -15,7 +15,9 @@ mod chance;
 mod curvature;
 mod declared_file;
 pub mod document;
+mod field;
 pub mod fit;
+mod folds;
 pub mod force_channels;
 mod formula;
 mod formula_groups;
@@ -43,6 +45,7 @@ mod steps;
 mod term_screen;
 mod told;
 pub mod trial;
+mod unseen_runs;
 
 pub use declared_file::declared_file;
 pub use force_channels::force_channels;

@@ -7,9 +7,10 @@ use super::chance::over_all;
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
-use super::selection::{PARAMETER_COST, TELLS_APART, gain_over};
+use super::selection::{PARAMETER_COST, TELLS_APART};
 use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
+use super::unseen_runs::gain_over;
 
 /// A channel's dependence on a column.
 #[derive(Debug, Clone)]

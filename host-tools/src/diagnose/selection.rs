@@ -6,9 +6,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::candidates::candidates;
 use super::chance::over_all;
 use super::fit::HeldOutRun;
-use super::held_out_errors::groups;
 use super::specification::EffectForm;
 use super::trial::{Bench, Glance, Trial};
+use super::unseen_runs::{gain_over, held_out, nearly_held_out};
 
 /// The chance, over all candidates, below which a gain is taken for an effect: less than half of the false alarms that are
 /// allowed, for they come of structure that no effect explains as well.
@@ -163,7 +163,7 @@ fn in_order<'a>(mut judged: Vec<(Judged<'a>, Vec<HeldOutRun>)>, misfit: bool) ->
 }
 
 /// Whether runs that were not seen are predicted better by more than one standard error over runs.
-fn predicts_better(runs: &[HeldOutRun], than: &[HeldOutRun]) -> bool {
+pub fn predicts_better(runs: &[HeldOutRun], than: &[HeldOutRun]) -> bool {
     let (gain, std) = gain_over(than, runs);
     gain > std
 }
@@ -179,43 +179,13 @@ fn polished<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: &[Trial<'a>]) -> Tr
     best.unwrap_or_else(|| base.clone())
 }
 
-/// The best of a shortlist of candidates, chosen as [`step`] does. Each as it was fitted to all runs, which is where the
-/// search begins if it stood on the same effects.
-pub fn best_of<'a>(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[Trial<'a>]) -> Option<Trial<'a>> {
-    let fitted = |known: &Trial<'a>| {
-        let (effect, before) = known.specification.effects.split_last()?;
-        let stands = before.iter().map(EffectForm::name).eq(base.specification.effects.iter().map(EffectForm::name));
-        let new = !base.specification.has(effect.info.id);
-        new.then(|| if stands { bench.refit(known) } else { bench.with_effect(base, effect) })?
-    };
-    chosen(bench, base, shortlist.iter().filter_map(fitted).collect())
-}
-
-/// The best of some candidates, by the rule of [`in_order`].
-pub fn chosen<'a>(bench: &Bench<'a>, base: &Trial<'a>, trials: Vec<Trial<'a>>) -> Option<Trial<'a>> {
-    let misfit = is_misfit(trials.iter());
-    let dispersion = dispersion(base, &trials, &[]);
-    let enough = enough(&trials, dispersion);
-    let mut trials: Vec<_> = trials.into_iter().filter(|trial| worth(trial) > enough).collect();
-    if trials.len() < 2 {
-        return trials.pop();
-    }
-    let before = held_out(bench, base);
-    let judged: Vec<_> = trials.into_iter().map(|trial| (held_out(bench, &trial), trial)).collect();
-    let leader = judged.iter().max_by(|a, b| worth(&a.1).total_cmp(&worth(&b.1)))?;
-    let gain = |runs: &[HeldOutRun]| gain_over(&before, runs).0;
-    let better = judged.iter().filter(|(runs, _)| misfit || predicts_better(runs, &leader.0));
-    let best = better.max_by(|a, b| gain(&a.0).total_cmp(&gain(&b.0)));
-    Some(best.unwrap_or(leader).1.clone())
-}
-
 /// What a candidate must be worth to be in question.
-fn enough(trials: &[Trial<'_>], dispersion: f64) -> f64 {
+pub fn enough(trials: &[Trial<'_>], dispersion: f64) -> f64 {
     trials.iter().map(worth).fold(f64::NEG_INFINITY, f64::max) - IN_QUESTION * dispersion
 }
 
 /// Whether more than one effect is missing.
-fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
+pub fn is_misfit<'a, 'b: 'a>(trials: impl Iterator<Item = &'a Trial<'b>>) -> bool {
     trials.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min) > MISFIT
 }
 
@@ -313,7 +283,7 @@ pub fn look_ahead<'a>(bench: &Bench<'a>, trials: &[Trial<'a>]) -> Vec<Trial<'a>>
 
 /// The dispersion that gains are measured in, 1 or more: that of the best model with one more effect, or with two where that
 /// was looked for.
-fn dispersion<'a>(base: &Trial<'a>, trials: &[Trial<'a>], ahead: &[Trial<'a>]) -> f64 {
+pub fn dispersion<'a>(base: &Trial<'a>, trials: &[Trial<'a>], ahead: &[Trial<'a>]) -> f64 {
     let all = std::iter::once(base).chain(trials).chain(ahead);
     all.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min).max(1.0)
 }
@@ -322,42 +292,4 @@ fn dispersion<'a>(base: &Trial<'a>, trials: &[Trial<'a>], ahead: &[Trial<'a>]) -
 pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
     let chance = ChiSquared::new(parameters.max(1) as f64).map_or(1.0, |law| law.sf(2.0 * gain.max(0.0)));
     over_all(chance, tried)
-}
-
-/// Each run (or each row, of a campaign of one run) predicted without its own help, to first order.
-pub fn nearly_held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
-    let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
-    let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok().and_then(|mut found| found.runs.pop());
-    runs.map(|run| predict(run).unwrap_or_else(|| HeldOutRun::without_answer(run))).collect()
-}
-
-/// Each run (or each row, of a campaign of one run) predicted by a fit without its group of runs. A step from the fit to all of
-/// them would do for a linear model; along a valley that bends it ends anywhere.
-pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
-    let runs: Vec<usize> = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run)).collect();
-    let groups = groups(runs.len(), bench.measurements.rows.len());
-    let predict = |group: &Vec<usize>| {
-        let group: Vec<usize> = group.iter().map(|place| runs[*place]).collect();
-        let without: Vec<usize> = bench.without.iter().chain(&group).copied().collect();
-        let found = bench.without(&without).refit_shortly(trial);
-        let found = found.and_then(|found| found.fit.predict_unseen(&trial.model, &group).ok());
-        found.map_or_else(|| group.iter().map(|run| HeldOutRun::without_answer(*run)).collect(), |found| found.runs)
-    };
-    let mut predicted: Vec<HeldOutRun> = groups.par_iter().flat_map_iter(predict).collect();
-    predicted.sort_by_key(|run| run.run);
-    predicted
-}
-
-/// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
-/// model without an answer where that one had one has lost.
-pub fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
-    let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
-    let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
-    let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };
-    let rows: usize = before.iter().map(|run| run.rows.len()).sum();
-    let count = gains.len() as f64;
-    let mean = gains.iter().sum::<f64>() / count.max(1.0);
-    let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    let per_row = count / (rows.max(1) as f64);
-    (mean * per_row, (variance / count.max(1.0)).sqrt() * per_row)
 }

@@ -3,10 +3,12 @@
 use kapvik_firmware::terramechanics::effects::effect_info;
 
 use super::candidates::is_measured;
+use super::field::chosen;
 use super::outcome::{DiagnoseOptions, declared_model, measured};
-use super::selection::{SIGNIFICANT, chosen, family_chance, gain_over, held_out};
+use super::selection::{SIGNIFICANT, family_chance};
 use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
+use super::unseen_runs::{gain_over, held_out};
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
 

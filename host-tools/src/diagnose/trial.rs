@@ -2,8 +2,8 @@
 
 use super::campaign_model::CampaignModel;
 use super::fit::{
-    CHANNELS, Coordinate, Fit, FitError, Model, OffsetStd, Options, Reading, Row, Start, fit_from_many, fit_without,
-    scattered_starts,
+    CHANNELS, Coordinate, Fit, FitError, HeldOutRun, Model, OffsetStd, Options, Reading, Row, Start, fit_from_many,
+    fit_without, predictor_without, scattered_starts,
 };
 use super::measurements::Measurements;
 use super::selection::MISFIT;
@@ -22,7 +22,9 @@ const AFRESH_OF_A_MISFIT: usize = 24;
 const SILENT: f64 = 0.9;
 /// Sizes of an effect that are tried where nothing is known of it.
 const SIZES: usize = 8;
-/// Steps of a fit to most of the runs from that to all.
+/// Steps after which a fit to most of the runs from that to all tells whether it is worth its end.
+const BRIEFLY: usize = 6;
+/// Steps of one that is to be near its end.
 const SHORTLY: usize = 10;
 /// Times that a fit which ran out of steps may go on.
 const CONTINUATIONS: usize = 2;
@@ -55,6 +57,11 @@ pub struct Glance<'a> {
 }
 
 impl<'a> Glance<'a> {
+    /// From one start.
+    pub fn of(trial: Trial<'a>) -> Self {
+        Self { better: trial, other: None }
+    }
+
     /// With one from another start; of the three the better two stay.
     fn beside(self, another: Trial<'a>) -> Self {
         let Glance { better, other } = self;
@@ -281,10 +288,22 @@ impl<'a> Bench<'a> {
         self.fitted_from(trial, &trial.fit.onward(), &self.options)
     }
 
-    /// The same in a few steps, where it lies near.
-    pub fn refit_shortly(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
-        let options = Options { most_iterations: SHORTLY, ..self.options.clone() };
+    /// The same in the first few steps.
+    pub fn refit_briefly(&self, trial: &Trial<'a>) -> Option<Trial<'a>> {
+        let options = Options { most_iterations: BRIEFLY, ..self.options.clone() };
         self.fitted_from(trial, &trial.fit.onward(), &options)
+    }
+
+    /// What a trial's model says of groups of runs that this bench lacks, fitted to its runs in a few steps from where the trial
+    /// lies, which is near; of each in the order asked for.
+    pub fn predict_shortly<const N: usize>(&self, trial: &Trial<'a>, groups: [&[usize]; N]) -> [Vec<HeldOutRun>; N] {
+        let options = Options { most_iterations: SHORTLY, ..self.options.clone() };
+        let (rows, start) = (&self.measurements.rows, trial.fit.onward());
+        let fitted = predictor_without(&trial.model, rows, &self.without, &start, &options);
+        groups.map(|group| {
+            let said = fitted.as_ref().ok().and_then(|fitted| fitted.predict(&trial.model, rows, &options, group).ok());
+            said.unwrap_or_else(|| group.iter().map(|run| HeldOutRun::without_answer(*run)).collect())
+        })
     }
 
     /// A trial's model fitted from another start.

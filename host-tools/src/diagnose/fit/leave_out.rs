@@ -1,18 +1,15 @@
 //! Predictions of runs without their own help.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::bounds::bounded_step;
-use super::held_out::{HeldOut, HeldOutRun};
-use super::measured_latents::measured_run;
+use super::held_out::HeldOut;
 use super::model::Model;
 use super::normal_equations::{bounded_covariance, with_floor};
 use super::options::FitError;
 use super::outcome::{Fit, fit_without};
-use super::predictive::judge;
+use super::predictor::{Predictor, as_measured, predict};
 use super::problem::Problem;
-use super::start::Start;
-use super::state::Scales;
 use super::variance_share::VarianceShares;
 use super::variances::better;
 
@@ -88,33 +85,16 @@ impl Fit {
     /// # Errors
     /// [`FitError::NoRows`] if the rows have no such run; [`FitError::UnfitStart`] for another model.
     pub fn predict_unseen(&self, model: &dyn Model, runs: &[usize]) -> Result<HeldOut, FitError> {
-        let problem = self.problem_of(model)?;
-        let parameters = DVector::from_column_slice(&self.parameters);
-        let runs = predict(&problem, &self.scales(), &parameters, &self.covariance, runs);
-        if runs.is_empty() {
-            return Err(FitError::NoRows);
-        }
-        Ok(HeldOut { parameters: self.parameters.clone(), runs })
+        let predictor = Predictor {
+            parameters: self.parameters.clone(),
+            covariance: self.covariance.clone(),
+            scales: self.scales(),
+        };
+        let found = predictor.predict(model, &self.rows, &self.options, runs)?;
+        Ok(HeldOut { parameters: self.parameters.clone(), runs: found })
     }
 
-    /// All rows, latents as measured: nothing of the fit's own latents may reach a prediction.
     fn problem_of<'a>(&'a self, model: &'a dyn Model) -> Result<Problem<'a>, FitError> {
-        let start = Start::at(self.parameters.clone(), &self.rows);
-        Problem::new(model, &self.rows, &[], &start, &self.options)
+        as_measured(model, &self.rows, &self.parameters, &self.options)
     }
-}
-
-fn predict(
-    problem: &Problem<'_>,
-    scales: &Scales,
-    parameters: &DVector<f64>,
-    covariance: &DMatrix<f64>,
-    runs: &[usize],
-) -> Vec<HeldOutRun> {
-    let of_run = |id: &usize| problem.runs.iter().find(|run| run.id == *id);
-    let predict = |run| match measured_run(problem, parameters, run) {
-        Some(measured) => judge(problem, scales, covariance, run, &measured),
-        None => HeldOutRun::without_answer(run.id),
-    };
-    runs.iter().filter_map(of_run).map(predict).collect()
 }

@@ -10,7 +10,7 @@
 //! From the ground up: `observation` and `model` are what a caller brings, `options` what one may ask for; `problem` and
 //! `state` hold both together; `row_terms`, `run_sums`, `run_terms` and `normal_equations` are the linear algebra, on `slices`;
 //! `bounds` keeps a step in its box; `levenberg_marquardt`, `tempering` and `variances` find the optimum, `outcome` describes it;
-//! `leave_out`, `measured_latents` and `predictive` predict runs that a fit has not seen; `multistart` fits from many places.
+//! `leave_out`, `predictor`, `measured_latents` and `predictive` predict runs that a fit has not seen; `multistart` fits from many places.
 
 mod bend;
 mod bounds;
@@ -29,6 +29,7 @@ mod observation;
 mod options;
 mod outcome;
 mod predictive;
+mod predictor;
 mod problem;
 mod row_terms;
 mod run_sums;
@@ -50,5 +51,6 @@ pub use multistart::{ManyFits, fit_from_many, scattered_starts};
 pub use observation::{CHANNELS, Reading, Row};
 pub use options::{FitError, OffsetStd, Options, VarianceCriterion};
 pub use outcome::{Fit, RunOffset, fit, fit_without};
+pub use predictor::{Predictor, predictor_without};
 pub use start::Start;
 pub use state::Scales;

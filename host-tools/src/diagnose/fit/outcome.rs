@@ -140,9 +140,13 @@ pub fn fit_without(
     options: &Options,
 ) -> Result<Fit, FitError> {
     let problem = Problem::new(model, rows, without, start, options)?;
-    let state = first_state(&problem, &start.parameters).ok_or(FitError::NoPrediction)?;
-    let optimum = optimise(&problem, state);
-    Ok(describe(&problem, optimum))
+    Ok(describe(&problem, optimum(&problem, start)?))
+}
+
+/// Where a problem's way from a start leads.
+pub(super) fn optimum(problem: &Problem<'_>, start: &Start) -> Result<Optimum, FitError> {
+    let state = first_state(problem, &start.parameters).ok_or(FitError::NoPrediction)?;
+    Ok(optimise(problem, state))
 }
 
 /// The start, or the first place on the way from there to the middle of the prior where the model predicts something.
@@ -161,8 +165,7 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
     let Optimum { state, scales, objective, iterations, converged } = optimum;
     let equations = NormalEquations::new(problem, &state, &scales, 0.0);
     let count = state.parameters.len();
-    let unknown = || DMatrix::from_diagonal_element(count, count, f64::INFINITY);
-    let covariance = bounded_covariance(problem, &equations.information).unwrap_or_else(unknown);
+    let covariance = covariance(problem, &equations);
     let free = free_covariance(problem, &state.parameters, &equations).unwrap_or_else(|| DMatrix::zeros(count, count));
     let leverages = leverages(problem, &state, &equations, &free);
     let likelihood = log_likelihood(problem, &state, &scales, objective, &equations);
@@ -195,6 +198,13 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
     }
 }
 
+/// Covariance of the parameters; infinite where the equations have none.
+pub(super) fn covariance(problem: &Problem<'_>, equations: &NormalEquations) -> DMatrix<f64> {
+    let count = equations.pull.len();
+    let unknown = || DMatrix::from_diagonal_element(count, count, f64::INFINITY);
+    bounded_covariance(problem, &equations.information).unwrap_or_else(unknown)
+}
+
 fn shares(problem: &Problem<'_>, state: &State, scales: &Scales, equations: &NormalEquations) -> Vec<RunShare> {
     let variances = shares_by_run(problem, state, scales, equations, &Step::none(state));
     let variances = variances.unwrap_or_else(|| vec![VarianceShares::default(); problem.runs.len()]);
@@ -213,7 +223,7 @@ fn run_offsets(problem: &Problem<'_>, state: &State) -> Vec<RunOffset> {
 }
 
 /// τ of the channels in which some run has an offset.
-fn used_offsets(equations: &NormalEquations, scales: &Scales) -> [f64; CHANNELS] {
+pub(super) fn used_offsets(equations: &NormalEquations, scales: &Scales) -> [f64; CHANNELS] {
     std::array::from_fn(|c| if equations.runs.iter().any(|run| run.active[c]) { scales.offset[c] } else { 0.0 })
 }
 

@@ -1,0 +1,56 @@
+//! What a model says of runs that it has not seen, and what one model says better than another.
+
+use rayon::prelude::*;
+
+use super::fit::HeldOutRun;
+use super::trial::{Bench, Trial};
+
+/// Groups that many runs are divided into; each is left out in turn.
+const GROUPS: usize = 6;
+/// Runs up to which each is left out by itself.
+const FEW_RUNS: usize = 30;
+/// Rows up to which they are.
+const FEW_ROWS: usize = 60;
+
+/// Runs dealt out to groups, so that neighbours, which are often alike, are in different ones.
+pub fn groups(runs: usize, rows: usize) -> Vec<Vec<usize>> {
+    let count = if runs <= FEW_RUNS && rows <= FEW_ROWS { runs } else { runs.min(GROUPS) };
+    (0..count).map(|group| (group..runs).step_by(count).collect()).collect()
+}
+
+/// Each run (or each row, of a campaign of one run) predicted without its own help, to first order.
+pub fn nearly_held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+    let runs = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run));
+    let predict = |run: usize| trial.fit.leave_out(&trial.model, &[run]).ok().and_then(|mut found| found.runs.pop());
+    runs.map(|run| predict(run).unwrap_or_else(|| HeldOutRun::without_answer(run))).collect()
+}
+
+/// Each run (or each row, of a campaign of one run) predicted by a fit without its group of runs. A step from the fit to all of
+/// them would do for a linear model; along a valley that bends it ends anywhere.
+pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
+    let runs: Vec<usize> = (0..bench.measurements.runs.len()).filter(|run| !bench.without.contains(run)).collect();
+    let groups = groups(runs.len(), bench.measurements.rows.len());
+    let predict = |group: &Vec<usize>| {
+        let group: Vec<usize> = group.iter().map(|place| runs[*place]).collect();
+        let without: Vec<usize> = bench.without.iter().chain(&group).copied().collect();
+        let [runs] = bench.without(&without).predict_shortly(trial, [&group]);
+        runs
+    };
+    let mut predicted: Vec<HeldOutRun> = groups.par_iter().flat_map_iter(predict).collect();
+    predicted.sort_by_key(|run| run.run);
+    predicted
+}
+
+/// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
+/// model without an answer where that one had one has lost.
+pub fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
+    let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
+    let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
+    let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };
+    let rows: usize = before.iter().map(|run| run.rows.len()).sum();
+    let count = gains.len() as f64;
+    let mean = gains.iter().sum::<f64>() / count.max(1.0);
+    let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    let per_row = count / (rows.max(1) as f64);
+    (mean * per_row, (variance / count.max(1.0)).sqrt() * per_row)
+}
