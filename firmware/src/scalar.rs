@@ -185,7 +185,7 @@ impl Scalar for f32 {
         entry.single
     }
     fn sin_cos(self) -> (Self, Self) {
-        math::sin_cos(self)
+        math::sin_cos_of_slope(self)
     }
     fn acos(self) -> Self {
         math::acos(self)

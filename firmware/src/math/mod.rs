@@ -33,7 +33,7 @@ pub use limit::limit;
 pub use ln::ln;
 pub use power::powf;
 pub use square_root::sqrt;
-pub use trigonometric::{acos, sin_cos};
+pub use trigonometric::{acos, sin_cos, sin_cos_of_slope};
 
 /// Whether `from` ≤ |x| < `to`, of two numbers of zero or more: one comparison, false for NaN.
 ///

@@ -7,6 +7,9 @@ use core::f32::consts::{FRAC_2_PI, TAU};
 /// Magnitude below which sine and arc sine are their argument to a fifth of an ulp: 2⁻¹².
 const SMALL: f32 = 1.0 / 4096.0;
 
+/// Magnitude below which nothing has to be taken off: a little less than π/4.
+const EIGHTH: f32 = 0.785;
+
 /// Magnitude below which a multiple of π/2 is taken off without loss: the multiple is at most 2⁸.
 const REDUCED_EXACTLY: f32 = 402.0;
 
@@ -43,6 +46,13 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
     let sine_sign = (quarter << 30) ^ x.to_bits();
     let cosine_sign = quarter.wrapping_add(1) << 30;
     (with_sign_flipped(sine, sine_sign), with_sign_flipped(cosine, cosine_sign))
+}
+
+/// [`sin_cos`], the same bits, in half the time for magnitudes below an eighth of a turn, where the multiple of π/2 that is taken off
+/// is nought: few angles of a rover are larger.
+#[inline(never)] // flash is scarcer than the time of a call
+pub fn sin_cos_of_slope(x: f32) -> (f32, f32) {
+    if magnitude_between(x, SMALL, EIGHTH) { sin_cos_of_eighth(x, 0.0) } else { sin_cos(x) }
 }
 
 /// An angle in −π … π that is `angle` less whole turns, to 2⁻²²·|angle|; NaN if `angle` is not finite.
@@ -102,7 +112,7 @@ fn asin_excess(x: f32, square: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{acos, sin_cos};
+    use super::{acos, sin_cos, sin_cos_of_slope};
     use core::f32::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
     #[test]
@@ -115,6 +125,14 @@ mod tests {
         for x in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
             let (sine, cosine) = sin_cos(x);
             assert!(sine.is_nan() && cosine.is_nan());
+        }
+    }
+
+    #[test]
+    fn sine_and_cosine_of_slopes_have_the_same_bits() {
+        let bits = |(sine, cosine): (f32, f32)| (sine.to_bits(), cosine.to_bits());
+        for x in (0..=u32::from(u16::MAX)).map(|upper| f32::from_bits(upper << 16 | 0x5a5a)) {
+            assert_eq!(bits(sin_cos_of_slope(x)), bits(sin_cos(x)), "{x}");
         }
     }
 
