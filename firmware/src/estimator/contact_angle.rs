@@ -242,14 +242,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &self.still
     }
 
-    /// How often the filter fell back to its floor.
-    pub fn resets(&self) -> u32 {
-        self.filter.resets()
-    }
-
-    /// How often it gave up what it believed.
-    pub fn relearned(&self) -> u32 {
-        self.watch.relearned()
+    /// How often the filter fell back to its floor, and how often it gave up what it believed.
+    pub fn troubles(&self) -> (u32, u32) {
+        (self.filter.resets(), self.watch.relearned())
     }
 
     /// Carries the state a step further, with rims that move at `rim_speed_m_s`, and takes what was measured.

@@ -4,10 +4,11 @@
 //! to it over some centimetres. Until then the links' pitches tell the contact angles as well as the paths do.
 
 use super::contact_angle::{ContactAngleFilter, UNKNOWN_ANGLE};
+use super::scale::Scale;
 use crate::scalar::Scalar;
 
 /// How fast the wheels of a side sink as they start, over the speed of their rims, as one standard deviation, and the travel after
-/// which that is down to a third, m.
+/// which that is down to a third, m; under the wheels of set K0, and longer under larger ones.
 const DIGS_IN: f64 = 0.1;
 const DIGGING_IN_M: f64 = 0.013;
 /// Where they sink by less than this they have dug in.
@@ -21,6 +22,8 @@ pub(super) struct DiggingIn<S> {
     /// Variance of how fast the wheels sink, over the speed of their rims.
     variance: S,
     told_by_links: S,
+    /// Share of the variance that is gone after a metre, 1/m.
+    gone_per_m: S,
 }
 
 /// How a side rolled in a frame.
@@ -38,8 +41,9 @@ pub(super) struct Rolled<S> {
 
 impl<S: Scalar> DiggingIn<S> {
     /// They have dug in.
-    pub fn new() -> Self {
-        Self { variance: S::zero(), told_by_links: S::zero() }
+    pub fn new(scale: &Scale<S>) -> Self {
+        let gone_per_m = S::constant(2.0 / DIGGING_IN_M) / scale.length;
+        Self { variance: S::zero(), told_by_links: S::zero(), gone_per_m }
     }
 
     /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
@@ -56,7 +60,7 @@ impl<S: Scalar> DiggingIn<S> {
             self.variance = square(DIGS_IN);
         } else if self.variance > S::zero() {
             let speed = rolled.speed_m_s.max(S::constant(LEAST_SPEED));
-            let came_back = self.variance * (S::constant(2.0 / DIGGING_IN_M) * speed * rolled.step_s).min(S::one());
+            let came_back = self.variance * (self.gone_per_m * speed * rolled.step_s).min(S::one());
             self.variance -= came_back;
             let over_rim = rolled.rim_speed_m_s / speed;
             let squared = over_rim * over_rim;
@@ -73,15 +77,16 @@ impl<S: Scalar> DiggingIn<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ContactAngleFilter, DiggingIn, Rolled};
+    use super::{ContactAngleFilter, DiggingIn, Rolled, Scale};
     use crate::rover::Rover;
 
     /// Over 13 mm of travel what wheels that stood sink by falls to 1/e, its variance to 1/e²; within 60 mm they have dug in, and the links
     /// tell nothing any more.
     #[test]
     fn wheels_dig_in_by_travel() {
-        let mut angles = ContactAngleFilter::<f64>::new(&Rover::assumed(), 0).expect("a rover");
-        let mut digging = DiggingIn::<f64>::new();
+        let rover = Rover::<f64>::assumed();
+        let mut angles = ContactAngleFilter::new(&rover, 0).expect("a rover");
+        let mut digging = DiggingIn::new(&Scale::of(&rover));
         let rolled = Rolled { stands: false, speed_m_s: 0.01, rim_speed_m_s: 0.01, step_s: 0.001 };
         digging.follow(&rolled, &mut angles);
         assert_eq!(digging.told_by_links(), 0.0);

@@ -14,6 +14,7 @@
 //! links with it, and so does a bogie that turns against its rocker. The drift of the state is therefore correlated.
 
 use super::runs::Runs;
+use super::scale::Scale;
 use super::slip_torque::TORQUE_DRIFT_NM;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
@@ -119,7 +120,8 @@ pub(super) struct ForceReadings<S> {
 
 /// One standard deviation of a force that is not known at all, over the rover's weight.
 const UNKNOWN_SHARE: f64 = 0.3;
-/// Nominal drift of a cell's force over a metre of travel, N: 6 N over a wheel radius.
+/// Nominal drift of a cell's force over a metre of travel, N: 6 N over a wheel radius. Like all forces and torques here it is of set K0,
+/// and goes with the [scale](Scale) of a rover.
 const CELL_DRIFT_N: f64 = 21.0;
 /// The same of the moments, N·m: on the rocker that of one wheel's torque (the body's share wanders less), on the bogie that of two.
 const ROCKER_DRIFT_NM: f64 = TORQUE_DRIFT_NM;
@@ -148,6 +150,7 @@ pub(super) struct HubForceFilter<S> {
     /// What [`Self::at_rest_n`] makes the moments on bogie and rocker, N·m.
     at_rest_nm: [S; 2],
     unknown_n: S,
+    scale: Scale<S>,
     cell_rates: PerAxle<WalkRate<S>>,
     rocker_rate: WalkRate<S>,
     bogie_rate: WalkRate<S>,
@@ -171,6 +174,7 @@ impl<S: Scalar> HubForceFilter<S> {
             at_rest_nm: model.moments_of(at_rest_n),
             model,
             unknown_n,
+            scale: Scale::of(rover),
             cell_rates: PerAxle::from_array([phase, phase + 1, phase + 2]).map(WalkRate::new),
             rocker_rate: WalkRate::new(phase + 3),
             bogie_rate: WalkRate::new(phase + 4),
@@ -210,20 +214,15 @@ impl<S: Scalar> HubForceFilter<S> {
         PerAxle { front, middle, rear }
     }
 
-    /// How often the filter fell back to its floor.
-    pub fn resets(&self) -> u32 {
-        self.filter.resets()
-    }
-
-    /// How often it gave up what it believed.
-    pub fn relearned(&self) -> u32 {
-        self.watch.relearned()
+    /// How often the filter fell back to its floor, and how often it gave up what it believed.
+    pub fn troubles(&self) -> (u32, u32) {
+        (self.filter.resets(), self.watch.relearned())
     }
 
     /// A wheel stands or has just started: the forces are not what they were a frame ago.
     pub fn unsettle(&mut self) {
         self.trends.forget();
-        self.loosen(S::constant(UNSETTLED_N));
+        self.loosen(self.scale.force_n(UNSETTLED_N));
     }
 
     fn loosen(&mut self, std_n: S) {
@@ -320,14 +319,15 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// One standard deviation of how far each cell's force, N, and the moments on bogie and rocker, N·m, drift over some travel.
     fn drifts(&self, travel_m: S) -> [S; MEASUREMENTS] {
-        let drift = |nominal: f64, rate: &WalkRate<S>| {
+        let drift = |nominal: f64, travel_m: S, rate: &WalkRate<S>| {
             let factor = rate.factor();
             let beside = beside_trend(BESIDE_TREND, restlessness(factor));
             S::constant(nominal) * (travel_m * factor * beside).sqrt()
         };
-        let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, rate));
-        let of_bogie = drift(BOGIE_DRIFT_NM, &self.bogie_rate);
-        let of_rocker = drift(ROCKER_DRIFT_NM, &self.rocker_rate);
+        let [of_cells, of_moments] = self.scale.travels_m(travel_m);
+        let PerAxle { front, middle, rear } = self.cell_rates.as_ref().map(|rate| drift(CELL_DRIFT_N, of_cells, rate));
+        let of_bogie = drift(BOGIE_DRIFT_NM, of_moments, &self.bogie_rate);
+        let of_rocker = drift(ROCKER_DRIFT_NM, of_moments, &self.rocker_rate);
         [front, middle, rear, of_bogie, of_rocker]
     }
 
@@ -341,26 +341,27 @@ impl<S: Scalar> HubForceFilter<S> {
         let told = [S::zero(), beyond(middle), beyond(rear), bogie_nm, S::zero()];
         let [.., along_bogie] = self.model.state_of(&told);
         let loads = middle.abs() + rear.abs();
-        along_bogie.abs() > S::constant(GREATEST_SHARE) * loads.max(S::constant(FORGOTTEN_PULL_N))
+        along_bogie.abs() > S::constant(GREATEST_SHARE) * loads.max(self.scale.force_n(FORGOTTEN_PULL_N))
     }
 
     /// Forgets the forces that only the moments tell.
     fn give_up_moments(&mut self) {
         for index in [3, 4] {
-            let _ = self.filter.forget(index, S::zero(), S::constant(FORGOTTEN_PULL_N));
+            let _ = self.filter.forget(index, S::zero(), self.scale.force_n(FORGOTTEN_PULL_N));
         }
     }
 
     /// Learns how fast the cells' forces and the moments wander. Where a stop holds the bogie the moments are not the soil's.
     fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, held: bool) {
-        let nominal = |drift: f64| S::constant(drift * drift) * travel_m;
-        let of_cell = nominal(CELL_DRIFT_N);
+        let nominal = |drift: f64, travel_m: S| S::constant(drift * drift) * travel_m;
+        let [of_cells, of_moments] = self.scale.travels_m(travel_m);
+        let of_cell = nominal(CELL_DRIFT_N, of_cells);
         for (rate, cell) in self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array()) {
             rate.take(*cell, Noise::white(readings.cell_std_n), of_cell);
         }
         let moments = [
-            (&mut self.bogie_rate, readings.bogie_moment_nm, nominal(BOGIE_DRIFT_NM)),
-            (&mut self.rocker_rate, readings.rocker_moment_nm, nominal(ROCKER_DRIFT_NM)),
+            (&mut self.bogie_rate, readings.bogie_moment_nm, nominal(BOGIE_DRIFT_NM, of_moments)),
+            (&mut self.rocker_rate, readings.rocker_moment_nm, nominal(ROCKER_DRIFT_NM, of_moments)),
         ];
         for (rate, (moment, std), nominal) in moments {
             rate.take(Some(moment).filter(|_| !held), Noise::white(std), nominal);

@@ -27,6 +27,7 @@ mod roughness;
 mod rover_estimator;
 mod runs;
 mod scalar_filter;
+mod scale;
 mod sensor;
 mod sensor_gate;
 mod side_estimate;

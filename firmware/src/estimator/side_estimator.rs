@@ -6,6 +6,7 @@ use super::digging_in::{DiggingIn, Rolled};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
+use super::scale::Scale;
 use super::sinking::Sinking;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
@@ -36,7 +37,7 @@ pub(super) struct SideFrame<S> {
 const STANDING: f64 = 1.5e-3;
 /// A wheel whose rim moves at less than this part of its hub's speed is blocked.
 pub(super) const BLOCKED: f64 = 0.08;
-/// Below this force on its cell a wheel is lifted, N; or below three standard deviations, but not above the other.
+/// Below this force on its cell a wheel is lifted, N, of set K0; or below three standard deviations, but not above the other.
 const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
 /// Frames that a wheel takes to start.
@@ -52,6 +53,7 @@ const UNSEEN_TURN: f64 = 0.03;
 #[derive(Debug, Clone)]
 pub(super) struct SideEstimator<S> {
     pub(super) rover: Rover<S>,
+    scale: Scale<S>,
     y_m: S,
     pub(super) angles: ContactAngleFilter<S>,
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
@@ -90,8 +92,10 @@ impl<S: Scalar> SideEstimator<S> {
     pub fn new(rover: &Rover<S>, side: Side, phase: usize) -> Result<Self, InvalidNumber> {
         let wheel = |place: usize| SlipTorqueFilter::new(rover, phase + place);
         let angles = ContactAngleFilter::new(rover, phase)?;
+        let scale = Scale::of(rover);
         Ok(Self {
             rover: *rover,
+            scale,
             y_m: match side {
                 Side::Left => rover.suspension.half_track_m,
                 Side::Right => -rover.suspension.half_track_m,
@@ -103,8 +107,8 @@ impl<S: Scalar> SideEstimator<S> {
             activity: PerAxle::default(),
             unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
-            digging_in: DiggingIn::new(),
-            sinking: Sinking::new(),
+            digging_in: DiggingIn::new(&scale),
+            sinking: Sinking::new(&scale),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -115,12 +119,10 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// How often a filter fell back to its floor, and how often one gave up what it believed.
     pub fn troubles(&self) -> (u32, u32) {
-        let resets = self.wheels.as_array().into_iter().map(SlipTorqueFilter::resets);
-        let relearned = self.wheels.as_array().into_iter().map(SlipTorqueFilter::relearned);
-        (
-            resets.fold(self.angles.resets().saturating_add(self.forces.resets()), u32::saturating_add),
-            relearned.fold(self.angles.relearned().saturating_add(self.forces.relearned()), u32::saturating_add),
-        )
+        let of_wheels = self.wheels.as_array().map(SlipTorqueFilter::troubles);
+        of_wheels.into_iter().chain([self.angles.troubles(), self.forces.troubles()]).fold((0, 0), |sum, of_filter| {
+            (u32::saturating_add(sum.0, of_filter.0), u32::saturating_add(sum.1, of_filter.1))
+        })
     }
 
     /// What the measurements told in the last frame.
@@ -313,7 +315,7 @@ impl<S: Scalar> SideEstimator<S> {
     pub(super) fn lifted(&self) -> PerAxle<bool> {
         let [front, middle, rear, ..] = self.forces.estimate().stds();
         self.forces.cells_n().zip(PerAxle { front, middle, rear }).map(|(force, std)| {
-            force < S::constant(LIFTED_N).max(S::constant(3.0) * std).min(S::constant(GREATEST_LIFTED_N))
+            force < self.scale.force_n(LIFTED_N).max(S::constant(3.0) * std).min(self.scale.force_n(GREATEST_LIFTED_N))
         })
     }
 

@@ -5,10 +5,11 @@
 //! Pressure–sinkage laws give W ∝ z^(n + ½) and so dz/dW = z/((n + ½) W): with the soils of the literature, a sinkage of 8 to
 //! 25 mm under 67 N and n about 1, some 0.08 to 0.25 mm/N. How a slip that changes makes a wheel sink is left out.
 
+use super::scale::Scale;
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
-/// Sinkage for a load, m/N: between those bounds.
+/// Sinkage for a load of set K0, m/N: between those bounds. A wheel made for more sinks less for a newton more.
 const SINKAGE_FOR_LOAD: f64 = 1.5e-4;
 /// Travel over which the growth of a load is averaged, m: a load's noise must not pass for sinking.
 const AVERAGED_OVER: f64 = 0.01;
@@ -23,12 +24,15 @@ pub(super) struct Sinking<S> {
     slopes_rad: PerAxle<S>,
     /// The loads of the frame before; none of a wheel whose cell was silent.
     loads_n: PerAxle<Option<S>>,
+    /// Sinkage for a load, m/N.
+    for_load: S,
 }
 
 impl<S: Scalar> Sinking<S> {
     /// None does.
-    pub fn new() -> Self {
-        Self { slopes_rad: PerAxle::all(S::zero()), loads_n: PerAxle::all(None) }
+    pub fn new(scale: &Scale<S>) -> Self {
+        let for_load = S::constant(SINKAGE_FOR_LOAD) / scale.force;
+        Self { slopes_rad: PerAxle::all(S::zero()), loads_n: PerAxle::all(None), for_load }
     }
 
     /// Sinkage over travel of each wheel, rad.
@@ -46,7 +50,7 @@ impl<S: Scalar> Sinking<S> {
             return;
         }
         let share = travel_m / (travel_m + S::constant(AVERAGED_OVER));
-        let per_load = S::constant(SINKAGE_FOR_LOAD) / travel_m;
+        let per_load = self.for_load / travel_m;
         let steepest = S::constant(STEEPEST);
         let loads = before.as_array().into_iter().zip(loads_n.as_array());
         for (slope, (before, after)) in self.slopes_rad.as_array_mut().into_iter().zip(loads) {
@@ -59,8 +63,12 @@ impl<S: Scalar> Sinking<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::Sinking;
-    use crate::rover::PerAxle;
+    use super::{Scale, Sinking};
+    use crate::rover::{PerAxle, Rover};
+
+    fn sinking() -> Sinking<f64> {
+        Sinking::new(&Scale::of(&Rover::assumed()))
+    }
 
     fn loads(front: f64, middle: f64, rear: Option<f64>) -> PerAxle<Option<f64>> {
         PerAxle { front: Some(front), middle: Some(middle), rear }
@@ -69,7 +77,7 @@ mod tests {
     /// A load that grows by 20 N over 0.2 m, a hundredth of that a frame: 0.15 mm/N make 3 mm over 0.2 m, 0.015.
     #[test]
     fn a_wheel_sinks_as_its_load_grows_and_not_where_it_stands() {
-        let mut sinking = Sinking::<f64>::new();
+        let mut sinking = sinking();
         for frame in 0..=100 {
             let change = 0.2 * f64::from(frame);
             sinking.follow(0.002, &loads(60.0 + change, 60.0, Some(60.0 - change)));
@@ -82,7 +90,7 @@ mod tests {
 
     #[test]
     fn a_load_that_becomes_known_anew_is_no_sinking() {
-        let mut sinking = Sinking::<f64>::new();
+        let mut sinking = sinking();
         for (load, rear) in [(60.0, Some(60.0)), (60.5, None), (70.0, Some(70.0))] {
             sinking.follow(0.002, &loads(load, load, rear));
         }

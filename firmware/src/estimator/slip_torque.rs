@@ -6,6 +6,7 @@
 //! A wheel that slips more meets more torque: shear stress grows with shear displacement, and a torque that drifts takes the slip
 //! with it. So the drive's torque tells of slip what the camera sees but through its noise.
 
+use super::scale::Scale;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
@@ -70,7 +71,7 @@ pub(super) struct WheelReadings<S> {
     pub motor_torque_std_nm: S,
 }
 
-/// One standard deviation of what is not known at all.
+/// One standard deviation of what is not known at all. All torques here are of set K0, and go with the [scale](Scale) of a rover.
 const UNKNOWN: [f64; STATES] = [1.0, 3.0, 0.3];
 /// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
 pub(super) const TORQUE_DRIFT_NM: f64 = 1.1;
@@ -111,6 +112,7 @@ pub(super) struct SlipTorqueFilter<S> {
     model: SlipTorqueModel<S>,
     /// Slip that goes with a torque where the wheel rolls forward, 1/(N·m).
     slip_per_torque: S,
+    scale: Scale<S>,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
     shared_slip_variance: S,
@@ -124,7 +126,8 @@ pub(super) struct SlipTorqueFilter<S> {
 impl<S: Scalar> SlipTorqueFilter<S> {
     /// A filter that knows nothing.
     pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
-        let unknown = UNKNOWN.map(S::constant);
+        let scale = Scale::of(rover);
+        let unknown = of_rover(&UNKNOWN, &scale);
         let model = SlipTorqueModel {
             radius_m: rover.wheel.radius_m,
             inverse_inertia: S::one() / rover.drive.reflected_inertia_kg_m2,
@@ -134,6 +137,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             filter: SigmaPointFilter::new(Gaussian::independent([S::zero(); STATES], unknown)?, unknown)?,
             model,
             slip_per_torque: S::constant(6.0) / (rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m),
+            scale,
             torque_rate: WalkRate::new(phase).remembering(TORQUE_MEMORY),
             slip_rate: WalkRate::new(phase + 2),
             shared_slip_variance: S::zero(),
@@ -159,14 +163,9 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         torque
     }
 
-    /// How often the filter fell back to its floor.
-    pub fn resets(&self) -> u32 {
-        self.filter.resets()
-    }
-
-    /// How often it gave up what it believed.
-    pub fn relearned(&self) -> u32 {
-        self.watch.relearned()
+    /// How often the filter fell back to its floor, and how often it gave up what it believed.
+    pub fn troubles(&self) -> (u32, u32) {
+        (self.filter.resets(), self.watch.relearned())
     }
 
     /// The wheel stands, or has just started: its torque is not what it was a frame ago.
@@ -176,7 +175,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     fn loosen(&mut self, stds: &[f64; STATES]) {
         self.trends.forget();
-        let _ = self.filter.random_walk(&stds.map(S::constant));
+        let _ = self.filter.random_walk(&of_rover(stds, &self.scale));
     }
 
     /// The wheel rolls as it will: what it was like before is of no account for how fast it wanders.
@@ -243,20 +242,26 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         };
         let torque_std = match readings.motor_torque_nm {
             Some(_) => readings.motor_torque_std_nm,
-            None => S::constant(UNSEEN_TORQUE_NM),
+            None => S::constant(UNSEEN_TORQUE_NM) * self.scale.torque,
         };
-        let drift = |nominal: f64, factor: S, restless: S| {
-            S::constant(nominal * nominal) * travel_m * factor * beside_trend(BESIDE_TREND, restless)
-        };
+        let drift = |nominal: S, factor: S, restless: S| nominal * factor * beside_trend(BESIDE_TREND, restless);
+        let [of_torque, of_slip] = self.nominal_variances(travel_m);
         let [restless_torque, restless_slip] = restless;
         self.drift_variances =
-            [drift(TORQUE_DRIFT_NM, torque_factor, restless_torque), drift(SLIP_DRIFT, slip_factor, restless_slip)];
+            [drift(of_torque, torque_factor, restless_torque), drift(of_slip, slip_factor, restless_slip)];
         let [torque, slip] = self.drift_variances.map(S::sqrt);
         let noise = [step_s * torque_std * self.model.inverse_inertia, torque, by_itself * slip];
         // Where it is not done the mean has stayed, slip and all.
         if self.filter.predict(process, &noise) == Prediction::Done {
             self.filter.shear(1, 2, shared);
         }
+    }
+
+    /// Variances of what torque and slip nominally drift by over so much travel.
+    fn nominal_variances(&self, travel_m: S) -> [S; 2] {
+        let [_, of_torque] = self.scale.travels_m(travel_m);
+        let square = |drift: f64| S::constant(drift * drift);
+        [square(TORQUE_DRIFT_NM) * of_torque, square(SLIP_DRIFT) * travel_m]
     }
 
     fn follow_trends(&mut self, travel_m: S, before: [S; 2]) {
@@ -271,14 +276,14 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds.
     fn learn_rates(&mut self, travel_m: S, readings: &WheelReadings<S>) {
-        let nominal = |drift: f64| S::constant(drift * drift) * travel_m;
+        let [of_torque, of_slip] = self.nominal_variances(travel_m);
         let noise = Noise::white(readings.motor_torque_std_nm);
-        self.torque_rate.take(readings.motor_torque_nm, noise, nominal(TORQUE_DRIFT_NM));
+        self.torque_rate.take(readings.motor_torque_nm, noise, of_torque);
         let [rate, _, _] = *self.filter.estimate().mean();
         let rim = self.model.radius_m * rate;
         if rim.abs() > S::constant(2.0e-3) || readings.hub_speed_m_s.is_none() {
             let slip = readings.hub_speed_m_s.map(|hub| S::one() - hub / rim);
-            self.slip_rate.take(slip, Noise::white(readings.hub_speed_std_m_s / rim), nominal(SLIP_DRIFT));
+            self.slip_rate.take(slip, Noise::white(readings.hub_speed_std_m_s / rim), of_slip);
         }
     }
 
@@ -299,6 +304,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let taken = gain * readings.shared_speed_std_m_s;
         self.shared_slip_variance = (kept * kept * self.shared_slip_variance + taken * taken).min(slip_variance);
     }
+}
+
+/// Standard deviations of the states for a rover, given those for K0.
+fn of_rover<S: Scalar>(&[rate, torque, slip]: &[f64; STATES], scale: &Scale<S>) -> [S; STATES] {
+    [S::constant(rate), S::constant(torque) * scale.torque, S::constant(slip)]
 }
 
 #[cfg(test)]
