@@ -19,7 +19,7 @@ use super::slip_torque::TORQUE_DRIFT_NM;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::filter::{Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, Rover, Suspension};
 use crate::scalar::Scalar;
 
@@ -276,7 +276,7 @@ impl<S: Scalar> HubForceFilter<S> {
                 readings.bogie_moment_nm.1,
                 readings.rocker_moment_nm.1,
             ],
-            Gate::one_in_a_thousand(),
+            self.watch.gate(),
         );
         self.runs.take(&told, 0);
         self.follow_trends(travel_m, &expected, &drifts, readings.cell_std_n);

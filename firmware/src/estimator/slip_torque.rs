@@ -10,7 +10,7 @@ use super::scale::Scale;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, Prediction, SigmaPointFilter};
+use crate::filter::{Gaussian, Innovation, InvalidNumber, Prediction, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
 
@@ -203,7 +203,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             |state| model.measure(state),
             &[readings.rate_rad_s, readings.hub_speed_m_s],
             &[readings.rate_std_rad_s, readings.hub_speed_std_m_s],
-            Gate::one_in_a_thousand(),
+            self.watch.gate(),
         );
         self.share_camera_error(readings);
         self.follow_trends(travel_m, [torque, slip]);

@@ -1,6 +1,7 @@
 //! Notices when measurements contradict a filter: for a frame they are wrong, for several the filter is.
 
-use crate::filter::{Fate, Innovation};
+use crate::filter::{Fate, Gate, Innovation};
+use crate::scalar::Scalar;
 
 /// Frames in a row with a rejected measurement after which the state is taken to have moved faster than it drifts.
 const MOVED: u8 = 2;
@@ -45,8 +46,36 @@ impl Watch {
         }
     }
 
+    /// The gate of the next update. A filter that has just given up what it believed takes whatever plausible it is told: were its wide
+    /// spread still too narrow, it would refuse good measurements for ever.
+    pub fn gate<S: Scalar>(&self) -> Gate<S> {
+        if self.rest == REST { Gate::Open } else { Gate::one_in_a_thousand() }
+    }
+
     /// How often the filter gave up.
     pub fn relearned(&self) -> u32 {
         self.relearned
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Contradiction, REST, WRONG, Watch};
+    use crate::filter::{Fate, Gate, Innovation, Residual};
+
+    /// A measurement that is refused time after time opens the gate for one update in twelve at first, then not again for fifty.
+    #[test]
+    fn what_is_refused_for_long_is_let_in_once() {
+        let refused = Residual { fate: Fate::Rejected, innovation: 9.0, std: 0.5 };
+        let told = Innovation { residuals: [refused], ..Innovation::<f64, 1>::nothing() };
+        let mut watch = Watch::default();
+        let opened: Vec<u8> = (1..=WRONG + REST)
+            .filter(|_| {
+                let wrong = watch.judge(&told) == Contradiction::Wrong;
+                assert_eq!(wrong, watch.gate::<f64>() == Gate::Open);
+                wrong
+            })
+            .collect();
+        assert_eq!(opened, [WRONG, WRONG + REST]);
     }
 }
