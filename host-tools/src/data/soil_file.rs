@@ -89,8 +89,8 @@ impl SoilTable {
             sinkage_exponent: required(file, "n", &self.n, at_least_zero)?,
             cohesive_modulus,
             frictional_modulus,
-            cohesion_pa: required(file, "c", &self.c, any_number)?,
-            friction_angle_rad: required(file, "phi", &self.phi, below_a_right_angle)?,
+            cohesion_pa: required(file, "c", &self.c, at_least_zero)?,
+            friction_angle_rad: required(file, "phi", &self.phi, up_to_a_right_angle)?,
             shear_modulus_m: required(file, "K", &self.shear_modulus, at_least_zero)?,
             peak_stress_c1: required(file, "c1", &self.c1, any_number)?,
             peak_stress_c2: required(file, "c2", &self.c2, any_number)?,
@@ -131,8 +131,8 @@ fn zero_to_one(value: f64) -> Result<(), &'static str> {
     if (0.0..=1.0).contains(&value) { Ok(()) } else { Err("a number from 0 to 1") }
 }
 
-fn below_a_right_angle(value: f64) -> Result<(), &'static str> {
-    if value.abs() < std::f64::consts::FRAC_PI_2 { Ok(()) } else { Err("an angle in rad, below π/2") }
+fn up_to_a_right_angle(value: f64) -> Result<(), &'static str> {
+    if (0.0..std::f64::consts::FRAC_PI_2).contains(&value) { Ok(()) } else { Err("an angle in rad, from 0 to below π/2") }
 }
 
 fn required(
