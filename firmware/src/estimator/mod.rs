@@ -11,6 +11,8 @@
 //!   direction. In between the wheel stands.
 //! - *Blocked* ([`WheelActivity::Blocked`], a rim at less than a twelfth of its hub's speed): slip is −1. The side's speed is taken
 //!   from the median of its rims, so that one blocked wheel does not matter.
+//! - *Swinging* (torques that go to and fro as grousers come to bear in turn): torque follows the drive, forces are not held to drift, and
+//!   what a hub's speed tells of the slip counts for less, on all of a side.
 //! - *Lifted* ([`WheelActivity::Lifted`], a cell that cannot tell its load from none): load and pull are zero, as surely as the cell
 //!   says. A bogie with a wheel in the air, or one whose balance would take more pull than there is load, is held by a stop, and
 //!   its moments tell nothing until it is free.
@@ -35,6 +37,7 @@ mod side_estimator;
 mod sinking;
 pub mod slip_torque;
 mod surprise;
+mod swing;
 mod trend;
 mod walk_rate;
 mod watch;

@@ -44,6 +44,9 @@ const GREATEST_LIFTED_N: f64 = 6.0;
 const SETTLING: u8 = 8;
 /// Frames after which its wandering is learned afresh.
 const SETTLED: u8 = 20;
+/// Where torques swing, wheels go up and down with the grousers, and links with them, which no sensor follows: one standard deviation of what
+/// that adds to the speed of a hub, over the speed of its rim.
+const SWINGS_HUB: f64 = 0.08;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// What the body may turn at while its gyro is silent, rad/s.
@@ -63,6 +66,8 @@ pub(super) struct SideEstimator<S> {
     unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
+    /// Whether the torque of a wheel swings.
+    swings: bool,
     pub(super) digging_in: DiggingIn<S>,
     sinking: Sinking<S>,
     told: SideInnovations<S>,
@@ -107,6 +112,7 @@ impl<S: Scalar> SideEstimator<S> {
             activity: PerAxle::default(),
             unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
+            swings: false,
             digging_in: DiggingIn::new(&scale),
             sinking: Sinking::new(&scale),
             told: SideInnovations {
@@ -229,7 +235,8 @@ impl<S: Scalar> SideEstimator<S> {
     ) {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
-        let [mut unsettles, mut settles, mut stands] = [false; 3];
+        let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
+        let [mut unsettles, mut settles, mut stands, mut swings] = [false; 4];
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
@@ -259,7 +266,8 @@ impl<S: Scalar> SideEstimator<S> {
                 rate_rad_s: rate.map(|rate| rate - wheel.link_rate_rad_s),
                 rate_std_rad_s: noise.wheel_rate_rad_s,
                 hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| rolls),
-                hub_speed_std_m_s: wheel.hub_speed_std_m_s,
+                hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
+                side_swings: self.swings,
                 shared_speed_std_m_s: noise.velocity_m_s,
                 roughness,
                 motor_torque_nm: torque,
@@ -267,8 +275,10 @@ impl<S: Scalar> SideEstimator<S> {
             };
             *told = filter.tick(step_s, speed * step_s, &readings);
             surprise.of_wheel(told);
+            swings |= filter.swings();
         }
-        if unsettles {
+        self.swings = swings;
+        if unsettles || swings {
             self.forces.unsettle();
         }
         if settles {

@@ -7,6 +7,7 @@
 //! with it. So the drive's torque tells of slip what the camera sees but through its noise.
 
 use super::scale::Scale;
+use super::swing::Swing;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
@@ -65,6 +66,8 @@ pub(super) struct WheelReadings<S> {
     pub shared_speed_std_m_s: S,
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift, as a variance.
     pub roughness: S,
+    /// Whether the torque of a wheel of this side swung in the frame before: grousers are on all of them.
+    pub side_swings: bool,
     /// Torque of the drive, N·m.
     pub motor_torque_nm: Option<S>,
     /// One standard deviation of that, N·m.
@@ -90,6 +93,10 @@ const UNSEEN_TORQUE_NM: f64 = 2.0;
 /// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose
 /// within one frame.
 const UNSETTLED_TORQUE_NM: f64 = 1.0;
+/// Where a torque swings: a change of rate, squared, up to this many variances of its measurement is taken for noise, and the slip changes by
+/// about this part of what would go with the torque, one way or the other.
+const RATE_NOISE: f64 = 16.0;
+const SWINGS_SLIP: f64 = 0.3;
 /// What is added to what is not known of a state that has moved, as standard deviations: where the rims change speed, torque
 /// and slip follow within a second.
 const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
@@ -113,6 +120,7 @@ pub(super) struct SlipTorqueFilter<S> {
     /// Slip that goes with a torque where the wheel rolls forward, 1/(N·m).
     slip_per_torque: S,
     scale: Scale<S>,
+    swing: Swing<S>,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
     shared_slip_variance: S,
@@ -138,6 +146,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             model,
             slip_per_torque: S::constant(6.0) / (rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m),
             scale,
+            swing: Swing::new(),
             torque_rate: WalkRate::new(phase).remembering(TORQUE_MEMORY),
             slip_rate: WalkRate::new(phase + 2),
             shared_slip_variance: S::zero(),
@@ -163,6 +172,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         torque
     }
 
+    /// Whether its torque swings faster than ground makes torques drift.
+    pub fn swings(&self) -> bool {
+        self.swing.swings()
+    }
+
     /// How often the filter fell back to its floor, and how often it gave up what it believed.
     pub fn troubles(&self) -> (u32, u32) {
         (self.filter.resets(), self.watch.relearned())
@@ -170,6 +184,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     /// The wheel stands, or has just started: its torque is not what it was a frame ago.
     pub fn unsettle(&mut self) {
+        self.swing = Swing::new();
         self.loosen(&[0.0, UNSETTLED_TORQUE_NM, 0.0]);
     }
 
@@ -196,7 +211,12 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     /// Carries the state a step further, over so much travel, and takes what was measured.
     pub fn tick(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
         self.learn_rates(travel_m, readings);
-        self.predict(step_s, travel_m, readings);
+        self.swing.take(readings.motor_torque_nm, readings.motor_torque_std_nm * self.scale.torque);
+        let swinging = readings.motor_torque_nm.filter(|_| readings.side_swings || self.swings());
+        match swinging {
+            Some(torque) => self.swing_over(step_s, travel_m, torque, readings),
+            None => self.predict(step_s, travel_m, readings),
+        }
         let [_, torque, slip] = *self.filter.estimate().mean();
         let model = self.model;
         let told = self.filter.update(
@@ -206,7 +226,9 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             self.watch.gate(),
         );
         self.share_camera_error(readings);
-        self.follow_trends(travel_m, [torque, slip]);
+        if swinging.is_none() {
+            self.follow_trends(travel_m, [torque, slip]);
+        }
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
             Contradiction::Moved => self.loosen(&LOOSENED),
@@ -255,6 +277,28 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         if self.filter.predict(process, &noise) == Prediction::Done {
             self.filter.shear(1, 2, shared);
         }
+    }
+
+    /// The same where the torque swings: then it is what the drive gives now, but for what the drive's inertia takes where the rate changes
+    /// by more than noise; what it was a frame ago tells nothing.
+    fn swing_over(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
+        self.trends.forget();
+        self.trends.expect([S::zero(); 2]);
+        let square = |value: S| value * value;
+        let [rate, torque_before, _] = *self.filter.estimate().mean();
+        let [_, of_slip] = self.nominal_variances(travel_m);
+        let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
+        let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * (motor_torque_nm - torque_before);
+        let turned = readings.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
+        let turned = (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero());
+        let per_torque = step_s * self.model.inverse_inertia;
+        let unseen = square(S::constant(UNSEEN_TORQUE_NM) * self.scale.torque);
+        let noise = readings.motor_torque_std_nm;
+        let torque_variance = square(noise) + (turned / square(per_torque)).min(unseen);
+        let rate_std = per_torque * noise + turned.sqrt();
+        let slip_std = (of_slip * slip_factor + square(slipped)).sqrt();
+        let _ = self.filter.random_walk(&[rate_std, S::zero(), slip_std]);
+        let _ = self.filter.forget(1, motor_torque_nm, torque_variance.sqrt());
     }
 
     /// Variances of what torque and slip nominally drift by over so much travel.
@@ -326,6 +370,7 @@ mod tests {
                 hub_speed_std_m_s: 5.0e-4,
                 shared_speed_std_m_s: 5.0e-4,
                 roughness: 0.0,
+                side_swings: false,
                 motor_torque_nm: Some(direction * torque),
                 motor_torque_std_nm: 0.05,
             };
