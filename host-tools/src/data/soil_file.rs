@@ -132,7 +132,11 @@ fn zero_to_one(value: f64) -> Result<(), &'static str> {
 }
 
 fn up_to_a_right_angle(value: f64) -> Result<(), &'static str> {
-    if (0.0..std::f64::consts::FRAC_PI_2).contains(&value) { Ok(()) } else { Err("an angle in rad, from 0 to below π/2") }
+    if (0.0..std::f64::consts::FRAC_PI_2).contains(&value) {
+        Ok(())
+    } else {
+        Err("an angle in rad, from 0 to below π/2")
+    }
 }
 
 fn required(

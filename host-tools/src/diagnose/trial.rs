@@ -22,6 +22,10 @@ const AFRESH_OF_A_MISFIT: usize = 24;
 const SILENT: f64 = 0.9;
 /// Sizes of an effect that are tried where nothing is known of it.
 const SIZES: usize = 8;
+/// Parts of the size where a search starts that are tried as well.
+const SMALLER: [f64; 3] = [0.1, 0.3, 1.0];
+/// Share of a shape's range that lies between the values of it that are tried with them.
+const ASIDE: f64 = 0.07;
 /// Steps after which a fit to most of the runs from that to all tells whether it is worth its end.
 const BRIEFLY: usize = 6;
 /// Steps of one that is to be near its end.
@@ -159,24 +163,20 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// A look from the best of an effect's sizes on a soil as it is expected. Past its onset an effect does nothing, and no slope
-    /// leads back there.
+    /// A look from the best of an effect's sizes on a soil as it is expected. Past its onset an effect does nothing, nor does one
+    /// without size in whatever shape, and no slope leads back there.
     fn roused(&self, held: &Held, base: &Trial<'a>, extended: &Extended<'a>, options: &Options) -> Option<Trial<'a>> {
         let place = base.fit.parameters.len();
-        let Coordinate { low, high, .. } = extended.1.coordinates()[place];
         let expected = self.afresh(base, &extended.1);
-        let of_size = |size: usize| {
-            let mut start = expected.clone();
-            start.parameters[place] = low + (high - low) * (size as f64 + 0.5) / SIZES as f64;
-            start
-        };
         let no_step = Options { most_iterations: 0, ..held.options.clone() };
-        let tried = (0..SIZES).filter_map(|size| {
-            let there = self.fitted(extended, &of_size(size), &held.rows, &no_step)?;
-            Some((there.log_posterior(), size))
+        let tried = sizes(&extended.1.coordinates()[place..]).into_iter().filter_map(|own| {
+            let mut start = expected.clone();
+            start.parameters[place..][..own.len()].copy_from_slice(&own);
+            let there = self.fitted(extended, &start, &held.rows, &no_step)?;
+            Some((there.log_posterior(), start))
         });
         let (_, best) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        self.fitted(extended, &of_size(best), &self.measurements.rows, options)
+        self.fitted(extended, &best, &self.measurements.rows, options)
     }
 
     /// A short look once more, from the soil of a model that another effect was added to.
@@ -311,6 +311,23 @@ impl<'a> Bench<'a> {
         let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, start, options).ok()?;
         Some(Trial { specification: trial.specification.clone(), model: trial.model.clone(), fit })
     }
+}
+
+/// Places at which an effect is tried, given its coordinates as a search starts from them, the size first: all over the range of
+/// sizes; and at and below the size where a search starts, with the shape, if it has one, to both sides of where that starts.
+fn sizes(own: &[Coordinate]) -> Vec<Vec<f64>> {
+    let Some((size, shapes)) = own.split_first() else { return Vec::new() };
+    let all_over = (0..SIZES).map(|k| size.low + (size.high - size.low) * (k as f64 + 0.5) / SIZES as f64);
+    let mut places: Vec<Vec<f64>> = all_over.map(|size| vec![size]).collect();
+    for part in SMALLER {
+        places.push(vec![part * size.start]);
+        if let Some(shape) = shapes.first() {
+            let aside = ASIDE * (shape.high - shape.low);
+            let beside = [shape.start - aside, shape.start + aside].map(|shape| vec![part * size.start, shape]);
+            places.extend(beside);
+        }
+    }
+    places
 }
 
 /// Of two fits of a model the one of higher posterior.
