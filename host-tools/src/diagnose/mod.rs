@@ -39,6 +39,7 @@ mod selection;
 mod sentence;
 mod settings;
 mod site;
+mod sizes;
 mod soil_coordinates;
 pub mod specification;
 mod steps;

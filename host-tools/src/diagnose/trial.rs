@@ -7,6 +7,7 @@ use super::fit::{
 };
 use super::measurements::Measurements;
 use super::selection::MISFIT;
+use super::sizes::sizes;
 use super::specification::{EffectForm, Specification};
 use crate::data::campaign::Campaign;
 
@@ -20,12 +21,6 @@ const AFRESH: usize = 8;
 const AFRESH_OF_A_MISFIT: usize = 24;
 /// Share of the variance of its bounds beyond which nothing is known of a parameter.
 const SILENT: f64 = 0.9;
-/// Sizes of an effect that are tried where nothing is known of it.
-const SIZES: usize = 8;
-/// Parts of the size where a search starts that are tried as well.
-const SMALLER: [f64; 3] = [0.1, 0.3, 1.0];
-/// Share of a shape's range that lies between the values of it that are tried with them.
-const ASIDE: f64 = 0.07;
 /// Steps after which a fit to most of the runs from that to all tells whether it is worth its end.
 const BRIEFLY: usize = 6;
 /// Steps of one that is to be near its end.
@@ -311,23 +306,6 @@ impl<'a> Bench<'a> {
         let fit = fit_without(&trial.model, &self.measurements.rows, &self.without, start, options).ok()?;
         Some(Trial { specification: trial.specification.clone(), model: trial.model.clone(), fit })
     }
-}
-
-/// Places at which an effect is tried, given its coordinates as a search starts from them, the size first: all over the range of
-/// sizes; and at and below the size where a search starts, with the shape, if it has one, to both sides of where that starts.
-fn sizes(own: &[Coordinate]) -> Vec<Vec<f64>> {
-    let Some((size, shapes)) = own.split_first() else { return Vec::new() };
-    let all_over = (0..SIZES).map(|k| size.low + (size.high - size.low) * (k as f64 + 0.5) / SIZES as f64);
-    let mut places: Vec<Vec<f64>> = all_over.map(|size| vec![size]).collect();
-    for part in SMALLER {
-        places.push(vec![part * size.start]);
-        if let Some(shape) = shapes.first() {
-            let aside = ASIDE * (shape.high - shape.low);
-            let beside = [shape.start - aside, shape.start + aside].map(|shape| vec![part * size.start, shape]);
-            places.extend(beside);
-        }
-    }
-    places
 }
 
 /// Of two fits of a model the one of higher posterior.
