@@ -13,6 +13,8 @@ use crate::data::campaign::Campaign;
 
 /// Starts of the declared model's fit.
 const STARTS: usize = 4;
+/// The same where none of those lies on a soil that carries the loads.
+const MORE_STARTS: usize = 64;
 /// Steps of a short look at a candidate.
 const GLANCE: usize = 5;
 /// The same from a soil as it is expected, which is further off.
@@ -121,8 +123,15 @@ impl<'a> Bench<'a> {
     /// Where no start leads to a fit.
     pub fn from_many_starts(&self, specification: Specification) -> Result<Trial<'a>, FitError> {
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
-        let starts = scattered_starts(&model, &self.measurements.rows, STARTS, SEED);
-        let fit = fit_from_many(&model, &self.measurements.rows, &starts, &self.options)?.best;
+        let from = |count: usize| {
+            let starts = scattered_starts(&model, &self.measurements.rows, count, SEED);
+            fit_from_many(&model, &self.measurements.rows, &starts, &self.options)
+        };
+        let fits = match from(STARTS) {
+            Err(FitError::NoPrediction) => from(MORE_STARTS),
+            fits => fits,
+        };
+        let fit = fits?.best;
         Ok(Trial { specification, model, fit })
     }
 
