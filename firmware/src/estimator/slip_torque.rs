@@ -240,7 +240,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     fn predict(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) {
         self.model.motor_torque_nm = readings.motor_torque_nm;
         let model = self.model;
-        let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
+        let slip_factor = self.slip_factor(readings);
         let torque_factor = self.torque_rate.factor();
         let restless = [
             restlessness(S::constant(TORQUE_AT_REST) * torque_factor),
@@ -287,7 +287,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let square = |value: S| value * value;
         let [rate, torque_before, _] = *self.filter.estimate().mean();
         let [_, of_slip] = self.nominal_variances(travel_m);
-        let slip_factor = self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness;
+        let slip_factor = self.slip_factor(readings);
         let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * (motor_torque_nm - torque_before);
         let turned = readings.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
         let turned = (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero());
@@ -299,6 +299,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let slip_std = (of_slip * slip_factor + square(slipped)).sqrt();
         let _ = self.filter.random_walk(&[rate_std, S::zero(), slip_std]);
         let _ = self.filter.forget(1, motor_torque_nm, torque_variance.sqrt());
+    }
+
+    /// How fast the slip wanders, over the nominal drift, as a variance.
+    fn slip_factor(&self, readings: &WheelReadings<S>) -> S {
+        self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness
     }
 
     /// Variances of what torque and slip nominally drift by over so much travel.

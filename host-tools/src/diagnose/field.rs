@@ -2,7 +2,6 @@
 
 use super::fit::HeldOutRun;
 use super::selection::{dispersion, enough, is_misfit, predicts_better, worth};
-use super::specification::EffectForm;
 use super::trial::{Bench, Glance, Trial};
 use super::unseen_runs::{gain_over, held_out};
 
@@ -37,14 +36,14 @@ impl<'a> Field<'a> {
     /// A shortlist of candidates, each as it was fitted to all runs, fitted to a bench's runs: from there if it stood on the
     /// same effects as the model does. One that is far behind after a few steps is left there.
     pub fn of_shortlist(bench: &Bench<'a>, base: &Trial<'a>, shortlist: &[Trial<'a>]) -> Self {
-        let names = |effects: &[EffectForm]| effects.iter().map(EffectForm::name).collect::<Vec<_>>();
+        let names = base.specification.names();
         let held = bench.held(&base.fit);
         let begin = |known: &Trial<'a>| {
-            let (effect, before) = known.specification.effects.split_last()?;
+            let effect = known.specification.effects.last()?;
             if base.specification.has(effect.info.id) {
                 return None;
             }
-            let stands = names(before) == names(&base.specification.effects);
+            let stands = known.specification.names().split_last().is_some_and(|(_, before)| before == names);
             if stands { bench.refit_briefly(known).map(Glance::of) } else { bench.glance(&held, base, effect) }
         };
         let begun: Vec<Glance<'a>> = shortlist.iter().filter_map(begin).collect();

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 
 use super::field::Field;
 use super::fit::HeldOutRun;
-use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 
 /// What is done without a group of runs.
@@ -58,7 +57,7 @@ fn without_two_groups<'a>(
     let mut tasks: BTreeMap<Key, Task<'_, 'a>> = BTreeMap::new();
     for (place, (fold, models)) in folds.iter().zip(&models).enumerate() {
         for (model, trial) in models.iter().enumerate() {
-            let names: Vec<_> = trial.specification.effects.iter().map(EffectForm::name).collect();
+            let names = trial.specification.names();
             for other in (0..groups.len()).filter(|other| *other != fold.group) {
                 let pair = [fold.group.min(other), fold.group.max(other)];
                 let side = usize::from(fold.group > other);
@@ -92,7 +91,7 @@ mod tests {
     use super::*;
     use crate::data::campaign::Carried;
     use crate::diagnose::measurements::Measurements;
-    use crate::diagnose::specification::Specification;
+    use crate::diagnose::specification::{EffectForm, Specification};
     use crate::diagnose::unseen_runs::{groups, held_out};
 
     /// Each fold is answered for each of its models, of the runs of all the other folds, what fits of its own would say.

@@ -71,6 +71,11 @@ impl Specification {
         self.effects.iter().any(|effect| effect.info.id == id)
     }
 
+    /// Id and form of each, in order.
+    pub fn names(&self) -> Vec<(&'static str, &'static str)> {
+        self.effects.iter().map(EffectForm::name).collect()
+    }
+
     /// The effects with what is fixed set, and the parameters that are free.
     pub fn effects(&self, measurements: &Measurements) -> (Effects<f64>, Vec<FreeParameter>) {
         let (mut effects, mut free) = (Effects::none(), Vec::new());

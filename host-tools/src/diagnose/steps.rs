@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 
 use super::selection::{Step, step};
-use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 
 /// Difference in ln posterior below which two fits of a model are the same optimum.
@@ -24,9 +23,9 @@ impl<'b, 'a> Steps<'b, 'a> {
 
     /// The step on top of a model: one that was taken from a fit as good, or a new one.
     pub fn on(&self, base: &Trial<'a>) -> Step<'a> {
-        let names = |trial: &Trial<'a>| trial.specification.effects.iter().map(EffectForm::name).collect::<Vec<_>>();
         let serves = |known: &&Step<'a>| {
-            names(&known.base) == names(base) && known.base.log_posterior() > base.log_posterior() - SAME
+            known.base.specification.names() == base.specification.names()
+                && known.base.log_posterior() > base.log_posterior() - SAME
         };
         let known = self.taken.borrow().iter().find(serves).cloned();
         known.unwrap_or_else(|| {
