@@ -18,8 +18,8 @@ use super::settings::{Settled, settle};
 pub const COLUMNS: [Channel; CHANNELS] =
     [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
 
-/// Rows beyond which those of each run are thinned.
-const MOST_ROWS: usize = 300;
+/// Rows to which the runs are thinned together, but for at least one of each run.
+const MOST_ROWS: usize = 240;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
 const BRAKING: f64 = -0.05;
 
@@ -93,18 +93,13 @@ impl Measurements {
             settled: Settled::default(),
             radius_m: campaign.wheel.radius_m,
         };
-        let stride = usable.len().div_ceil(MOST_ROWS);
-        if stride > 1 {
-            let reason = format!("thinned to every {stride}. row of a run, to keep within seconds");
-            found.left_out.push(LeftOut { reason, rows: usable.len() - usable.len() / stride });
-        }
         let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
             usable.iter().map(|(row, readings)| (*row, readings)).collect();
         for (name, mut places) in campaign.runs() {
             places.retain(|place| by_place.contains_key(place));
             places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
             let mut of_run = Vec::new();
-            for place in places.into_iter().step_by(stride) {
+            for place in thinned(&places, usable.len()) {
                 let readings = by_place[&place];
                 of_run.push(found.rows.len());
                 found.places.push(place);
@@ -119,6 +114,10 @@ impl Measurements {
                 found.runs.push(name.to_owned());
                 found.rows_of_run.push(of_run);
             }
+        }
+        if found.rows.len() < usable.len() {
+            let reason = "thinned evenly along each run, to keep within seconds".to_owned();
+            found.left_out.push(LeftOut { reason, rows: usable.len() - found.rows.len() });
         }
         let rates = wheel_rates(campaign, &found.places, &found.rows, &found.rows_of_run);
         for (conditions, rate_rad_s) in found.conditions.iter_mut().zip(rates) {
@@ -164,6 +163,13 @@ impl Measurements {
     pub fn median(&self, reading: Reading) -> Option<f64> {
         median(self.rows.iter().filter_map(|row| row.readings[reading.index()]).collect())
     }
+}
+
+/// The rows of a run that stay, evenly along it, where all runs together have `all` rows.
+fn thinned(run: &[usize], all: usize) -> impl Iterator<Item = usize> {
+    let share = (run.len() * MOST_ROWS + all / 2) / all;
+    let stay = share.max(1).min(run.len());
+    (0..stay).map(move |place| run[place * run.len() / stay])
 }
 
 /// The middle of some numbers; none of none.
@@ -217,5 +223,21 @@ fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
         pitch_rad: value(Channel::Pitch),
         slip_angle_rad: value(Channel::SlipAngle),
         felt_slip: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_thinned_evenly_and_none_is_lost() {
+        let rows: Vec<usize> = (10..20).collect();
+        let stay = |run: &[usize], all: usize| thinned(run, all).collect::<Vec<_>>();
+        assert_eq!(stay(&rows, MOST_ROWS), rows);
+        assert_eq!(stay(&rows, 2 * MOST_ROWS), [10, 12, 14, 16, 18]);
+        assert_eq!(stay(&rows, 4 * MOST_ROWS / 3), [10, 11, 12, 13, 15, 16, 17, 18]);
+        assert_eq!(stay(&rows[..1], 1000 * MOST_ROWS), [10]);
+        assert!(stay(&[], MOST_ROWS).is_empty());
     }
 }
