@@ -225,6 +225,19 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().weighted_sum(&slopes).1)
     }
 
+    /// By how much the paths of the hubs are steeper than their links lie, rad: the mean, and the mean of the squares less what their
+    /// errors make of it, rad².
+    pub fn departure(&self) -> (S, S) {
+        let [_, front, middle, rear, rocker, bogie, _] = *self.filter.estimate().mean();
+        let departures = [front - rocker, middle - bogie, rear - bogie];
+        let departures = departures.into_iter().zip(self.variances.as_array());
+        let third = S::constant(1.0 / 3.0);
+        let sums = departures.fold((S::zero(), S::zero()), |(sum, squares), (departure, variance)| {
+            (sum + departure, squares + departure * departure - *variance)
+        });
+        (third * sums.0, third * sums.1)
+    }
+
     /// The wheels dig in, and until the next frame the paths of their hubs turn back to the terrain by an angle of this variance, rad².
     pub fn dig_in(&mut self, variance: S) {
         self.trends.forget();

@@ -1,7 +1,9 @@
 //! Wheels that have stood dig in as they start.
 //!
 //! Loads shift from wheel to wheel and slips grow, and the hubs sink while they travel: their paths depart from the terrain, and come back
-//! to it over some centimetres. Until then the links' pitches tell the contact angles as well as the paths do.
+//! to it over some centimetres. Until then the links' pitches tell the contact angles as well as the paths do. In soil that sinks with
+//! slip they dig deep, over a contact length and more: then all hubs together go down more steeply than their links lie, which terrain
+//! makes them do now and then, but not from where the rover stood.
 
 use super::contact_angle::{ContactAngleFilter, UNKNOWN_ANGLE};
 use super::scale::Scale;
@@ -13,6 +15,14 @@ const DIGS_IN: f64 = 0.1;
 const DIGGING_IN_M: f64 = 0.013;
 /// Where they sink by less than this they have dug in.
 const DUG_IN: f64 = 0.003;
+/// Between these ways of the rims the hubs tell whether they dig deep, m: before, loads shift; after, they have dug in.
+const TELLS_DEEP_M: core::ops::Range<f64> = 0.03..0.26;
+/// The angle by which hubs go down more steeply than their links lie, in the mean over a side, from which they dig deep; and that
+/// below which it tells nothing any more, rad.
+const DIGS_DEEP: f64 = 0.05;
+const HARDLY_DIGS: f64 = 0.02;
+/// The way of the rims after which deep digging is down to a third, m: a contact length.
+const DIGGING_DEEP_M: f64 = 0.065;
 /// The least speed that paths are told by while wheels dig in, m/s.
 const LEAST_SPEED: f64 = 3.0e-5;
 
@@ -22,8 +32,12 @@ pub(super) struct DiggingIn<S> {
     /// Variance of how fast the wheels sink, over the speed of their rims.
     variance: S,
     told_by_links: S,
-    /// Share of the variance that is gone after a metre, 1/m.
-    gone_per_m: S,
+    /// The way of the rims since they stood, m.
+    way_m: S,
+    /// Whether they dig deep.
+    deep: bool,
+    /// Radius of the wheels over that of set K0.
+    length: S,
 }
 
 /// How a side rolled in a frame.
@@ -42,8 +56,8 @@ pub(super) struct Rolled<S> {
 impl<S: Scalar> DiggingIn<S> {
     /// They have dug in.
     pub fn new(scale: &Scale<S>) -> Self {
-        let gone_per_m = S::constant(2.0 / DIGGING_IN_M) / scale.length;
-        Self { variance: S::zero(), told_by_links: S::zero(), gone_per_m }
+        let zero = S::zero();
+        Self { variance: zero, told_by_links: zero, way_m: zero, deep: false, length: scale.length }
     }
 
     /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
@@ -57,13 +71,20 @@ impl<S: Scalar> DiggingIn<S> {
         let square = |value: f64| S::constant(value * value);
         self.told_by_links = S::zero();
         if rolled.stands {
-            self.variance = square(DIGS_IN);
+            (self.variance, self.way_m, self.deep) = (square(DIGS_IN), S::zero(), false);
         } else if self.variance > S::zero() {
             let speed = rolled.speed_m_s.max(S::constant(LEAST_SPEED));
-            let came_back = self.variance * (self.gone_per_m * speed * rolled.step_s).min(S::one());
-            self.variance -= came_back;
             let over_rim = rolled.rim_speed_m_s / speed;
             let squared = over_rim * over_rim;
+            self.follow_deep(rolled, angles, squared);
+            let per_step = rolled.step_s / self.length;
+            let gone = if self.deep {
+                S::constant(2.0 / DIGGING_DEEP_M) * rolled.rim_speed_m_s.abs() * per_step
+            } else {
+                S::constant(2.0 / DIGGING_IN_M) * speed * per_step
+            };
+            let came_back = self.variance * gone.min(S::one());
+            self.variance -= came_back;
             angles.dig_in(came_back * squared);
             let steeper = self.variance * squared;
             self.told_by_links = steeper / (steeper + square(UNKNOWN_ANGLE));
@@ -71,6 +92,20 @@ impl<S: Scalar> DiggingIn<S> {
                 self.variance = S::zero();
                 angles.settle();
             }
+        }
+    }
+
+    /// Whether the hubs dig deep, and how fast: by how they go down, with the square of the rims' speed over that of the side.
+    fn follow_deep(&mut self, rolled: &Rolled<S>, angles: &ContactAngleFilter<S>, squared: S) {
+        self.way_m += rolled.rim_speed_m_s.abs() * rolled.step_s / self.length;
+        if self.way_m < S::constant(TELLS_DEEP_M.start) || self.way_m > S::constant(TELLS_DEEP_M.end) {
+            return;
+        }
+        let (up, steepness) = angles.departure();
+        let down = if rolled.rim_speed_m_s < S::zero() { up } else { -up };
+        self.deep |= down > S::constant(DIGS_DEEP);
+        if self.deep && down > S::constant(HARDLY_DIGS) {
+            self.variance = self.variance.max((steepness / squared).min(S::one()));
         }
     }
 }
