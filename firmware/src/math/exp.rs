@@ -18,6 +18,7 @@ const NORMAL: f32 = 87.3;
 ///
 /// Defined for every f32. Worst error 0.99 ulp; of a subnormal result, in the ulp of subnormals. From 88.722 84 (ln 2¹²⁸) on the result is +∞, below
 /// −103.972 08 (ln 2⁻¹⁵⁰) it is 0; ∞ gives ∞ and −∞ gives 0.
+#[inline(always)] // in the innermost loops, where the image is else compiled for its size
 pub fn exp(x: f32) -> f32 {
     // Minus zero is the neutral element of addition (plus zero is not, for it turns −0 to +0): it costs nothing.
     exp_of_sum(x, -0.0)

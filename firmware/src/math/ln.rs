@@ -6,6 +6,7 @@ use super::exp::{LN_2_HIGH, LN_2_LOW};
 ///
 /// Defined for every f32 of zero or more, subnormals included. Worst error 0.84 ulp; near 1 the error stays relative.
 /// ±0 gives −∞, ∞ gives ∞, a negative argument gives NaN.
+#[inline(always)] // in the innermost loops, where the image is else compiled for its size
 pub fn ln(x: f32) -> f32 {
     let Some(Scaled { exponent, fraction }) = Scaled::of(x) else {
         return ln_of_edge(x);

@@ -25,6 +25,7 @@ const FRAC_PI_2_REST: f32 = -4.371_139e-8;
 /// The worst error of either is 1.31 ulp for |x| ≤ 2π and 1.44 ulp for |x| ≤ 400, near the zeros too. Beyond, where
 /// neighbouring f32 are 3·10⁻⁵ rad and more apart, the absolute error is at most 2⁻²²·|x|: the result is that of an angle
 /// nearby. It is always in −1 … 1, the sine is odd and the cosine even to the last bit. ±∞ and NaN give NaN.
+#[inline(always)] // in the innermost loops, where the image is else compiled for its size
 pub fn sin_cos(x: f32) -> (f32, f32) {
     let mut angle = abs(x);
     if !magnitude_between(x, SMALL, REDUCED_EXACTLY) {
