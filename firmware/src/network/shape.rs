@@ -27,11 +27,11 @@ pub const ROVER_WHEELS: usize = 6;
 /// Inputs of the rover network: the shared ones, six wheels' own, and the number of wheels.
 pub const ROVER_INPUTS: usize = ROVER_CONTEXT + ROVER_WHEELS * WHEEL_FEATURES + 1;
 /// Neurons in the first layer of the rover network; a multiple of four, like the next two.
-pub const ROVER_FIRST: usize = 64;
+pub const ROVER_FIRST: usize = 76;
 /// Neurons in the second layer.
-pub const ROVER_SECOND: usize = 48;
+pub const ROVER_SECOND: usize = 56;
 /// Neurons in the third layer. Of networks with as many numbers, three layers learn the map to a lower loss than two.
-pub const ROVER_THIRD: usize = 40;
+pub const ROVER_THIRD: usize = 44;
 
 const _: () = assert!(
     WHEEL_HIDDEN.is_multiple_of(4)

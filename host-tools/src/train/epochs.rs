@@ -31,7 +31,7 @@ pub fn train_by_epochs<N: Trainable, E: Fn(usize) -> Example<N::Input> + Sync>(
         let mut order: Vec<u32> = (0..count as u32).collect();
         shuffle(&mut order, plan.stream(Purpose::Order) + epoch as u64);
         soap.pass(&mut network, &order, epoch, passes, observe(plan.stream(Purpose::TrainingNoise) + epoch as u64));
-        curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network, watched)));
+        curve.points.push((begin.elapsed().as_secs_f64(), mean_loss(&network.as_flown(), watched)));
         progress.set_message(format!("held-out loss {:.4}", curve.last()));
         progress.inc(1);
     }

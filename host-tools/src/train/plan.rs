@@ -49,9 +49,9 @@ impl Plan {
     pub fn full(seed: u32) -> Self {
         Self {
             seed,
-            scenes: 4_000_000,
+            scenes: 6_000_000,
             held_out: 60_000,
-            rover: Passes { epochs: 200, batch: 8192 },
+            rover: Passes { epochs: 220, batch: 8192 },
             wheel: Passes::short(5),
             comparison_scenes: 16_000,
             comparison_steps: 12,

@@ -90,7 +90,7 @@ pub const SPREAD_SHARE: f64 = 0.8;
 
 /// Share of the scenes for the rover network's training in which Kapvik drives its six wheels at slips from small to great: what
 /// makes a soil observable, and what asks most of a network. What it is judged and its intervals are calibrated on is the rest.
-pub const MANOEUVRE_SHARE: f64 = 0.5;
+pub const MANOEUVRE_SHARE: f64 = 0.65;
 /// Mean load of the wheels there, N.
 pub const MANOEUVRE_LOADS_N: Range = Range::linear(50.0, 80.0);
 /// Half of the spread of load among the wheels there, as a share of the mean: great spreads tell most, and ask most.
@@ -139,7 +139,7 @@ pub const AVERAGING: Range = Range::logarithmic(0.05, 1.0);
 /// Share of what the rover network is shown in a pass that Kapvik's sensors see, over as many instants as
 /// [`PRECISE_AVERAGING`] says: precise states ask most of a network, and are few without it. What a soil may be stays as it
 /// is, and so do the scenes that networks are judged and their intervals calibrated on.
-pub const PRECISE_SHARE: f64 = 0.5;
+pub const PRECISE_SHARE: f64 = 0.65;
 /// Factor on the noise of all channels there: a mean of 400 … 25 instants.
 pub const PRECISE_AVERAGING: Range = Range::logarithmic(0.05, 0.2);
 /// Further factor on the noise of a single channel, for other sensors than Kapvik's.

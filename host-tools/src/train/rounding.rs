@@ -7,6 +7,9 @@ use super::layer::Layer;
 /// What the full range of a network's inputs stands for.
 pub const INPUT_RANGE: f32 = (1 << (ACTIVATION_BITS - SUM_BITS)) as f32;
 
+/// The full range of inputs of 16 bits.
+const FULL_RANGE: f64 = 32_768.0;
+
 /// What the numbers of a layer stand for beside single precision.
 pub struct Scales<G> {
     /// What the full range of the inputs, 32 768, stands for.
@@ -26,9 +29,66 @@ impl<G: Fn(usize) -> f32> Scales<G> {
         &self,
         layer: &Layer<I, O>,
     ) -> FixedLayer<H, T> {
-        let mut finest_first = (0..=MAX_WEIGHT_BITS).rev().map(|bits| self.with_fraction_bits(layer, bits));
+        let greatest = self.greatest_weight(layer);
+        let held = |bits: &u32| libm::exp2(f64::from(*bits)) * greatest <= f64::from(i16::MAX);
+        let mut finest_first =
+            (0..=MAX_WEIGHT_BITS).rev().filter(held).map(|bits| self.with_fraction_bits(layer, bits));
         let fits = |(fixed, saturated): &(FixedLayer<H, T>, bool)| !saturated && fixed.cannot_overflow();
         finest_first.find(fits).unwrap_or_else(|| self.with_fraction_bits(layer, 0)).0
+    }
+
+    /// The layer that a rounded one stands for.
+    pub fn read<const I: usize, const O: usize, const H: usize, const T: usize>(
+        &self,
+        fixed: &FixedLayer<H, T>,
+    ) -> Layer<I, O> {
+        let unit = libm::exp2(f64::from(fixed.fraction_bits));
+        let half = self.half(unit);
+        let mut layer = Layer::ZERO;
+        for (sum, bias) in layer.bias.iter_mut().enumerate() {
+            let scale = f64::from((self.sums)(sum));
+            let whole = f64::from(fixed.bias[sum / 4][sum % 4]);
+            *bias = ((whole - half) / (unit * FULL_RANGE) / scale) as f32;
+        }
+        for (input, row) in layer.weights.0.iter_mut().enumerate() {
+            for (sum, weight) in row.iter_mut().enumerate() {
+                let pair = fixed.weights[sum / 4][input / 4][input % 4 / 2][sum % 4];
+                let scale = f64::from(self.input_range * (self.sums)(sum));
+                *weight = (f64::from(pair.halves()[input % 2]) / unit / scale) as f32;
+            }
+        }
+        layer
+    }
+
+    /// Takes the weights of each sum that could be too great for so many fraction bits, all by the same factor, back to where it
+    /// cannot.
+    pub fn bound<const I: usize, const O: usize>(&self, layer: &mut Layer<I, O>, fraction_bits: u32) {
+        // Of sums of 32 bits; the rest is for what rounding adds.
+        let greatest = 0.995 * libm::exp2f(16.0 - fraction_bits as f32);
+        for sum in 0..O {
+            let scale = (self.sums)(sum);
+            let mut total = layer.bias[sum].abs() * scale;
+            for row in &layer.weights.0 {
+                total += row[sum].abs() * scale * self.input_range;
+            }
+            if total > greatest {
+                let share = greatest / total;
+                layer.bias[sum] *= share;
+                layer.weights.0.iter_mut().for_each(|row| row[sum] *= share);
+            }
+        }
+    }
+
+    /// The greatest weight as it flies, before it is a whole number.
+    fn greatest_weight<const I: usize, const O: usize>(&self, layer: &Layer<I, O>) -> f64 {
+        let scaled =
+            |(sum, weight): (usize, &f32)| f64::from(self.input_range * (self.sums)(sum)) * f64::from(weight.abs());
+        layer.weights.0.iter().flat_map(|row| row.iter().enumerate().map(scaled)).fold(0.0, f64::max)
+    }
+
+    /// What is added to biases, so that sums are rounded on their way to an activation.
+    fn half(&self, unit: f64) -> f64 {
+        self.cut_to.map_or(0.0, |bits| 0.5 * unit * FULL_RANGE * libm::exp2(-f64::from(bits)))
     }
 
     /// The layer with so many fraction bits, and whether a number of it did not fit.
@@ -59,13 +119,12 @@ impl<G: Fn(usize) -> f32> Scales<G> {
                 })
             })
         });
-        let full_range = f64::from(i16::MIN).abs();
-        let half = self.cut_to.map_or(0.0, |bits| 0.5 * unit * full_range * libm::exp2(-f64::from(bits)));
+        let half = self.half(unit);
         let bias = std::array::from_fn(|tile| {
             std::array::from_fn(|neuron| {
                 let sum = 4 * tile + neuron;
                 let bias = layer.bias.get(sum).copied().unwrap_or(0.0) * (self.sums)(sum);
-                whole(f64::from(bias) * unit * full_range + half, f64::from(i32::MAX))
+                whole(f64::from(bias) * unit * FULL_RANGE + half, f64::from(i32::MAX))
             })
         });
         (FixedLayer { weights, bias, fraction_bits }, saturated)

@@ -77,4 +77,12 @@ impl Trainable for RoverWeights {
         let first = block.first.before(&first);
         add_layer_gradient(simd, &block.input, &first, &mut gradient.first);
     }
+
+    fn as_flown(&self) -> Self {
+        Self::standing_for(&self.rounded())
+    }
+
+    fn bound_sums(&mut self) {
+        self.bound_each_sum();
+    }
 }

@@ -59,10 +59,11 @@ impl Soap {
         Self { layers, step: 0, loss: gaussian }
     }
 
-    /// One step on a mini-batch; returns its mean loss before the step.
+    /// One step on a mini-batch, by the slope at the network that flies for the weights; returns its mean loss before the step.
     pub fn step<N: Trainable>(&mut self, network: &mut N, batch: &[Example<N::Input>], rate: f32) -> f32 {
-        let (loss, gradient) = mean_gradient(network, batch, self.loss);
+        let (loss, gradient) = mean_gradient(&network.as_flown(), batch, self.loss);
         change_each(network, self.change(&flatten(&gradient)), |weight, change| *weight -= rate * change);
+        network.bound_sums();
         loss
     }
 

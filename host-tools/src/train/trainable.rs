@@ -34,6 +34,16 @@ pub trait Trainable: Words + Clone + Send + Sync {
     fn outputs(block: &Self::Block) -> &[Lane; OUTPUTS];
     /// Adds to `gradient` the derivative of the sum over the lanes of `slope` · outputs with respect to every weight.
     fn backward<S: Simd>(&self, simd: S, block: &Self::Block, slope: &[Lane; OUTPUTS], gradient: &mut Self);
+
+    /// The network that flies for these weights, as far as training minds what rounding does to it: slopes are taken there,
+    /// while the numbers that are changed stay in single precision, or small steps would be lost (Courbariaux et al. 2015,
+    /// "BinaryConnect", has it for weights of one bit).
+    fn as_flown(&self) -> Self {
+        self.clone()
+    }
+
+    /// Takes weights that whole numbers hold coarsely back to where they are held finely enough.
+    fn bound_sums(&mut self) {}
 }
 
 /// Numbers of a network.
