@@ -1,0 +1,41 @@
+//! Soil that sinks with slip, which no filter is told of: wheels that start dig in over several contact lengths, and the paths of their
+//! hubs are then not the terrain.
+
+use kapvik_firmware::rover::Rover;
+use kapvik_host::simulate::{Options, Scenario};
+use kapvik_host::trial::errors::Errors;
+use kapvik_host::trial::{Drive, Quantity};
+
+/// Seeds that development has not looked at.
+const SEEDS: std::ops::Range<u64> = 8200..8220;
+
+/// The least shares of contact angles and of pulls within two standard deviations.
+const LEAST: [(Scenario, [f64; 2]); 2] = [(Scenario::Level, [0.7, 0.8]), (Scenario::Spread, [0.8, 0.8])];
+
+fn errors(scenario: Scenario) -> Errors {
+    let mut options = Options::default();
+    options.effects.set("slip-sinkage", 0.3).expect("an effect");
+    SEEDS.fold(Errors::default(), |mut sum, seed| {
+        sum.add(&Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors);
+        sum
+    })
+}
+
+#[test]
+fn wheels_that_dig_deep_are_not_taken_for_terrain() {
+    for (scenario, [of_angles, of_pulls]) in LEAST {
+        let errors = errors(scenario);
+        for (quantity, least) in [
+            (Quantity::ContactAngle, of_angles),
+            (Quantity::FrontPull, of_pulls),
+            (Quantity::BogiePull, of_pulls),
+        ] {
+            let tally = errors.of(quantity);
+            let (ratio, [one, two]) = (tally.over_naive(), tally.coverage());
+            let what = format!("{scenario:?}, {quantity:?}");
+            println!("{what}: {:.4}, {ratio:.3} of the raw sensors', {one:.3} {two:.3} within", tally.rmse());
+            assert!(two >= least, "{what}: {two} within two standard deviations");
+            assert!(one <= 0.82, "{what}: stated too wide, {one}");
+        }
+    }
+}
