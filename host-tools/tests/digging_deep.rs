@@ -25,11 +25,9 @@ fn errors(scenario: Scenario) -> Errors {
 fn wheels_that_dig_deep_are_not_taken_for_terrain() {
     for (scenario, [of_angles, of_pulls]) in LEAST {
         let errors = errors(scenario);
-        for (quantity, least) in [
-            (Quantity::ContactAngle, of_angles),
-            (Quantity::FrontPull, of_pulls),
-            (Quantity::BogiePull, of_pulls),
-        ] {
+        for (quantity, least) in
+            [(Quantity::ContactAngle, of_angles), (Quantity::FrontPull, of_pulls), (Quantity::BogiePull, of_pulls)]
+        {
             let tally = errors.of(quantity);
             let (ratio, [one, two]) = (tally.over_naive(), tally.coverage());
             let what = format!("{scenario:?}, {quantity:?}");
