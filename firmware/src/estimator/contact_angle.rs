@@ -8,7 +8,7 @@
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
-use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_unlike};
+use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, front_unlike, of_front_alone, of_unlike};
 use super::runs::Runs;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::watch::{Contradiction, Watch};
@@ -255,6 +255,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &self.still
     }
 
+    /// See [`front_unlike`].
+    pub fn front_unlike(&self) -> S {
+        front_unlike(&self.angles(), &self.variances)
+    }
+
     /// How often the filter fell back to its floor, and how often it gave up what it believed.
     pub fn troubles(&self) -> (u32, u32) {
         (self.filter.resets(), self.watch.relearned())
@@ -386,8 +391,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
         let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
         let met = S::constant(FRONT_FROM_FORCES) * runs_of_forces;
-        let drift = nominal * factor * beside_trend(BESIDE_TREND, restless);
-        self.drift_variances = [drift + nominal * met, drift];
+        let left = nominal * beside_trend(BESIDE_TREND, restless);
+        let alone = of_front_alone(&self.angles(), &self.variances);
+        self.drift_variances = [left * (factor + alone) + nominal * met, left * factor];
         let truly = self.turned_back;
         let [front, others] = self.drift_variances.map(|drift| (drift + truly).sqrt());
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();

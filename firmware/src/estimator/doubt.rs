@@ -7,7 +7,7 @@
 //! are larger; where it turns, everything lags ([`super::trend`]). All numbers are as fitted to squared errors on drives of development
 //! (of each kind of ground as many), the same for every kind of ground.
 
-use super::contact_angle::UNKNOWN_ANGLE;
+use super::contact_angle::{RUN_OF_FORCES, UNKNOWN_ANGLE};
 use super::runs::Runs;
 use super::trend::Trends;
 use crate::rover::PerAxle;
@@ -15,19 +15,25 @@ use crate::scalar::Scalar;
 
 /// Of the variance that a filter states of contact angles on restless ground, what is true of the bogie's, and of the front wheel's.
 const BOGIE_ANGLE: f64 = 0.65;
-const FRONT_ANGLE: f64 = 0.5;
-/// What is added to that of the front wheel for each unit by which the runs of how the side moves, and those of its forces, are above
-/// chance: it meets what the others follow it to, and cells and drives feel that first.
-const FRONT_ANGLE_BY_MOTION: f64 = 0.65;
-const FRONT_ANGLE_BY_FORCES: f64 = 0.1;
+const FRONT_ANGLE: f64 = 0.42;
+/// Of the share that is true on still ground, what is true of the front wheel's.
+const FRONT_ANGLE_STILL: f64 = 0.8;
+/// What is added to that of the front wheel for each unit by which the runs of how the side moves are above chance: it meets what the
+/// others follow it to.
+const FRONT_ANGLE_BY_MOTION: f64 = 0.53;
+/// Of the square by which it differs from the angle of the wheel behind, up to twice what their errors make of that, what may be an error of
+/// a front wheel that meets other ground while the links are calm.
+const FRONT_ANGLE_UNLIKE: f64 = 0.82;
+/// One standard deviation of what it may have met that cells and drives feel and links do not yet, rad, where the runs of the forces count
+/// for one; as a variance it goes with these.
+const FRONT_ANGLE_FELT: f64 = 0.01;
 /// The same of the slip: what a wheel feels anew makes it slip anew.
 const SLIP: f64 = 0.89;
 const SLIP_BY_MOTION: f64 = 0.25;
 const SLIP_BY_FORCES: f64 = 0.22;
-/// Of the forces on the front hub, on those of the bogie, and what runs of the forces add to both.
-const FRONT_FORCE: f64 = 0.71;
-const BOGIE_FORCE: f64 = 0.85;
-const FORCE_BY_FORCES: f64 = 0.4;
+/// Of the forces on the front hub, and on those of the bogie, with what runs of the forces add.
+const FRONT_FORCE: [f64; 2] = [0.75, 0.27];
+const BOGIE_FORCE: [f64; 2] = [0.85, 0.4];
 /// Of the torques; what of that is not true of one that is as restless as can be, since it moves rather by its trend than at random; and
 /// what runs of the forces add.
 const TORQUE: f64 = 0.87;
@@ -40,9 +46,8 @@ const ANGLE_LAG: f64 = 0.0205;
 const LOAD_LAG: f64 = 0.19;
 const TORQUE_LAG: f64 = 0.009;
 /// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
-/// sink in ways that nothing tells, and a front wheel meets more of them.
-const FRONT_UNTOLD: f64 = 0.0084;
-const BOGIE_UNTOLD: f64 = 0.003;
+/// sink in ways that nothing tells.
+const ANGLE_UNTOLD: f64 = 0.003;
 
 /// Of one wheel.
 #[derive(Debug, Clone, Copy)]
@@ -67,6 +72,8 @@ pub(super) struct HowKnown<'a, S> {
     /// Of the variances that the filter states of the front wheel's and of the bogie's, what would be true of angles that have not
     /// drifted at all.
     pub still: &'a [S; 2],
+    /// By how much the front wheel's angle differs from that of the wheel behind, squared, up to twice what their errors make of it, rad².
+    pub front_unlike: S,
     /// How much of what is known of the contact angles comes from the links' pitches, 0 … 1.
     pub told_by_links: S,
     /// How restless the torque of each wheel is, 0 … 1.
@@ -91,39 +98,39 @@ impl<S: Scalar> Doubt<S> {
         trends: &Trends<S, 3>,
         known: &HowKnown<'_, S>,
     ) -> Self {
-        let (of_motion, motion, forces) = (motion.above(1.0), motion.above_chance(), forces.above_chance());
+        let (of_motion, motion) = (motion.above(1.0), motion.above_chance());
+        let (felt, forces) = (forces.above(RUN_OF_FORCES), forces.above_chance());
         let constant = S::constant;
         // The same of all three: the ground's.
         let [rough, ..] = trends.restless();
         let dug = constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * known.told_by_links;
-        let of_force = constant(FORCE_BY_FORCES) * forces;
         let of_torque = constant(TORQUE) + constant(TORQUE_BY_FORCES) * forces;
-        let wheel = |trend: S, restless_torque: S, angle: S, [force, untold]: [f64; 2]| {
+        let wheel = |trend: S, restless_torque: S, [angle, met]: [S; 2], [force, by_forces]: [f64; 2]| {
             let lag = |length: f64| constant(length * length) * trend * trend;
             let unseen = |std: f64| constant(std * std) * rough;
             WheelDoubt {
                 angle,
-                force: constant(force) + of_force,
+                force: constant(force) + constant(by_forces) * forces,
                 torque: of_torque - constant(TORQUE_RESTLESS) * restless_torque,
-                angle_variance: lag(ANGLE_LAG) + unseen(untold) + dug,
+                angle_variance: lag(ANGLE_LAG) + unseen(ANGLE_UNTOLD) + dug + met,
                 load_variance: lag(LOAD_LAG),
                 torque_variance: lag(TORQUE_LAG) + unseen(TORQUE_UNTOLD),
             }
         };
         let torques = &known.restless_torques;
-        let of_bogies = [BOGIE_FORCE, BOGIE_UNTOLD];
         let [front, middle, rear] = trends.per_m();
         let true_of = |still: S, restless: f64| still + rough * (constant(restless) - still);
         let [of_front, of_bogie] = *known.still;
-        let of_front = true_of(of_front, FRONT_ANGLE)
-            + constant(FRONT_ANGLE_BY_MOTION) * of_motion
-            + constant(FRONT_ANGLE_BY_FORCES) * forces;
-        let of_bogie = true_of(of_bogie, BOGIE_ANGLE);
+        let of_front =
+            true_of(constant(FRONT_ANGLE_STILL) * of_front, FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * of_motion;
+        let met = constant(FRONT_ANGLE_UNLIKE) * (S::one() - rough) * known.front_unlike
+            + constant(FRONT_ANGLE_FELT * FRONT_ANGLE_FELT) * felt;
+        let of_bogie = [true_of(of_bogie, BOGIE_ANGLE), S::zero()];
         Self {
             wheels: PerAxle {
-                front: wheel(front, torques.front, of_front, [FRONT_FORCE, FRONT_UNTOLD]),
-                middle: wheel(middle, torques.middle, of_bogie, of_bogies),
-                rear: wheel(rear, torques.rear, of_bogie, of_bogies),
+                front: wheel(front, torques.front, [of_front, met], FRONT_FORCE),
+                middle: wheel(middle, torques.middle, of_bogie, BOGIE_FORCE),
+                rear: wheel(rear, torques.rear, of_bogie, BOGIE_FORCE),
             },
             slip: constant(SLIP) + constant(SLIP_BY_MOTION) * motion + constant(SLIP_BY_FORCES) * forces,
         }
@@ -135,7 +142,12 @@ mod tests {
     use super::{Doubt, HowKnown, PerAxle, Runs, Trends};
 
     fn doubt(trends: &Trends<f64, 3>) -> Doubt<f64> {
-        let known = HowKnown { still: &[0.7; 2], told_by_links: 0.0, restless_torques: PerAxle::all(0.0) };
+        doubt_of_unlike(0.0, trends)
+    }
+
+    fn doubt_of_unlike(front_unlike: f64, trends: &Trends<f64, 3>) -> Doubt<f64> {
+        let known =
+            HowKnown { still: &[0.7; 2], front_unlike, told_by_links: 0.0, restless_torques: PerAxle::all(0.0) };
         Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends, &known)
     }
 
@@ -145,17 +157,30 @@ mod tests {
         let mut trends = Trends::<f64, 3>::new();
         let plane = doubt(&trends).wheels;
         assert!(plane.as_array().into_iter().all(|wheel| wheel.angle_variance == 0.0 && wheel.load_variance == 0.0));
-        assert!(plane.as_array().into_iter().all(|wheel| (wheel.angle - 0.7).abs() < 1.0e-12));
+        assert!((plane.front.angle - 0.8 * 0.7).abs() < 1.0e-12);
+        assert!([plane.middle, plane.rear].into_iter().all(|wheel| (wheel.angle - 0.7).abs() < 1.0e-12));
         assert!(plane.as_array().into_iter().all(|wheel| wheel.torque_variance == 0.0));
         trends.expect([1.0; 3]);
         trends.follow(0.002, &[(1.0e-3, 1.0), (0.0, 1.0), (0.0, 1.0)]);
         let [turned, ..] = trends.per_m();
         let PerAxle { front, middle, .. } = doubt(&trends).wheels;
         let lag = 0.0205 * turned;
-        assert!((front.angle_variance - lag * lag - 0.0084 * 0.0084).abs() < 1.0e-6 * front.angle_variance);
+        assert!((front.angle_variance - lag * lag - 0.003 * 0.003).abs() < 1.0e-6 * front.angle_variance);
         assert!((middle.angle_variance - 0.003 * 0.003).abs() < 1.0e-12);
         assert!((middle.torque_variance - 0.012 * 0.012).abs() < 1.0e-12);
         let lag = 0.009 * turned;
         assert!((front.torque_variance - lag * lag - 0.012 * 0.012).abs() < 1.0e-12);
+    }
+
+    /// While the ground seems calm, a front wheel whose angle is another than that of the wheel behind may err by most of that, and nobody
+    /// else; once the ground is known to be rough, the filter knows as well.
+    #[test]
+    fn a_front_wheel_that_differs_is_doubted_on_calm_ground() {
+        let mut trends = Trends::<f64, 3>::new();
+        let calm = doubt_of_unlike(1.0e-4, &trends).wheels;
+        assert!((calm.front.angle_variance - 0.82e-4).abs() < 1.0e-12);
+        assert_eq!(calm.middle.angle_variance, 0.0);
+        trends.expect([1.0; 3]);
+        assert!((doubt_of_unlike(1.0e-4, &trends).wheels.front.angle_variance - 0.003 * 0.003).abs() < 1.0e-12);
     }
 }

@@ -32,6 +32,13 @@ const UNLIKE_BY_ERRORS: f64 = 4.0;
 /// nominal drift, as a variance.
 const MOST_BY_UNLIKE: f64 = 0.03;
 
+/// That length where the front wheel alone is on another slope, m: the ground has turned within less than the way to the wheel behind.
+const ALONE_LENGTH: f64 = 0.34;
+/// Over the square by which the wheels behind differ from each other: where that is half of the angle, the front wheel is not alone.
+const UNLIKE_BEHIND: f64 = 4.0;
+/// What a front wheel alone tells counts for no more than this, over the nominal drift, as a variance.
+const MOST_BY_FRONT_ALONE: f64 = 0.2;
+
 /// How fast contact angles drift that differ from wheel to wheel, over the nominal drift, as a variance. Angles and their variances, rad²,
 /// front to rear.
 ///
@@ -46,6 +53,21 @@ pub(super) fn of_unlike<S: Scalar>(angles: &PerAxle<S>, variances: &PerAxle<S>) 
     let unlike = of_pair(angles.front, angles.middle, variances.front + variances.middle)
         + of_pair(angles.middle, angles.rear, variances.middle + variances.rear);
     (S::constant(1.0 / (UNLIKE_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT)) * unlike).min(S::constant(MOST_BY_UNLIKE))
+}
+
+/// What is added to [`of_unlike`] for a front wheel that meets a slope on which the wheels behind are not yet: links and velocity move little then,
+/// and say that the ground is calm.
+pub(super) fn of_front_alone<S: Scalar>(angles: &PerAxle<S>, variances: &PerAxle<S>) -> S {
+    let (ahead, behind) = (angles.front - angles.middle, angles.middle - angles.rear);
+    let by_errors = S::constant(UNLIKE_BY_ERRORS) * (variances.front + variances.middle);
+    let alone = (ahead * ahead - by_errors - S::constant(UNLIKE_BEHIND) * behind * behind).max(S::zero());
+    (S::constant(1.0 / (ALONE_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT)) * alone).min(S::constant(MOST_BY_FRONT_ALONE))
+}
+
+/// By how much the front wheel's angle differs from that of the wheel behind, squared, up to twice what their errors make of it, rad².
+pub(super) fn front_unlike<S: Scalar>(angles: &PerAxle<S>, variances: &PerAxle<S>) -> S {
+    let difference = angles.front - angles.middle;
+    (difference * difference).min(S::constant(2.0) * (variances.front + variances.middle))
 }
 
 /// How fast what is measured of a side's motion wanders.
@@ -138,7 +160,7 @@ impl<S: Scalar> Roughness<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MOST_BY_UNLIKE, PerAxle, Roughness, of_unlike};
+    use super::{MOST_BY_FRONT_ALONE, MOST_BY_UNLIKE, PerAxle, Roughness, of_front_alone, of_unlike};
 
     /// On ground that curves by 0.02 rad over 0.35 m the front wheel's angle turns by 0.12/0.35 of that within 0.12 m; angles that their
     /// errors may make differ say nothing, and a wall says no more than that the ground is not plane.
@@ -152,6 +174,19 @@ mod tests {
         assert!((drift / (turned * turned) - 1.0).abs() < 0.01, "{drift} {turned}");
         assert_eq!(of_front(0.12, &PerAxle::all(1.0e-4)), 0.0);
         assert_eq!(of_front(1.0, &known), MOST_BY_UNLIKE);
+    }
+
+    /// A front wheel that meets a slope drifts three times as much as wheels that are all on it; one that follows the wheels behind, or
+    /// that errors may make differ, no more than these.
+    #[test]
+    fn a_front_wheel_alone_on_a_slope_drifts_by_itself() {
+        let known = PerAxle::all(1.0e-12);
+        let alone = PerAxle { front: 0.12, middle: 0.1, rear: 0.1 };
+        let ratio: f64 = of_front_alone(&alone, &known) / of_unlike(&alone, &known);
+        assert!((ratio - 3.0).abs() < 0.01, "{ratio}");
+        assert_eq!(of_front_alone(&PerAxle { front: 0.12, middle: 0.1, rear: 0.09 }, &known), 0.0);
+        assert_eq!(of_front_alone(&alone, &PerAxle::all(1.0e-4)), 0.0);
+        assert_eq!(of_front_alone(&PerAxle { front: 1.0, ..alone }, &known), MOST_BY_FRONT_ALONE);
     }
 
     /// A bend that wheels may have sunk to says nothing; one of 0.12 rad, on ground that curves by 0.1 rad over 0.233 m, lets an

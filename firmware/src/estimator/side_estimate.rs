@@ -158,6 +158,7 @@ impl<S: Scalar> SideEstimator<S> {
     fn doubt(&self) -> Doubt<S> {
         let known = HowKnown {
             still: self.angles.still(),
+            front_unlike: self.angles.front_unlike(),
             told_by_links: self.digging_in.told_by_links(),
             restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
         };
