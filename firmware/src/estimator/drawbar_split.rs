@@ -15,10 +15,13 @@ pub(super) const OF_TORQUE: f64 = 1.065;
 const OF_PULL: f64 = 1.362;
 const OF_TORQUES: f64 = 1.395;
 const OF_SLIP: f64 = 0.0549;
-/// One standard deviation of what the form leaves, per newton of ΔW and of Δs W̄, and what is left of two equal wheels, N.
-const SPREAD_OF_LOAD: f64 = 0.0163;
-const SPREAD_OF_SLIP: f64 = 0.0472;
-const LEAST_SPREAD_N: f64 = 0.1;
+/// One standard deviation of what the form leaves, per newton of ΔW and of Δs W̄, and what is left of two equal wheels, N. It grows no
+/// more where ΔW is beyond this share of the mean load. Below slip 0 the form was not fitted: there, per newton of skid times W̄.
+const SPREAD_OF_LOAD: f64 = 0.0125;
+const LOADS_FAR_APART: f64 = 0.45;
+const SPREAD_OF_SLIP: f64 = 0.042;
+const SPREAD_OF_SKID: f64 = 0.15;
+const LEAST_SPREAD_N: f64 = 0.08;
 
 /// One wheel of a bogie as its share is told from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +49,8 @@ impl<S: Scalar> DrawbarSplit<S> {
         let loads = middle.load_n + rear.load_n;
         let torques = middle.rim_force_n + rear.rim_force_n;
         let unequal_load = middle.load_n - rear.load_n;
-        let unequal_slip = (middle.slip - rear.slip) * loads * S::constant(0.5);
+        let mean_load = loads * S::constant(0.5);
+        let unequal_slip = (middle.slip - rear.slip) * mean_load;
         let per_load = if loads > S::one() {
             (S::constant(OF_PULL) * sum_n - S::constant(OF_TORQUES) * torques) / loads
         } else {
@@ -54,10 +58,12 @@ impl<S: Scalar> DrawbarSplit<S> {
         };
         let difference_n = S::constant(OF_TORQUE) * (middle.rim_force_n - rear.rim_force_n) + unequal_load * per_load
             - S::constant(OF_SLIP) * unequal_slip;
-        let load = S::constant(SPREAD_OF_LOAD) * unequal_load;
+        let far_apart = S::constant(LOADS_FAR_APART) * mean_load;
+        let load = S::constant(SPREAD_OF_LOAD) * unequal_load.abs().min(far_apart);
         let slip = S::constant(SPREAD_OF_SLIP) * unequal_slip;
+        let skid = S::constant(SPREAD_OF_SKID) * middle.slip.min(rear.slip).min(S::zero()) * mean_load;
         let least = S::constant(LEAST_SPREAD_N);
-        Self { difference_n, std_n: (load * load + slip * slip + least * least).sqrt() }
+        Self { difference_n, std_n: (load * load + slip * slip + skid * skid + least * least).sqrt() }
     }
 
     /// The seed's rule: each wheel pulls in proportion to its load. The difference of the two, N.

@@ -48,6 +48,7 @@ impl<S: Scalar, const N: usize> Runs<S, N> {
     }
 
     /// Mean of the squared means over what they are by chance: one, give or take, where innovations are white.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn over_chance(&self) -> S {
         let sum = self.means.iter().fold(S::zero(), |sum, mean| sum + *mean * *mean);
         sum * S::constant(1.0 / (BY_CHANCE * N as f64))
