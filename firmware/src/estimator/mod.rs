@@ -18,6 +18,7 @@
 //!   its moments tell nothing until it is free.
 
 mod attitude;
+mod compaction;
 pub mod contact_angle;
 mod digging_in;
 mod doubt;

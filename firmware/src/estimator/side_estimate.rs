@@ -45,6 +45,8 @@ struct ContactForces<S> {
     by_angles: [[S; contact_angle::STATES]; 2],
     /// The same by the states of the hub-force filter.
     by_forces: [[S; hub_force::STATES]; 2],
+    /// What is left of the variance of the contact angle beside what the wheel's torque tells of it.
+    left: S,
     /// The same by the split between the wheels of a bogie: one standard deviation, N.
     by_split: [S; 2],
     /// The same by what the contact angle lags behind.
@@ -60,8 +62,8 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// What is known of the side now, with such forces on its hubs.
     pub fn estimate(&self, forces: &HubForces<S>) -> SideEstimate {
-        let doubt = self.doubt();
-        let PerAxle { front, middle, rear } = self.contacts(forces);
+        let (doubt, told) = self.doubt();
+        let PerAxle { front, middle, rear } = self.contacts(forces, told);
         let sum = middle.pull_n + rear.pull_n;
         let half = S::constant(0.5);
         let by_load = DrawbarSplit::by_load_n(middle.load_n, rear.load_n, sum);
@@ -85,8 +87,8 @@ impl<S: Scalar> SideEstimator<S> {
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
         let entry =
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
-        let doubt = self.doubt();
-        self.contacts(forces).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
+        let (doubt, told) = self.doubt();
+        self.contacts(forces, told).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
             let (slip, torque) = (doubt.slip, of_wheel.torque);
             let both = (torque * slip).sqrt();
             WheelCovariance {
@@ -127,14 +129,15 @@ impl<S: Scalar> SideEstimator<S> {
         }
     }
 
-    /// The contacts, with the split of the bogie's pull that the torques tell now.
-    fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
+    /// The contacts, with the split of the bogie's pull that the torques tell now, and with what the front wheel's torque tells of its
+    /// contact: see [`Self::doubt`].
+    fn contacts(&self, estimate: &HubForces<S>, (steeper, left): (S, S)) -> PerAxle<ContactForces<S>> {
         let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         let told_by_links = self.digging_in.told_by_links();
         let [_, of_front, of_middle, of_rear, ..] = self.angles.estimate().variances();
         let contact = |path: S, variance: S, link: S| (path + told_by_links * (link - path), variance);
         let (front, middle, rear) = (
-            contact(front, of_front, rocker_pitch),
+            contact(front + steeper, of_front, rocker_pitch),
             contact(middle, of_middle, bogie_pitch),
             contact(rear, of_rear, bogie_pitch),
         );
@@ -152,27 +155,41 @@ impl<S: Scalar> SideEstimator<S> {
         let mut middle = contact_forces(Axle::Middle, middle, bogie_pitch, forces.middle, split);
         let mut rear = contact_forces(Axle::Rear, rear, bogie_pitch, forces.rear, -split);
         share_along_bogie(&mut middle, &mut rear);
-        PerAxle { front: contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero()), middle, rear }
+        let mut front = contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero());
+        front.left = left;
+        PerAxle { front, middle, rear }
     }
 
-    fn doubt(&self) -> Doubt<S> {
+    /// How well all is known, with what the front wheel's torque tells of its contact angle: by how much that is steeper than the path of
+    /// the hub, and what is left of its variance.
+    fn doubt(&self) -> (Doubt<S>, (S, S)) {
         let known = HowKnown {
             still: self.angles.still(),
             front_unlike: self.angles.front_unlike(),
             told_by_links: self.digging_in.told_by_links(),
             restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
         };
-        Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
+        let mut doubt = Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known);
+        let [_, by_path, ..] = self.angles.estimate().variances();
+        let WheelDoubt { angle, angle_variance, .. } = &mut doubt.wheels.front;
+        let told = self.compaction.tells(*angle * by_path + *angle_variance);
+        let (_, left) = told;
+        *angle = *angle * left;
+        *angle_variance = *angle_variance * left;
+        (doubt, told)
     }
 
     fn variances(&self, forces: &HubForces<S>, of_wheel: &WheelDoubt<S>, contact: &ContactForces<S>) -> [S; 3] {
         let mut variances = [of_wheel.load_variance, S::zero()];
+        // As far as the torque tells the angle, it tells the pull as well, whatever the force along the link is taken for.
+        let mut of_force = of_wheel.force;
         let rows = contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split.iter().zip(&contact.by_lag));
         for (variance, ((by_angles, by_forces), (split, lag))) in variances.iter_mut().zip(rows) {
             *variance += of_wheel.angle * self.angles.estimate().weighted_sum(by_angles).1
-                + of_wheel.force * forces.weighted_sum(by_forces).1
+                + of_force * forces.weighted_sum(by_forces).1
                 + *split * *split
                 + of_wheel.angle_variance * *lag * *lag;
+            of_force = of_force * contact.left * contact.left;
         }
         let [load, pull] = variances;
         [of_wheel.angle * contact.angle_variance + of_wheel.angle_variance, load, pull]
@@ -184,10 +201,14 @@ impl<S: Scalar> SideEstimator<S> {
         let ([load_split, pull_split], [load_lag, pull_lag]) = (contact.by_split, contact.by_lag);
         let mut by_itself = [zero; contact_angle::STATES];
         by_itself.iter_mut().skip(contact.state).take(1).for_each(|entry| *entry = one);
+        // Where the force along the link is too large, an angle that the torque tells comes out too small, and the pull not as much too large.
+        let per_load = (one - contact.left) / contact.load_n.max(one);
+        let angle_forces = pull_forces.map(|entry| -per_load * entry);
+        let pull_forces = pull_forces.map(|entry| contact.left * entry);
         let rows = [
-            (&by_itself, &[zero; hub_force::STATES], zero, one),
+            (&by_itself, &angle_forces, zero, one),
             (load_angles, load_forces, load_split, load_lag),
-            (pull_angles, pull_forces, pull_split, pull_lag),
+            (pull_angles, &pull_forces, pull_split, pull_lag),
         ];
         let mut covariance = [[S::zero(); 3]; 3];
         for (line, (angles, forces, split, lag)) in covariance.iter_mut().zip(rows) {
@@ -272,6 +293,7 @@ fn contact_forces<S: Scalar>(
         state,
         by_angles: [against_link.map(|entry| -pull_n * entry), against_link.map(|entry| load_n * entry)],
         by_forces: [by_hub(cosine, -sine), by_hub(sine, cosine)],
+        left: one,
         by_split: [-sine * split, cosine * split],
         by_lag: [-felt * pull_n, felt * load_n],
     }

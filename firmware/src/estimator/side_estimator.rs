@@ -1,6 +1,7 @@
 //! The filters of one side, and what they say together.
 
 use super::attitude::Attitude;
+use super::compaction::Compaction;
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::digging_in::{DiggingIn, Rolled};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
@@ -70,6 +71,8 @@ pub(super) struct SideEstimator<S> {
     swings: bool,
     pub(super) digging_in: DiggingIn<S>,
     sinking: Sinking<S>,
+    /// Of the front wheel.
+    pub(super) compaction: Compaction<S>,
     told: SideInnovations<S>,
 }
 
@@ -115,6 +118,7 @@ impl<S: Scalar> SideEstimator<S> {
             swings: false,
             digging_in: DiggingIn::new(&scale),
             sinking: Sinking::new(&scale),
+            compaction: Compaction::new(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -160,8 +164,25 @@ impl<S: Scalar> SideEstimator<S> {
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
         self.tick_forces(step_s, frame, attitude, &mut surprises);
         let loads = self.forces.beyond_rest_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
-        self.sinking.follow(self.speed_m_s() * step_s, &loads);
+        let travel_m = self.speed_m_s() * step_s;
+        self.sinking.follow(travel_m, &loads);
+        self.follow_compaction(travel_m);
         surprises
+    }
+
+    /// What compacts the soil under the front wheel, while that rolls and bears a load.
+    fn follow_compaction(&mut self, travel_m: S) {
+        if self.activity.front != WheelActivity::Rolling
+            || self.unsettled.front > 0
+            || self.lifted().front
+            || self.swings
+        {
+            return self.compaction.forget();
+        }
+        let [_, path, _, _, rocker_pitch, ..] = *self.angles.estimate().mean();
+        let (load_n, drawbar_pull_n) = along_contact(self.forces.forces_n().front, (path - rocker_pitch).sin_cos());
+        let [_, torque, _] = *self.wheels.front.estimate().mean();
+        self.compaction.follow(travel_m, (torque / self.rover.wheel.radius_m - drawbar_pull_n) / load_n);
     }
 
     fn side_readings(&self, frame: &SideFrame<S>) -> SideReadings<S> {
