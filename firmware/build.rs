@@ -1,6 +1,9 @@
 //! Freezes the trained networks into the library: reads the table, proves that it is whole, fits and computes what it
 //! promises, and writes it out as `static` data.
 
+#[path = "src/checksum.rs"]
+#[allow(dead_code)] // the firmware sums more than tables
+mod checksum;
 #[path = "src/math/mod.rs"]
 #[allow(dead_code, unused_imports)] // the networks need only a part of it
 mod math;
@@ -21,6 +24,7 @@ const OVERRIDE: &str = "KAPVIK_WEIGHTS";
 fn main() {
     println!("cargo::rerun-if-env-changed={OVERRIDE}");
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/checksum.rs");
     println!("cargo::rerun-if-changed=src/network");
     println!("cargo::rerun-if-changed=src/math");
     println!("cargo::rerun-if-changed=../memory.x");

@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
+use kapvik_firmware::checksum::Checksum;
 use kapvik_firmware::link::{
-    CHECKSUM, FrameBuffer, Header, HealthReport, LinkError, NO_SEQUENCE, PAYLOAD_CAPACITY, Reply, Request,
+    FrameBuffer, Header, HealthReport, LinkError, NO_SEQUENCE, PAYLOAD_CAPACITY, Reply, Request,
 };
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_tests::{bits, flight_computer, noise_bytes, queries, random};
@@ -18,7 +19,7 @@ fn health_frame() -> Vec<u8> {
 /// A frame with a right checksum around a content that has no zero and fits one run of the byte stuffing.
 fn frame_around(content: &[u8]) -> Vec<u8> {
     let mut payload = content.to_vec();
-    payload.extend(CHECKSUM.checksum(content).to_le_bytes());
+    payload.extend(Checksum::of(content).to_le_bytes());
     assert!(payload.len() < 254 && !payload.contains(&0));
     [&[payload.len() as u8 + 1], payload.as_slice(), &[0]].concat()
 }

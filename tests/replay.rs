@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kapvik_firmware::link::CHECKSUM;
+use kapvik_firmware::checksum::Checksum;
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_tests::{estimates_of_the_recorded_drive, flight_computer};
 
@@ -21,7 +21,7 @@ fn indication(estimates: &[u8]) -> String {
     let text = std::str::from_utf8(estimates).expect("estimates are text");
     let (header, rows) = text.split_once('\n').expect("estimates have a header");
     let kept: Vec<&str> = std::iter::once(header).chain(rows.lines().step_by(KEPT)).collect();
-    format!("{}\n{:08x}\n", kept.join("\n"), CHECKSUM.checksum(estimates))
+    format!("{}\n{:08x}\n", kept.join("\n"), Checksum::of(estimates))
 }
 
 /// The first field that differs, with its column's name.

@@ -3,9 +3,9 @@
 //!
 //! A result that is not a number counts as one and the same, because the hardware chooses sign and payload of a NaN.
 
+use crate::checksum::Checksum;
 use crate::filter::trial::{self, Scales, Trial};
 use crate::filter::{Gate, Gaussian, SigmaPointFilter};
-use crate::link::CHECKSUM;
 use crate::math;
 use crate::network::fixed_point::{FixedLayer, Pair, gated, rounded};
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
@@ -38,25 +38,24 @@ pub const FINGERPRINTS: [Fingerprint; 12] = [
 ];
 
 /// The checksum of a row of numbers.
-pub(crate) struct Digest(crc::Digest<'static, u32>);
+pub(crate) struct Digest(Checksum);
 
 impl Digest {
     pub(crate) fn new() -> Self {
-        static START: crc::Crc<u32> = CHECKSUM;
-        Self(START.digest())
+        Self(Checksum::new())
     }
 
     pub(crate) fn finish(self) -> u32 {
-        self.0.finalize()
+        self.0.finish()
     }
 
     pub(crate) fn add(&mut self, value: f32) {
         let value = if value.is_nan() { f32::NAN } else { value };
-        self.0.update(&value.to_bits().to_le_bytes());
+        self.0.add(&value.to_bits().to_le_bytes());
     }
 
     fn add_word(&mut self, word: u32) {
-        self.0.update(&word.to_le_bytes());
+        self.0.add(&word.to_le_bytes());
     }
 
     pub(crate) fn add_all<const N: usize>(&mut self, values: [f32; N]) {

@@ -3,6 +3,7 @@
 //! `no_std`, no allocator, no panic path. The host tools run this same library, and get the same bits.
 #![cfg_attr(not(test), no_std)]
 
+pub mod checksum;
 pub mod dual;
 pub mod estimator;
 pub mod filter;

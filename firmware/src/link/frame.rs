@@ -1,19 +1,16 @@
 //! One frame: header, body, checksum, byte stuffing.
 
-use crc::{CRC_32_ISO_HDLC, Crc};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::{PAYLOAD_CAPACITY, WIRE_CAPACITY};
+use crate::checksum::Checksum;
 
 /// The version of the messages. A frame of another version is refused, never guessed at.
 pub const PROTOCOL_VERSION: u8 = 2;
 
 /// The sequence number of a reply to a frame whose own number could not be read. Requests are numbered from 1.
 pub const NO_SEQUENCE: u16 = 0;
-
-/// The checksum of a frame.
-pub const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 const CHECKSUM_BYTES: usize = 4;
 
@@ -68,7 +65,7 @@ impl<'a> Frame<'a> {
     /// Checks and splits the bytes of a frame after byte stuffing has been undone.
     pub(super) fn parse(payload: &'a [u8]) -> Result<Self, LinkError> {
         let (content, checksum) = payload.split_last_chunk::<CHECKSUM_BYTES>().ok_or(LinkError::Short)?;
-        if CHECKSUM.checksum(content) != u32::from_le_bytes(*checksum) {
+        if Checksum::of(content) != u32::from_le_bytes(*checksum) {
             return Err(LinkError::Checksum);
         }
         let (version, _) = content.split_first().ok_or(LinkError::Short)?;
@@ -110,7 +107,7 @@ impl FrameBuffer {
     /// [`LinkError::Oversized`] where the message does not fit.
     pub fn encode<T: Serialize>(&mut self, header: Header, body: &T) -> Result<&[u8], LinkError> {
         let content = postcard::to_slice(&(header, body), &mut self.payload).map_err(|_| LinkError::Oversized)?.len();
-        let checksum = CHECKSUM.checksum(self.payload.get(..content).ok_or(LinkError::Oversized)?);
+        let checksum = Checksum::of(self.payload.get(..content).ok_or(LinkError::Oversized)?);
         let length = content + CHECKSUM_BYTES;
         self.payload.get_mut(content..length).ok_or(LinkError::Oversized)?.copy_from_slice(&checksum.to_le_bytes());
         let payload = self.payload.get(..length).ok_or(LinkError::Oversized)?;

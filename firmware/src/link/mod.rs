@@ -19,7 +19,7 @@ mod message;
 mod receiver;
 mod transceiver;
 
-pub use frame::{CHECKSUM, Frame, FrameBuffer, Header, LinkError, NO_SEQUENCE, PROTOCOL_VERSION, next_sequence};
+pub use frame::{Frame, FrameBuffer, Header, LinkError, NO_SEQUENCE, PROTOCOL_VERSION, next_sequence};
 pub use health::LinkHealth;
 pub use message::{BootReport, FrameRefusal, HealthReport, Reply, Request, RoverSource};
 pub use receiver::FrameReceiver;

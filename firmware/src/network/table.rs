@@ -5,6 +5,7 @@ use super::{
     FLOWN_PAIRS, GOLDEN_PAIRS, Normalisation, PosteriorScale, RoverGolden, RoverNetwork, WheelGolden, WheelNetwork,
     Words, rover_inputs, words,
 };
+use crate::checksum::Checksum;
 
 /// The per-wheel network, frozen.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,14 +120,7 @@ fn same_bits(left: &[f32; OUTPUTS], right: &[f32; OUTPUTS]) -> bool {
 
 /// CRC-32 (ISO-HDLC) over the words of all numbers of a table, least significant byte first.
 pub fn checksum(table: &impl Words) -> u32 {
-    static CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
-    let mut digest = CRC.digest();
-    table.for_each(&mut |word| take(&mut digest, word));
-    digest.finalize()
-}
-
-/// Never inlined: the walk over a table calls it at each of its fields, and its loop would be there as often.
-#[inline(never)]
-fn take(digest: &mut crc::Digest<'_, u32>, word: u32) {
-    digest.update(&word.to_le_bytes());
+    let mut checksum = Checksum::new();
+    table.for_each(&mut |word| checksum.add(&word.to_le_bytes()));
+    checksum.finish()
 }

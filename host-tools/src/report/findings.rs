@@ -85,5 +85,5 @@ fn worded(answer: &Result<SoilEstimate, Refusal>) -> Result<SoilEstimate, &'stat
 /// Never in practice: an answer always fits its message.
 pub fn fingerprint(answers: &[QueryAnswer]) -> Result<String, postcard::Error> {
     let bytes = postcard::to_stdvec(answers)?;
-    Ok(format!("{:08x}", kapvik_firmware::link::CHECKSUM.checksum(&bytes)))
+    Ok(format!("{:08x}", kapvik_firmware::checksum::Checksum::of(&bytes)))
 }

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressIterator};
-use kapvik_firmware::link::CHECKSUM;
+use kapvik_firmware::checksum::Checksum;
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
@@ -135,7 +135,7 @@ impl Gathered {
         }
         let bytes = postcard::to_stdvec(&(self.fingerprint, estimate))
             .map_err(|error| HostError::Failed(format!("the estimates have no fingerprint: {error}")))?;
-        self.fingerprint = CHECKSUM.checksum(&bytes);
+        self.fingerprint = Checksum::of(&bytes);
         Ok(())
     }
 }
