@@ -3,7 +3,8 @@
 //! Of the force on a rim, T/r, what is not drawbar pull compacts the soil: (T/r − DP)/W is the soil's, and hardly the slope's. Seen along
 //! a contact angle that is too steep by dγ, the pull seems larger by W dγ and that share smaller by dγ. So a share that leaves what it was
 //! tells by how much an angle is wrong: of a wheel that meets a slope or a rock before links and velocity have moved, and of one whose hub
-//! sinks deeper, or less deep, in another soil, and whose path is then not the terrain.
+//! sinks deeper, or less deep, in another soil, and whose path is then not the terrain. Of a bogie's two wheels only the sum of the pulls
+//! is known, and so only their share together: (ΣT/r − ΣDP)/ΣW, smaller by the mean of their angles' errors, weighted by load.
 
 use crate::scalar::Scalar;
 
@@ -11,10 +12,11 @@ use crate::scalar::Scalar;
 const SPREAD: f64 = 0.015;
 /// Travel over which that mean is taken, m: soil that is another for so long is what there is.
 const REMEMBERED_M: f64 = 0.2;
-/// A share farther from the mean than this counts for no more in it.
+/// A share farther from the mean than this counts for no more in it; and than this, tells no more of an angle.
 const GREATEST: f64 = 0.1;
+const GREATEST_TOLD: f64 = 0.3;
 
-/// The share of one wheel's rim force that compacts the soil, over its load.
+/// The share of the rim force that compacts the soil, over the load: of one wheel, or of a bogie's two together.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Compaction<S> {
     mean: S,
@@ -29,7 +31,7 @@ impl<S: Scalar> Compaction<S> {
         Self { mean: S::zero(), way_m: S::zero(), departure: S::zero() }
     }
 
-    /// Forgets it: the wheel does not roll under a load.
+    /// Forgets it: a wheel does not roll under a load.
     pub fn forget(&mut self) {
         self.way_m = S::zero();
     }
@@ -40,35 +42,102 @@ impl<S: Scalar> Compaction<S> {
             self.mean = share;
         }
         self.way_m = (self.way_m + travel_m).min(S::constant(REMEMBERED_M));
-        self.departure = share - self.mean;
-        let greatest = S::constant(GREATEST);
-        self.mean += travel_m / self.way_m * self.departure.max(-greatest).min(greatest);
+        let within = |greatest: f64| (share - self.mean).max(-S::constant(greatest)).min(S::constant(greatest));
+        let (learned, departure) = (within(GREATEST), within(GREATEST_TOLD));
+        self.departure = departure;
+        self.mean += travel_m / self.way_m * learned;
     }
 
-    /// What to add to a contact angle that is known with such a variance, rad², and what of that variance is left.
+    /// How far the share is from its mean, and what of it is an error of the contact angle, over the variance by which that is known, rad²:
+    /// the gain of Kalman's filter, less its last factor.
     pub fn tells(&self, variance: S) -> (S, S) {
-        let told = variance * self.way_m;
         let left = S::constant(SPREAD * SPREAD * REMEMBERED_M);
-        let gain = told / (told + left);
-        (gain * self.departure, S::one() - gain)
+        (self.departure, self.way_m / (variance * self.way_m + left))
+    }
+}
+
+/// What the share tells of one contact angle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Correction<S> {
+    /// By how much the contact is steeper than the path of its hub, rad.
+    pub steeper: S,
+    /// What is left of the variance of the contact angle, and of what the angles make of that of the pull.
+    pub left_of_angle: S,
+    pub left_of_pull: S,
+    /// By how much less steep the contact is taken to be for each newton by which its pull seems larger, rad/N.
+    pub by_pull: S,
+}
+
+impl<S: Scalar> Correction<S> {
+    /// It tells nothing.
+    pub fn none() -> Self {
+        Self { steeper: S::zero(), left_of_angle: S::one(), left_of_pull: S::one(), by_pull: S::zero() }
+    }
+}
+
+/// What is known of a wheel's contact angle by the path of its hub.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Known<S> {
+    /// Its variance, rad².
+    pub variance: S,
+    /// Its covariance with the mean of the angles that the share is of, weighted by load, rad².
+    pub with_mean: S,
+}
+
+impl<S: Scalar> Known<S> {
+    /// What a share of so many wheels that bear a load, N, together tells of it, if their mean is known with a variance, rad².
+    pub fn corrected(&self, compaction: &Compaction<S>, of_mean: S, wheels: S, load_n: S) -> Correction<S> {
+        let (departure, per_variance) = compaction.tells(of_mean);
+        let gain = self.with_mean * per_variance;
+        let of_angle = if self.variance > S::zero() { gain * self.with_mean / self.variance } else { S::zero() };
+        Correction {
+            steeper: gain * departure,
+            left_of_angle: S::one() - of_angle,
+            left_of_pull: S::one() - of_mean * per_variance,
+            by_pull: wheels * gain / load_n.max(S::one()),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Compaction;
+    use super::{Compaction, Known};
 
     /// An angle that is too small by 0.05 rad for a moment, of a wheel that has rolled for long: known to 0.015 rad, it is half made good.
     #[test]
     fn a_share_that_grows_tells_a_steeper_contact() {
+        let known = |std: f64| Known { variance: std * std, with_mean: std * std };
+        let told = |compaction: &Compaction<f64>, std: f64| {
+            let correction = known(std).corrected(compaction, std * std, 1.0, 70.0);
+            (correction.steeper, correction.left_of_angle, correction.left_of_pull)
+        };
         let mut compaction = Compaction::<f64>::new();
-        assert_eq!(compaction.tells(1.0), (0.0, 1.0));
+        assert_eq!(told(&compaction, 1.0), (0.0, 1.0, 1.0));
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
         compaction.follow(0.002, 0.25);
-        let (shift, left) = compaction.tells(0.015 * 0.015);
-        assert!((shift - 0.025).abs() < 1.0e-9 && (left - 0.5).abs() < 1.0e-9, "{shift} {left}");
-        let (shift, left) = compaction.tells(1.0e-8);
-        assert!(shift < 1.0e-5 && left > 0.999, "{shift} {left}");
+        let (steeper, left, of_pull) = told(&compaction, 0.015);
+        assert!((steeper - 0.025).abs() < 1.0e-9 && (left - 0.5).abs() < 1.0e-9, "{steeper} {left}");
+        assert_eq!(left, of_pull);
+        let (steeper, left, _) = told(&compaction, 1.0e-4);
+        assert!(steeper < 1.0e-5 && left > 0.999, "{steeper} {left}");
+        assert_eq!(told(&compaction, 0.0), (0.0, 1.0, 1.0));
+    }
+
+    /// Of two wheels that know nothing of each other, the one that is known worse is corrected more, and what the two share is told of
+    /// their mean alone.
+    #[test]
+    fn of_a_bogie_the_wheel_that_is_known_worse_is_corrected_more() {
+        let mut compaction = Compaction::<f64>::new();
+        (0..300).for_each(|_| compaction.follow(0.002, 0.2));
+        compaction.follow(0.002, 0.25);
+        let (well, badly) = (1.0e-4, 9.0e-4);
+        let of_mean = 0.25 * (well + badly);
+        let of = |variance: f64| Known { variance, with_mean: 0.5 * variance };
+        let [well, badly] = [well, badly].map(|variance| of(variance).corrected(&compaction, of_mean, 2.0, 140.0));
+        assert!((badly.steeper / well.steeper - 9.0).abs() < 1.0e-9);
+        let mean = 0.5 * (well.steeper + badly.steeper);
+        assert!((mean - 0.05 * (1.0 - well.left_of_pull)).abs() < 1.0e-12, "{mean}");
+        assert!(badly.left_of_angle < well.left_of_angle && well.left_of_angle > 0.9);
     }
 
     /// A soil that is another for long is the soil.
@@ -77,7 +146,17 @@ mod tests {
         let mut compaction = Compaction::<f64>::new();
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
         (0..600).for_each(|_| compaction.follow(0.002, 0.3));
-        let (shift, _) = compaction.tells(1.0);
-        assert!(shift.abs() < 0.001, "{shift}");
+        let (departure, _) = compaction.tells(1.0);
+        assert!(departure.abs() < 0.001, "{departure}");
+    }
+
+    /// A load near nothing makes a share of any size, and that tells no angle.
+    #[test]
+    fn an_absurd_share_tells_little() {
+        let mut compaction = Compaction::<f64>::new();
+        (0..300).for_each(|_| compaction.follow(0.002, 0.2));
+        compaction.follow(0.002, 1.0e9);
+        let (departure, _) = compaction.tells(1.0);
+        assert_eq!(departure, 0.3);
     }
 }

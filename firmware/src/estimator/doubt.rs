@@ -90,6 +90,20 @@ pub(super) struct Doubt<S> {
 }
 
 impl<S: Scalar> Doubt<S> {
+    /// Before the first frame: all that the filters state is true.
+    pub fn none() -> Self {
+        let (zero, one) = (S::zero(), S::one());
+        let wheel = WheelDoubt {
+            angle: one,
+            force: one,
+            torque: one,
+            angle_variance: zero,
+            load_variance: zero,
+            torque_variance: zero,
+        };
+        Self { wheels: PerAxle::all(wheel), slip: one }
+    }
+
     /// What the runs of how a side moves and of its forces tell, and the trends of its contact angles.
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn of<const N: usize, const M: usize>(

@@ -39,6 +39,7 @@ mod sinking;
 pub mod slip_torque;
 mod surprise;
 mod swing;
+mod told_by_torque;
 mod trend;
 mod walk_rate;
 mod watch;

@@ -1,7 +1,8 @@
 //! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
 
+use super::compaction::Correction;
 use super::contact_angle;
-use super::doubt::{Doubt, HowKnown, WheelDoubt};
+use super::doubt::{Doubt, WheelDoubt};
 use super::drawbar_split::{DrawbarSplit, OF_TORQUE, along_contact};
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
@@ -45,8 +46,8 @@ struct ContactForces<S> {
     by_angles: [[S; contact_angle::STATES]; 2],
     /// The same by the states of the hub-force filter.
     by_forces: [[S; hub_force::STATES]; 2],
-    /// What is left of the variance of the contact angle beside what the wheel's torque tells of it.
-    left: S,
+    /// What the torques tell of the contact angle.
+    correction: Correction<S>,
     /// The same by the split between the wheels of a bogie: one standard deviation, N.
     by_split: [S; 2],
     /// The same by what the contact angle lags behind.
@@ -62,13 +63,13 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// What is known of the side now, with such forces on its hubs.
     pub fn estimate(&self, forces: &HubForces<S>) -> SideEstimate {
-        let (doubt, told) = self.doubt();
-        let PerAxle { front, middle, rear } = self.contacts(forces, told);
+        let doubt = &self.doubt;
+        let PerAxle { front, middle, rear } = self.contacts(forces);
         let sum = middle.pull_n + rear.pull_n;
         let half = S::constant(0.5);
         let by_load = DrawbarSplit::by_load_n(middle.load_n, rear.load_n, sum);
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
-        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, &doubt, &middle, &rear);
+        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, doubt, &middle, &rear);
         let contacts = PerAxle { front, middle, rear };
         let filters = self.wheels.as_ref().zip(self.activity);
         let wheels = contacts.zip(by_load).zip(filters.zip(doubt.wheels)).zip(self.lifted()).map(
@@ -87,8 +88,8 @@ impl<S: Scalar> SideEstimator<S> {
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
         let entry =
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
-        let (doubt, told) = self.doubt();
-        self.contacts(forces, told).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
+        let doubt = &self.doubt;
+        self.contacts(forces).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
             let (slip, torque) = (doubt.slip, of_wheel.torque);
             let both = (torque * slip).sqrt();
             WheelCovariance {
@@ -129,20 +130,23 @@ impl<S: Scalar> SideEstimator<S> {
         }
     }
 
-    /// The contacts, with the split of the bogie's pull that the torques tell now, and with what the front wheel's torque tells of its
-    /// contact: see [`Self::doubt`].
-    fn contacts(&self, estimate: &HubForces<S>, (steeper, left): (S, S)) -> PerAxle<ContactForces<S>> {
+    /// The contacts, with the split of the bogie's pull that the torques tell now, and with what these tell of the contact angles.
+    fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let [_, front, middle, rear, rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         let told_by_links = self.digging_in.told_by_links();
         let [_, of_front, of_middle, of_rear, ..] = self.angles.estimate().variances();
-        let contact = |path: S, variance: S, link: S| (path + told_by_links * (link - path), variance);
+        let contact = |path: S, correction: Correction<S>, variance: S, link: S| {
+            let path = path + correction.steeper;
+            (path + told_by_links * (link - path), variance, correction)
+        };
+        let corrections = &self.corrections;
         let (front, middle, rear) = (
-            contact(front + steeper, of_front, rocker_pitch),
-            contact(middle, of_middle, bogie_pitch),
-            contact(rear, of_rear, bogie_pitch),
+            contact(front, corrections.front, of_front, rocker_pitch),
+            contact(middle, corrections.middle, of_middle, bogie_pitch),
+            contact(rear, corrections.rear, of_rear, bogie_pitch),
         );
         let forces = self.forces.forces_at(estimate);
-        let (middle_hub, rear_hub) = self.bogie_wheels(bogie_pitch, &forces);
+        let PerAxle { middle: middle_hub, rear: rear_hub, .. } = self.on_ground(&forces, corrections);
         let sum = middle_hub.drawbar_pull_n + rear_hub.drawbar_pull_n;
         let form = DrawbarSplit::by_torque(&middle_hub.wheel, &rear_hub.wheel, sum).std_n;
         let torque_variance = |filter: &SlipTorqueFilter<S>| {
@@ -155,44 +159,23 @@ impl<S: Scalar> SideEstimator<S> {
         let mut middle = contact_forces(Axle::Middle, middle, bogie_pitch, forces.middle, split);
         let mut rear = contact_forces(Axle::Rear, rear, bogie_pitch, forces.rear, -split);
         share_along_bogie(&mut middle, &mut rear);
-        let mut front = contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero());
-        front.left = left;
-        PerAxle { front, middle, rear }
-    }
-
-    /// How well all is known, with what the front wheel's torque tells of its contact angle: by how much that is steeper than the path of
-    /// the hub, and what is left of its variance.
-    fn doubt(&self) -> (Doubt<S>, (S, S)) {
-        let known = HowKnown {
-            still: self.angles.still(),
-            front_unlike: self.angles.front_unlike(),
-            told_by_links: self.digging_in.told_by_links(),
-            restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
-        };
-        let mut doubt = Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known);
-        let [_, by_path, ..] = self.angles.estimate().variances();
-        let WheelDoubt { angle, angle_variance, .. } = &mut doubt.wheels.front;
-        let told = self.compaction.tells(*angle * by_path + *angle_variance);
-        let (_, left) = told;
-        *angle = *angle * left;
-        *angle_variance = *angle_variance * left;
-        (doubt, told)
+        PerAxle { front: contact_forces(Axle::Front, front, rocker_pitch, forces.front, S::zero()), middle, rear }
     }
 
     fn variances(&self, forces: &HubForces<S>, of_wheel: &WheelDoubt<S>, contact: &ContactForces<S>) -> [S; 3] {
-        let mut variances = [of_wheel.load_variance, S::zero()];
+        let Correction { left_of_angle, left_of_pull, .. } = contact.correction;
         // As far as the torque tells the angle, it tells the pull as well, whatever the force along the link is taken for.
-        let mut of_force = of_wheel.force;
+        let left = [(left_of_angle, S::one()), (left_of_pull, left_of_pull * left_of_pull)];
         let rows = contact.by_angles.iter().zip(&contact.by_forces).zip(contact.by_split.iter().zip(&contact.by_lag));
-        for (variance, ((by_angles, by_forces), (split, lag))) in variances.iter_mut().zip(rows) {
-            *variance += of_wheel.angle * self.angles.estimate().weighted_sum(by_angles).1
-                + of_force * forces.weighted_sum(by_forces).1
-                + *split * *split
+        let mut variances = [of_wheel.load_variance, S::zero()];
+        for ((variance, left), ((by_angles, by_forces), (split, lag))) in variances.iter_mut().zip(left).zip(rows) {
+            let by_angles = of_wheel.angle * self.angles.estimate().weighted_sum(by_angles).1
                 + of_wheel.angle_variance * *lag * *lag;
-            of_force = of_force * contact.left * contact.left;
+            let by_forces = of_wheel.force * forces.weighted_sum(by_forces).1;
+            *variance += left.0 * by_angles + left.1 * by_forces + *split * *split;
         }
         let [load, pull] = variances;
-        [of_wheel.angle * contact.angle_variance + of_wheel.angle_variance, load, pull]
+        [left_of_angle * (of_wheel.angle * contact.angle_variance + of_wheel.angle_variance), load, pull]
     }
 
     fn covariance(&self, estimate: &HubForces<S>, of_wheel: &WheelDoubt<S>, contact: &ContactForces<S>) -> [[S; 3]; 3] {
@@ -201,22 +184,23 @@ impl<S: Scalar> SideEstimator<S> {
         let ([load_split, pull_split], [load_lag, pull_lag]) = (contact.by_split, contact.by_lag);
         let mut by_itself = [zero; contact_angle::STATES];
         by_itself.iter_mut().skip(contact.state).take(1).for_each(|entry| *entry = one);
+        let Correction { left_of_angle, left_of_pull, by_pull, .. } = contact.correction;
         // Where the force along the link is too large, an angle that the torque tells comes out too small, and the pull not as much too large.
-        let per_load = (one - contact.left) / contact.load_n.max(one);
-        let angle_forces = pull_forces.map(|entry| -per_load * entry);
-        let pull_forces = pull_forces.map(|entry| contact.left * entry);
+        let angle_forces = pull_forces.map(|entry| -by_pull * entry);
+        let pull_forces = pull_forces.map(|entry| left_of_pull * entry);
         let rows = [
-            (&by_itself, &angle_forces, zero, one),
-            (load_angles, load_forces, load_split, load_lag),
-            (pull_angles, &pull_forces, pull_split, pull_lag),
+            (&by_itself, &angle_forces, zero, one, left_of_angle),
+            (load_angles, load_forces, load_split, load_lag, left_of_angle),
+            (pull_angles, &pull_forces, pull_split, pull_lag, left_of_pull),
         ];
         let mut covariance = [[S::zero(); 3]; 3];
-        for (line, (angles, forces, split, lag)) in covariance.iter_mut().zip(rows) {
-            for (place, (other_angles, other_forces, other_split, other_lag)) in line.iter_mut().zip(rows) {
-                *place = of_wheel.angle * self.angles.estimate().covariance_of_sums(angles, other_angles)
-                    + of_wheel.force * estimate.covariance_of_sums(forces, other_forces)
-                    + split * other_split
+        for (line, (angles, forces, split, lag, left)) in covariance.iter_mut().zip(rows) {
+            for (place, (other_angles, other_forces, other_split, other_lag, other_left)) in line.iter_mut().zip(rows) {
+                let by_angles = of_wheel.angle * self.angles.estimate().covariance_of_sums(angles, other_angles)
                     + of_wheel.angle_variance * lag * other_lag;
+                *place = left.min(other_left) * by_angles
+                    + of_wheel.force * estimate.covariance_of_sums(forces, other_forces)
+                    + split * other_split;
             }
         }
         let [_, [_, of_load, _], _] = &mut covariance;
@@ -241,8 +225,10 @@ impl<S: Scalar> SideEstimator<S> {
         let lag = |doubt: &WheelDoubt<S>, [_, pull]: [S; 2]| doubt.angle_variance * pull * pull;
         // Each wheel feels half of its own lag and of the other's; both together feel all of both.
         let lags = S::constant(2.0) * (lag(&doubt.wheels.middle, middle.by_lag) + lag(&doubt.wheels.rear, rear.by_lag));
-        let variance =
-            doubt.wheels.middle.angle * by_angles + doubt.wheels.middle.force * by_forces + split * split + lags;
+        let left = middle.correction.left_of_pull;
+        let variance = left * (doubt.wheels.middle.angle * by_angles + lags)
+            + left * left * doubt.wheels.middle.force * by_forces
+            + split * split;
         published(middle.pull_n + rear.pull_n, variance.sqrt())
     }
 }
@@ -263,7 +249,7 @@ fn in_the_air(wheel: &WheelEstimate) -> WheelEstimate {
 /// Forces along a contact of a hub, known with a variance, with the force on it in the coordinates of its link at a pitch.
 fn contact_forces<S: Scalar>(
     axle: Axle,
-    (contact, angle_variance): (S, S),
+    (contact, angle_variance, correction): (S, S, Correction<S>),
     pitch: S,
     force: Planar<S>,
     split: S,
@@ -293,7 +279,7 @@ fn contact_forces<S: Scalar>(
         state,
         by_angles: [against_link.map(|entry| -pull_n * entry), against_link.map(|entry| load_n * entry)],
         by_forces: [by_hub(cosine, -sine), by_hub(sine, cosine)],
-        left: one,
+        correction,
         by_split: [-sine * split, cosine * split],
         by_lag: [-felt * pull_n, felt * load_n],
     }
@@ -341,7 +327,7 @@ fn published_slip<S: Scalar>(slip: S, std: S, activity: WheelActivity) -> Option
 
 #[cfg(test)]
 mod tests {
-    use super::{along_contact, contact_forces, share_along_bogie};
+    use super::{Correction, along_contact, contact_forces, share_along_bogie};
     use crate::rover::{Axle, Planar};
 
     /// Cells and the sum along the bogie are held, and the difference of the pulls: where a contact is taken to be steeper, the force along
@@ -356,7 +342,13 @@ mod tests {
             [load, pull, other_load, other_pull]
         };
         let contact = |axle, at: usize| {
-            contact_forces(axle, (angles[at], 1.0e-4), 0.0, Planar { x: along[at], z: cells[at] }, 0.0)
+            contact_forces(
+                axle,
+                (angles[at], 1.0e-4, Correction::none()),
+                0.0,
+                Planar { x: along[at], z: cells[at] },
+                0.0,
+            )
         };
         let (mut middle, mut rear) = (contact(Axle::Middle, 0), contact(Axle::Rear, 1));
         share_along_bogie(&mut middle, &mut rear);

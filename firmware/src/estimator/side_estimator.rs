@@ -1,9 +1,10 @@
 //! The filters of one side, and what they say together.
 
 use super::attitude::Attitude;
-use super::compaction::Compaction;
+use super::compaction::{Compaction, Correction};
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::digging_in::{DiggingIn, Rolled};
+use super::doubt::{Doubt, HowKnown};
 use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
@@ -64,15 +65,19 @@ pub(super) struct SideEstimator<S> {
     pub(super) forces: HubForceFilter<S>,
     pub(super) activity: PerAxle<WheelActivity>,
     /// Frames for which each wheel is still taken to be starting.
-    unsettled: PerAxle<u8>,
+    pub(super) unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
     /// Whether the torque of a wheel swings.
-    swings: bool,
+    pub(super) swings: bool,
     pub(super) digging_in: DiggingIn<S>,
     sinking: Sinking<S>,
-    /// Of the front wheel.
-    pub(super) compaction: Compaction<S>,
+    /// Of the front wheel, and of the bogie's two together.
+    pub(super) compaction: [Compaction<S>; 2],
+    /// What these tell of the contact angles.
+    pub(super) corrections: PerAxle<Correction<S>>,
+    /// How well all is known after the last frame.
+    pub(super) doubt: Doubt<S>,
     told: SideInnovations<S>,
 }
 
@@ -118,7 +123,9 @@ impl<S: Scalar> SideEstimator<S> {
             swings: false,
             digging_in: DiggingIn::new(&scale),
             sinking: Sinking::new(&scale),
-            compaction: Compaction::new(),
+            compaction: [Compaction::new(); 2],
+            corrections: PerAxle::all(Correction::none()),
+            doubt: Doubt::none(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -166,23 +173,19 @@ impl<S: Scalar> SideEstimator<S> {
         let loads = self.forces.beyond_rest_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
         let travel_m = self.speed_m_s() * step_s;
         self.sinking.follow(travel_m, &loads);
+        self.doubt = self.doubt();
         self.follow_compaction(travel_m);
         surprises
     }
 
-    /// What compacts the soil under the front wheel, while that rolls and bears a load.
-    fn follow_compaction(&mut self, travel_m: S) {
-        if self.activity.front != WheelActivity::Rolling
-            || self.unsettled.front > 0
-            || self.lifted().front
-            || self.swings
-        {
-            return self.compaction.forget();
-        }
-        let [_, path, _, _, rocker_pitch, ..] = *self.angles.estimate().mean();
-        let (load_n, drawbar_pull_n) = along_contact(self.forces.forces_n().front, (path - rocker_pitch).sin_cos());
-        let [_, torque, _] = *self.wheels.front.estimate().mean();
-        self.compaction.follow(travel_m, (torque / self.rover.wheel.radius_m - drawbar_pull_n) / load_n);
+    fn doubt(&self) -> Doubt<S> {
+        let known = HowKnown {
+            still: self.angles.still(),
+            front_unlike: self.angles.front_unlike(),
+            told_by_links: self.digging_in.told_by_links(),
+            restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
+        };
+        Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
     }
 
     fn side_readings(&self, frame: &SideFrame<S>) -> SideReadings<S> {
@@ -336,7 +339,7 @@ impl<S: Scalar> SideEstimator<S> {
             ),
         };
         let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
-        let split = self.split_along_bogie_n(bogie_pitch);
+        let split = self.split_along_bogie_n();
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
         self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, split, &readings);
         surprises.of_cells(&self.told.forces);
@@ -351,36 +354,41 @@ impl<S: Scalar> SideEstimator<S> {
     }
 
     /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
-    fn split_along_bogie_n(&self, bogie_pitch: S) -> S {
-        let (middle, rear) = self.bogie_wheels(bogie_pitch, &self.forces.forces_n());
+    fn split_along_bogie_n(&self) -> S {
+        let PerAxle { middle, rear, .. } = self.on_ground(&self.forces.forces_n(), &self.corrections);
         let split = DrawbarSplit::by_torque(&middle.wheel, &rear.wheel, middle.drawbar_pull_n + rear.drawbar_pull_n);
         let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
         let half = S::constant(0.5);
-        let along = |pull: S, wheel: &BogieHub<S>| pull * wheel.angle.1 - wheel.wheel.load_n * wheel.angle.0;
+        let along = |pull: S, wheel: &HubOnGround<S>| pull * wheel.angle.1 - wheel.wheel.load_n * wheel.angle.0;
         along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
     }
 
-    /// The wheels of the bogie along their contacts, with such forces on the hubs.
-    pub(super) fn bogie_wheels(&self, bogie_pitch: S, forces: &PerAxle<Planar<S>>) -> (BogieHub<S>, BogieHub<S>) {
-        let [_, _, middle, rear, ..] = *self.angles.estimate().mean();
-        let hub = |force: Planar<S>, contact: S, filter: &SlipTorqueFilter<S>| {
-            let angle = (contact - bogie_pitch).sin_cos();
+    /// The wheels along their contacts, with such forces on the hubs and the paths of these corrected.
+    pub(super) fn on_ground(
+        &self,
+        forces: &PerAxle<Planar<S>>,
+        corrections: &PerAxle<Correction<S>>,
+    ) -> PerAxle<HubOnGround<S>> {
+        let [_, front, middle, rear, rocker, bogie, _] = *self.angles.estimate().mean();
+        let path = PerAxle { front: front - rocker, middle: middle - bogie, rear: rear - bogie };
+        let filters = path.zip(*corrections).zip(self.wheels.as_ref());
+        forces.zip(filters).map(|(force, ((path, correction), filter))| {
+            let angle = (path + correction.steeper).sin_cos();
             let (load_n, drawbar_pull_n) = along_contact(force, angle);
             let [_, torque, slip] = *filter.estimate().mean();
             let wheel = BogieWheel { load_n, rim_force_n: torque / self.rover.wheel.radius_m, slip };
-            BogieHub { wheel, drawbar_pull_n, angle }
-        };
-        (hub(forces.middle, middle, &self.wheels.middle), hub(forces.rear, rear, &self.wheels.rear))
+            HubOnGround { wheel, drawbar_pull_n, angle }
+        })
     }
 }
 
-/// A wheel of the bogie, seen along its contact.
-pub(super) struct BogieHub<S> {
-    /// What its share is told from.
+/// A wheel, seen along its contact.
+pub(super) struct HubOnGround<S> {
+    /// What its share of a bogie's pull is told from.
     pub wheel: BogieWheel<S>,
     /// Drawbar pull, N.
     pub drawbar_pull_n: S,
-    /// Sine and cosine of the contact angle less the bogie's pitch.
+    /// Sine and cosine of the contact angle less the pitch of its link.
     pub angle: (S, S),
 }
 
