@@ -8,8 +8,6 @@
 
 use crate::scalar::Scalar;
 
-/// One standard deviation of how far the share departs from its mean on one soil.
-const SPREAD: f64 = 0.015;
 /// Travel over which that mean is taken, m: soil that is another for so long is what there is.
 const REMEMBERED_M: f64 = 0.2;
 /// A share farther from the mean than this counts for no more in it; and than this, tells no more of an angle.
@@ -31,7 +29,7 @@ impl<S: Scalar> Compaction<S> {
         Self { mean: S::zero(), way_m: S::zero(), departure: S::zero() }
     }
 
-    /// Forgets it: a wheel does not roll under a load.
+    /// Forgets it: a wheel does not roll under a load, or digs in.
     pub fn forget(&mut self) {
         self.way_m = S::zero();
     }
@@ -49,10 +47,9 @@ impl<S: Scalar> Compaction<S> {
     }
 
     /// How far the share is from its mean, and what of it is an error of the contact angle, over the variance by which that is known, rad²:
-    /// the gain of Kalman's filter, less its last factor.
-    pub fn tells(&self, variance: S) -> (S, S) {
-        let left = S::constant(SPREAD * SPREAD * REMEMBERED_M);
-        (self.departure, self.way_m / (variance * self.way_m + left))
+    /// the gain of Kalman's filter, less its last factor. On one soil the share departs from its mean by another variance.
+    pub fn tells(&self, variance: S, by_itself: S) -> (S, S) {
+        (self.departure, self.way_m / (variance * self.way_m + S::constant(REMEMBERED_M) * by_itself))
     }
 }
 
@@ -84,31 +81,46 @@ pub(super) struct Known<S> {
     pub with_mean: S,
 }
 
+/// The wheels that a share is of together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Together<S> {
+    /// How many they are.
+    pub wheels: S,
+    /// The load that they bear, N, more than none.
+    pub load_n: S,
+    /// Variance of the mean of their contact angles, weighted by load, rad².
+    pub variance: S,
+    /// Variance of how far their share departs from its mean on one soil.
+    pub departs: S,
+}
+
 impl<S: Scalar> Known<S> {
-    /// What a share of so many wheels that bear a load, N, together tells of it, if their mean is known with a variance, rad².
-    pub fn corrected(&self, compaction: &Compaction<S>, of_mean: S, wheels: S, load_n: S) -> Correction<S> {
-        let (departure, per_variance) = compaction.tells(of_mean);
+    /// What the share tells of it.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn corrected(&self, compaction: &Compaction<S>, together: &Together<S>) -> Correction<S> {
+        let (departure, per_variance) = compaction.tells(together.variance, together.departs);
         let gain = self.with_mean * per_variance;
         let of_angle = if self.variance > S::zero() { gain * self.with_mean / self.variance } else { S::zero() };
         Correction {
             steeper: gain * departure,
             left_of_angle: S::one() - of_angle,
-            left_of_pull: S::one() - of_mean * per_variance,
-            by_pull: wheels * gain / load_n.max(S::one()),
+            left_of_pull: S::one() - together.variance * per_variance,
+            by_pull: together.wheels * gain / together.load_n,
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Compaction, Known};
+    use super::{Compaction, Known, Together};
 
     /// An angle that is too small by 0.05 rad for a moment, of a wheel that has rolled for long: known to 0.015 rad, it is half made good.
     #[test]
     fn a_share_that_grows_tells_a_steeper_contact() {
         let known = |std: f64| Known { variance: std * std, with_mean: std * std };
         let told = |compaction: &Compaction<f64>, std: f64| {
-            let correction = known(std).corrected(compaction, std * std, 1.0, 70.0);
+            let alone = Together { wheels: 1.0, load_n: 70.0, variance: std * std, departs: 0.015 * 0.015 };
+            let correction = known(std).corrected(compaction, &alone);
             (correction.steeper, correction.left_of_angle, correction.left_of_pull)
         };
         let mut compaction = Compaction::<f64>::new();
@@ -131,9 +143,9 @@ mod tests {
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
         compaction.follow(0.002, 0.25);
         let (well, badly) = (1.0e-4, 9.0e-4);
-        let of_mean = 0.25 * (well + badly);
+        let bogie = Together { wheels: 2.0, load_n: 140.0, variance: 0.25 * (well + badly), departs: 1.0e-4 };
         let of = |variance: f64| Known { variance, with_mean: 0.5 * variance };
-        let [well, badly] = [well, badly].map(|variance| of(variance).corrected(&compaction, of_mean, 2.0, 140.0));
+        let [well, badly] = [well, badly].map(|variance| of(variance).corrected(&compaction, &bogie));
         assert!((badly.steeper / well.steeper - 9.0).abs() < 1.0e-9);
         let mean = 0.5 * (well.steeper + badly.steeper);
         assert!((mean - 0.05 * (1.0 - well.left_of_pull)).abs() < 1.0e-12, "{mean}");
@@ -146,7 +158,7 @@ mod tests {
         let mut compaction = Compaction::<f64>::new();
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
         (0..600).for_each(|_| compaction.follow(0.002, 0.3));
-        let (departure, _) = compaction.tells(1.0);
+        let (departure, _) = compaction.tells(1.0, 1.0e-4);
         assert!(departure.abs() < 0.001, "{departure}");
     }
 
@@ -156,7 +168,7 @@ mod tests {
         let mut compaction = Compaction::<f64>::new();
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
         compaction.follow(0.002, 1.0e9);
-        let (departure, _) = compaction.tells(1.0);
+        let (departure, _) = compaction.tells(1.0, 1.0e-4);
         assert_eq!(departure, 0.3);
     }
 }

@@ -108,6 +108,8 @@ const FIRST_IN_RUNS: usize = 1;
 const RUNS: usize = MEASUREMENTS - 1 - FIRST_IN_RUNS;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
+/// The way over which a side comes to know how restless the ground is, m: about its own length, on which all of its wheels have met it.
+const ACQUAINTED_M: f64 = 1.0;
 /// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
 const STANDING: f64 = 1.5e-3;
 
@@ -121,6 +123,8 @@ pub(super) struct ContactAngleFilter<S> {
     begun: bool,
     runs: Runs<S, RUNS>,
     trends: Trends<S, 3>,
+    /// How restless the ground has been over the last way: 0 … 1.
+    acquainted: S,
     /// Variances of what the angles of the front wheel and of the bogie's drift by in a step, rad².
     drift_variances: [S; 2],
     /// The same of what the paths of the hubs turn back to the terrain by.
@@ -154,6 +158,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             begun: false,
             runs: Runs::new(),
             trends: Trends::new(),
+            acquainted: zero,
             drift_variances: [zero; 2],
             turned_back: zero,
             variances: PerAxle::all(S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE)),
@@ -212,6 +217,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// How its contact angles turn along the way.
     pub fn trends(&self) -> &Trends<S, 3> {
         &self.trends
+    }
+
+    /// By how much more restless the ground is than it has been over the last metre: 0 … 1.
+    pub fn fresh(&self) -> S {
+        let [restless, ..] = self.trends.restless();
+        (restless - self.acquainted).max(S::zero())
     }
 
     /// The motion at the mean.
@@ -372,6 +383,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             self.roughness.of_angles(bogie - rocker, self.runs.above(RUN)) + of_unlike(&self.angles(), &self.variances);
         let restless = restlessness(factor);
         self.trends.expect([restless; 3]);
+        self.acquainted += (travel * S::constant(1.0 / ACQUAINTED_M)).min(S::one()) * (restless - self.acquainted);
         let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
             let [ratio, front, middle, rear, links_and_body @ ..] = *state;

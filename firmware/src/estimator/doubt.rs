@@ -28,17 +28,18 @@ const FRONT_ANGLE_UNLIKE: f64 = 0.82;
 /// for one; as a variance it goes with these.
 const FRONT_ANGLE_FELT: f64 = 0.01;
 /// The same of the slip: what a wheel feels anew makes it slip anew.
-const SLIP: f64 = 0.89;
-const SLIP_BY_MOTION: f64 = 0.25;
-const SLIP_BY_FORCES: f64 = 0.22;
-/// Of the forces on the front hub, and on those of the bogie, with what runs of the forces add.
-const FRONT_FORCE: [f64; 2] = [0.75, 0.27];
-const BOGIE_FORCE: [f64; 2] = [0.85, 0.4];
-/// Of the torques; what of that is not true of one that is as restless as can be, since it moves rather by its trend than at random; and
-/// what runs of the forces add.
-const TORQUE: f64 = 0.87;
-const TORQUE_RESTLESS: f64 = 0.45;
-const TORQUE_BY_FORCES: f64 = 0.16;
+const SLIP: f64 = 0.88;
+const SLIP_BY_MOTION: f64 = 0.18;
+const SLIP_BY_FORCES: f64 = 0.17;
+/// The same of the front wheel, on still ground and on restless ground; of that of which the side has not known for a metre that it is
+/// restless; and what the runs add, of the forces on still ground alone.
+const FRONT_SLIP: [f64; 2] = [0.88, 0.58];
+const FRONT_SLIP_FRESH: f64 = 1.05;
+const FRONT_SLIP_BY_MOTION: f64 = 0.32;
+const FRONT_SLIP_BY_FORCES: f64 = 0.37;
+/// The same of forces and torque, as they are of the front wheel and of the bogie's.
+const FRONT: OwnDoubt = OwnDoubt { force: [0.75, 0.27], torque: [0.79, 0.48, 0.43] };
+const BOGIE: OwnDoubt = OwnDoubt { force: [0.85, 0.4], torque: [0.94, 0.56, 0.49] };
 /// One standard deviation of what a torque may have done on rough ground that its rate, learned over a short way, does not tell yet, N·m.
 const TORQUE_UNTOLD: f64 = 0.012;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
@@ -49,6 +50,15 @@ const TORQUE_LAG: f64 = 0.009;
 /// sink in ways that nothing tells.
 const ANGLE_UNTOLD: f64 = 0.003;
 
+/// What of the variances that the filters state of a wheel's forces and torque is true.
+struct OwnDoubt {
+    /// Of the forces on its hub, with what runs of the forces add.
+    force: [f64; 2],
+    /// Of a torque that is still, with what runs of the forces add; and of one that is as restless as can be, which moves rather by its
+    /// trend than at random, and of which the filter knows.
+    torque: [f64; 3],
+}
+
 /// Of one wheel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WheelDoubt<S> {
@@ -58,6 +68,8 @@ pub(super) struct WheelDoubt<S> {
     pub force: S,
     /// The same of its resistive torque.
     pub torque: S,
+    /// The same of its slip.
+    pub slip: S,
     /// Variance that lag and sinking add to that of the contact angle, rad².
     pub angle_variance: S,
     /// Variance that lag adds to the load, N².
@@ -76,6 +88,8 @@ pub(super) struct HowKnown<'a, S> {
     pub front_unlike: S,
     /// How much of what is known of the contact angles comes from the links' pitches, 0 … 1.
     pub told_by_links: S,
+    /// By how much more restless the ground is than it has been over the last metre, 0 … 1.
+    pub fresh: S,
     /// How restless the torque of each wheel is, 0 … 1.
     pub restless_torques: PerAxle<S>,
 }
@@ -85,25 +99,9 @@ pub(super) struct HowKnown<'a, S> {
 pub(super) struct Doubt<S> {
     /// Its wheels.
     pub wheels: PerAxle<WheelDoubt<S>>,
-    /// How many times what the filters state the variances of slips are.
-    pub slip: S,
 }
 
 impl<S: Scalar> Doubt<S> {
-    /// Before the first frame: all that the filters state is true.
-    pub fn none() -> Self {
-        let (zero, one) = (S::zero(), S::one());
-        let wheel = WheelDoubt {
-            angle: one,
-            force: one,
-            torque: one,
-            angle_variance: zero,
-            load_variance: zero,
-            torque_variance: zero,
-        };
-        Self { wheels: PerAxle::all(wheel), slip: one }
-    }
-
     /// What the runs of how a side moves and of its forces tell, and the trends of its contact angles.
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn of<const N: usize, const M: usize>(
@@ -118,14 +116,18 @@ impl<S: Scalar> Doubt<S> {
         // The same of all three: the ground's.
         let [rough, ..] = trends.restless();
         let dug = constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * known.told_by_links;
-        let of_torque = constant(TORQUE) + constant(TORQUE_BY_FORCES) * forces;
-        let wheel = |trend: S, restless_torque: S, [angle, met]: [S; 2], [force, by_forces]: [f64; 2]| {
+        let one = S::one();
+        let wheel = |trend: S, restless_torque: S, [angle, met]: [S; 2], slip: S, own: &OwnDoubt| {
+            let [force, by_forces] = own.force;
+            let [torque, torque_by_forces, torque_restless] = own.torque.map(constant);
             let lag = |length: f64| constant(length * length) * trend * trend;
             let unseen = |std: f64| constant(std * std) * rough;
             WheelDoubt {
                 angle,
                 force: constant(force) + constant(by_forces) * forces,
-                torque: of_torque - constant(TORQUE_RESTLESS) * restless_torque,
+                torque: (one - restless_torque) * (torque + torque_by_forces * forces)
+                    + restless_torque * torque_restless,
+                slip,
                 angle_variance: lag(ANGLE_LAG) + unseen(ANGLE_UNTOLD) + dug + met,
                 load_variance: lag(LOAD_LAG),
                 torque_variance: lag(TORQUE_LAG) + unseen(TORQUE_UNTOLD),
@@ -137,16 +139,21 @@ impl<S: Scalar> Doubt<S> {
         let [of_front, of_bogie] = *known.still;
         let of_front =
             true_of(constant(FRONT_ANGLE_STILL) * of_front, FRONT_ANGLE) + constant(FRONT_ANGLE_BY_MOTION) * of_motion;
-        let met = constant(FRONT_ANGLE_UNLIKE) * (S::one() - rough) * known.front_unlike
+        let met = constant(FRONT_ANGLE_UNLIKE) * (one - rough) * known.front_unlike
             + constant(FRONT_ANGLE_FELT * FRONT_ANGLE_FELT) * felt;
+        let slip = constant(SLIP) + constant(SLIP_BY_MOTION) * motion + constant(SLIP_BY_FORCES) * forces;
+        let [still, restless] = FRONT_SLIP;
+        let front_slip = true_of(constant(still), restless)
+            + constant(FRONT_SLIP_FRESH) * known.fresh
+            + constant(FRONT_SLIP_BY_MOTION) * motion
+            + (one - rough) * constant(FRONT_SLIP_BY_FORCES) * forces;
         let of_bogie = [true_of(of_bogie, BOGIE_ANGLE), S::zero()];
         Self {
             wheels: PerAxle {
-                front: wheel(front, torques.front, [of_front, met], FRONT_FORCE),
-                middle: wheel(middle, torques.middle, of_bogie, BOGIE_FORCE),
-                rear: wheel(rear, torques.rear, of_bogie, BOGIE_FORCE),
+                front: wheel(front, torques.front, [of_front, met], front_slip, &FRONT),
+                middle: wheel(middle, torques.middle, of_bogie, slip, &BOGIE),
+                rear: wheel(rear, torques.rear, of_bogie, slip, &BOGIE),
             },
-            slip: constant(SLIP) + constant(SLIP_BY_MOTION) * motion + constant(SLIP_BY_FORCES) * forces,
         }
     }
 }
@@ -160,8 +167,13 @@ mod tests {
     }
 
     fn doubt_of_unlike(front_unlike: f64, trends: &Trends<f64, 3>) -> Doubt<f64> {
-        let known =
-            HowKnown { still: &[0.7; 2], front_unlike, told_by_links: 0.0, restless_torques: PerAxle::all(0.0) };
+        let known = HowKnown {
+            still: &[0.7; 2],
+            front_unlike,
+            told_by_links: 0.0,
+            fresh: 0.0,
+            restless_torques: PerAxle::all(0.0),
+        };
         Doubt::of(&Runs::<f64, 3>::new(), &Runs::<f64, 5>::new(), trends, &known)
     }
 

@@ -63,20 +63,20 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// What is known of the side now, with such forces on its hubs.
     pub fn estimate(&self, forces: &HubForces<S>) -> SideEstimate {
-        let doubt = &self.doubt;
+        let doubt = self.doubt();
         let PerAxle { front, middle, rear } = self.contacts(forces);
         let sum = middle.pull_n + rear.pull_n;
         let half = S::constant(0.5);
         let by_load = DrawbarSplit::by_load_n(middle.load_n, rear.load_n, sum);
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
-        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, doubt, &middle, &rear);
+        let bogie_drawbar_pull_n = self.sum_of_pulls(forces, &doubt, &middle, &rear);
         let contacts = PerAxle { front, middle, rear };
         let filters = self.wheels.as_ref().zip(self.activity);
         let wheels = contacts.zip(by_load).zip(filters.zip(doubt.wheels)).zip(self.lifted()).map(
             |(((contact, by_load), ((filter, activity), of_wheel)), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
-                    ..self.wheel(forces, (doubt.slip, &of_wheel), &contact, filter, activity)
+                    ..self.wheel(forces, &of_wheel, &contact, filter, activity)
                 };
                 if lifted { in_the_air(&wheel) } else { wheel }
             },
@@ -88,9 +88,9 @@ impl<S: Scalar> SideEstimator<S> {
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
         let entry =
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
-        let doubt = &self.doubt;
+        let doubt = self.doubt();
         self.contacts(forces).zip(self.wheels.as_ref()).zip(doubt.wheels).map(|((contact, filter), of_wheel)| {
-            let (slip, torque) = (doubt.slip, of_wheel.torque);
+            let (slip, torque) = (of_wheel.slip, of_wheel.torque);
             let both = (torque * slip).sqrt();
             WheelCovariance {
                 torque_slip: [
@@ -105,7 +105,7 @@ impl<S: Scalar> SideEstimator<S> {
     fn wheel(
         &self,
         forces: &HubForces<S>,
-        (doubt_of_slip, of_wheel): (S, &WheelDoubt<S>),
+        of_wheel: &WheelDoubt<S>,
         contact: &ContactForces<S>,
         filter: &SlipTorqueFilter<S>,
         activity: WheelActivity,
@@ -114,7 +114,7 @@ impl<S: Scalar> SideEstimator<S> {
         let [_, torque, slip] = *filter.estimate().mean();
         let [_, torque_variance, slip_variance] = filter.estimate().variances();
         let torque_std = (of_wheel.torque * torque_variance + of_wheel.torque_variance).sqrt();
-        let slip_std = (doubt_of_slip * slip_variance).sqrt();
+        let slip_std = (of_wheel.slip * slip_variance).sqrt();
         let normal_load_n = published(contact.load_n, load_std);
         let [_, split_std] = contact.by_split;
         WheelEstimate {

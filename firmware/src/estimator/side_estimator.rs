@@ -76,8 +76,6 @@ pub(super) struct SideEstimator<S> {
     pub(super) compaction: [Compaction<S>; 2],
     /// What these tell of the contact angles.
     pub(super) corrections: PerAxle<Correction<S>>,
-    /// How well all is known after the last frame.
-    pub(super) doubt: Doubt<S>,
     told: SideInnovations<S>,
 }
 
@@ -125,7 +123,6 @@ impl<S: Scalar> SideEstimator<S> {
             sinking: Sinking::new(&scale),
             compaction: [Compaction::new(); 2],
             corrections: PerAxle::all(Correction::none()),
-            doubt: Doubt::none(),
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -173,16 +170,18 @@ impl<S: Scalar> SideEstimator<S> {
         let loads = self.forces.beyond_rest_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
         let travel_m = self.speed_m_s() * step_s;
         self.sinking.follow(travel_m, &loads);
-        self.doubt = self.doubt();
         self.follow_compaction(travel_m);
         surprises
     }
 
-    fn doubt(&self) -> Doubt<S> {
+    /// How well all is known after the last frame. Worked out where it is wanted: memory is scarcer than the time of that.
+    #[inline(never)]
+    pub(super) fn doubt(&self) -> Doubt<S> {
         let known = HowKnown {
             still: self.angles.still(),
             front_unlike: self.angles.front_unlike(),
             told_by_links: self.digging_in.told_by_links(),
+            fresh: self.angles.fresh(),
             restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
         };
         Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
@@ -364,6 +363,7 @@ impl<S: Scalar> SideEstimator<S> {
     }
 
     /// The wheels along their contacts, with such forces on the hubs and the paths of these corrected.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn on_ground(
         &self,
         forces: &PerAxle<Planar<S>>,

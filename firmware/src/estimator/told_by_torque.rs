@@ -1,18 +1,26 @@
 //! What the torques of a side tell of its contact angles, by what of them compacts the soil.
 
-use super::compaction::{Compaction, Correction, Known};
+use super::compaction::{Compaction, Correction, Known, Together};
 use super::doubt::WheelDoubt;
 use super::estimate::WheelActivity;
 use super::side_estimator::{HubOnGround, SideEstimator};
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
+/// One standard deviation of how far the share of the rim force that compacts the soil departs from its mean on one soil: of the front
+/// wheel, and of a bogie's two, of which each has its own noise.
+const FRONT_SHARE: f64 = 0.015;
+const BOGIE_SHARE: f64 = 0.011;
+
 impl<S: Scalar> SideEstimator<S> {
-    /// Follows what compacts the soil under the front wheel and under the bogie's, while they roll and bear loads.
+    /// Follows what compacts the soil under the front wheel and under the bogie's, while they roll and bear loads. Where they dig in, more
+    /// and more of the soil is compacted: then the links tell the angles.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn follow_compaction(&mut self, travel_m: S) {
         let hubs = self.on_ground(&self.forces.forces_n(), &PerAxle::all(Correction::none()));
+        let settled = !self.swings && self.digging_in.told_by_links() == S::zero();
         let rolls = self.activity.zip(self.unsettled).zip(self.lifted()).map(|((activity, unsettled), lifted)| {
-            activity == WheelActivity::Rolling && unsettled == 0 && !lifted && !self.swings
+            activity == WheelActivity::Rolling && unsettled == 0 && !lifted && settled
         });
         let [of_front, of_bogie] = &mut self.compaction;
         follow(of_front, travel_m, rolls.front, &[&hubs.front]);
@@ -26,7 +34,7 @@ impl<S: Scalar> SideEstimator<S> {
         let [_, front, middle, rear, ..] = estimate.variances();
         let both = estimate.covariance(2, 3).unwrap_or(S::zero());
         let truly = |variance: S, doubt: &WheelDoubt<S>| doubt.angle * variance + doubt.angle_variance;
-        let doubt = &self.doubt.wheels;
+        let doubt = self.doubt().wheels;
         let (front, middle, rear) =
             (truly(front, &doubt.front), truly(middle, &doubt.middle), truly(rear, &doubt.rear));
         let both = doubt.middle.angle * both;
@@ -35,17 +43,24 @@ impl<S: Scalar> SideEstimator<S> {
         let (by_middle, by_rear) = (loads.middle / load_n, loads.rear / load_n);
         let known_middle = Known { variance: middle, with_mean: by_middle * middle + by_rear * both };
         let known_rear = Known { variance: rear, with_mean: by_middle * both + by_rear * rear };
-        let of_mean = by_middle * known_middle.with_mean + by_rear * known_rear.with_mean;
-        let of_bogie = |known: &Known<S>| known.corrected(of_bogie, of_mean, S::constant(2.0), load_n);
+        let departs = |spread: f64| S::constant(spread * spread);
+        let alone = Together { wheels: S::one(), load_n: loads.front, variance: front, departs: departs(FRONT_SHARE) };
+        let bogie = Together {
+            wheels: S::constant(2.0),
+            load_n,
+            variance: by_middle * known_middle.with_mean + by_rear * known_rear.with_mean,
+            departs: departs(BOGIE_SHARE),
+        };
         PerAxle {
-            front: Known { variance: front, with_mean: front }.corrected(of_front, front, S::one(), loads.front),
-            middle: of_bogie(&known_middle),
-            rear: of_bogie(&known_rear),
+            front: Known { variance: front, with_mean: front }.corrected(of_front, &alone),
+            middle: known_middle.corrected(of_bogie, &bogie),
+            rear: known_rear.corrected(of_bogie, &bogie),
         }
     }
 }
 
 /// Takes what compacts the soil under some wheels together, if all of them roll.
+#[inline(never)] // flash is scarcer than the time of a call
 fn follow<S: Scalar>(compaction: &mut Compaction<S>, travel_m: S, rolls: bool, hubs: &[&HubOnGround<S>]) {
     if !rolls {
         return compaction.forget();
