@@ -38,8 +38,8 @@ const FRONT_SLIP_FRESH: f64 = 1.05;
 const FRONT_SLIP_BY_MOTION: f64 = 0.32;
 const FRONT_SLIP_BY_FORCES: f64 = 0.37;
 /// The same of forces and torque, as they are of the front wheel and of the bogie's.
-const FRONT: OwnDoubt = OwnDoubt { force: [0.75, 0.27], torque: [0.79, 0.48, 0.43] };
-const BOGIE: OwnDoubt = OwnDoubt { force: [0.85, 0.4], torque: [0.94, 0.56, 0.49] };
+const FRONT: OwnDoubt = OwnDoubt { force: [0.75, 0.27], torque: [0.75, 0.48, 0.42] };
+const BOGIE: OwnDoubt = OwnDoubt { force: [0.85, 0.4], torque: [0.89, 0.56, 0.47] };
 /// One standard deviation of what a torque may have done on rough ground that its rate, learned over a short way, does not tell yet, N·m.
 const TORQUE_UNTOLD: f64 = 0.012;
 /// How far an angle lags behind one that turns, rad for each rad/m; so a load, N, and a torque, N·m.
