@@ -34,8 +34,9 @@ impl<S: Scalar> Compaction<S> {
         self.way_m = S::zero();
     }
 
-    /// Takes the share after so much travel, m, more than none.
+    /// Takes the share after so much travel, m, more than none. No soil's is beyond one; that of a load near nothing may be anything.
     pub fn follow(&mut self, travel_m: S, share: S) {
+        let share = share.max(-S::one()).min(S::one());
         if self.way_m == S::zero() {
             self.mean = share;
         }
@@ -167,7 +168,7 @@ mod tests {
     fn an_absurd_share_tells_little() {
         let mut compaction = Compaction::<f64>::new();
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
-        compaction.follow(0.002, 1.0e9);
+        compaction.follow(0.002, f64::INFINITY);
         let (departure, _) = compaction.tells(1.0, 1.0e-4);
         assert_eq!(departure, 0.3);
     }
