@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::example::Example;
 use super::loss::{Loss, gaussian};
+use super::moments::Moments;
 use super::trainable::{Trainable, change_each, flatten, parameter_count, sum_of_losses};
 
 /// Parts of a mini-batch that are summed by themselves, so that the result does not depend on the number of cores.
@@ -38,11 +39,9 @@ impl Momentum {
     }
 }
 
-/// Step sizes by the first two moments of the gradient (Kingma & Ba 2015).
+/// Back-propagation with the step sizes of [`Moments`].
 pub struct Adam {
-    first: Vec<f32>,
-    second: Vec<f32>,
-    step: i32,
+    moments: Moments,
     loss: Loss,
 }
 
@@ -54,23 +53,13 @@ impl Adam {
 
     /// For a network of that shape, on another loss.
     pub fn with_loss<N: Trainable>(network: &N, loss: Loss) -> Self {
-        let count = parameter_count(network);
-        Self { first: vec![0.0; count], second: vec![0.0; count], step: 0, loss }
+        Self { moments: Moments::new(network), loss }
     }
 
     /// One step on a mini-batch; returns its mean loss before the step.
     pub fn step<N: Trainable>(&mut self, network: &mut N, batch: &[Example<N::Input>], rate: f32) -> f32 {
         let (loss, gradient) = mean_gradient(network, batch, self.loss);
-        self.step += 1;
-        let (decay_1, decay_2) = (0.9_f32, 0.999_f32);
-        let bias_1 = 1.0 - decay_1.powi(self.step);
-        let bias_2 = 1.0 - decay_2.powi(self.step);
-        let slopes = flatten(&gradient);
-        change_each(network, slopes.iter().zip(&mut self.first).zip(&mut self.second), |weight, ((g, m), v)| {
-            *m = decay_1 * *m + (1.0 - decay_1) * g;
-            *v = decay_2 * *v + (1.0 - decay_2) * g * g;
-            *weight -= rate * (*m / bias_1) / ((*v / bias_2).sqrt() + 1e-8);
-        });
+        self.moments.step(network, &flatten(&gradient), rate);
         loss
     }
 }

@@ -77,7 +77,7 @@ pub fn change_each<N: Words, V>(
 }
 
 /// One list of each example's numbers as lanes; zero where there is no example.
-pub(super) fn in_lanes<'a, const N: usize>(lists: impl Iterator<Item = &'a [f32; N]>) -> [Lane; N] {
+pub fn in_lanes<'a, const N: usize>(lists: impl Iterator<Item = &'a [f32; N]>) -> [Lane; N] {
     let mut lanes = [ZERO; N];
     for (place, list) in lists.enumerate() {
         lanes.iter_mut().zip(list).for_each(|(lane, number)| lane[place] = *number);
