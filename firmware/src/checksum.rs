@@ -19,8 +19,13 @@ impl Checksum {
         bytes.iter().for_each(|byte| self.add_byte(*byte));
     }
 
-    /// By itself: the walk over a table calls it at each of its fields, and the bits of many bytes, unrolled, were as long as the table of
-    /// steps.
+    /// Of the bytes of this word too, the least significant first. By itself: the walk over a table calls it at each of its fields.
+    #[inline(never)]
+    pub fn add_word(&mut self, word: u32) {
+        self.add(&word.to_le_bytes());
+    }
+
+    /// By itself: the bits of many bytes, unrolled, were as long as the table of steps.
     #[inline(never)]
     fn add_byte(&mut self, byte: u8) {
         self.0.update(&[byte]);

@@ -64,8 +64,8 @@ impl Differences {
 /// The differences over a drive, in the order of [`QUANTITIES`].
 fn differences(scenario: Scenario, seed: u64) -> [Differences; 6] {
     let rover = Rover::<f32>::assumed();
-    let mut single = RoverEstimator::<f32>::new(&rover).expect("a rover");
-    let mut double = RoverEstimator::<f64>::new(&rover.map(f64::from)).expect("a rover");
+    let mut single = RoverEstimator::<f32>::new(&rover);
+    let mut double = RoverEstimator::<f64>::new(&rover.map(f64::from));
     let mut differences = [Differences::default(); 6];
     for frame in frames(scenario, seed) {
         let _ = (single.tick(&frame), double.tick(&frame));

@@ -60,7 +60,7 @@ fn failed_updates(estimator: &RoverEstimator<f32>) -> u32 {
         let wheels = side.wheels.as_array().into_iter().filter(|told| told.fusion == Fusion::Reset).count();
         wheels + usize::from(side.angles.fusion == Fusion::Reset) + usize::from(side.forces.fusion == Fusion::Reset)
     };
-    let PerSide { left, right } = estimator.innovations();
+    let PerSide { left, right } = estimator.innovations().expect("it has begun");
     (of_side(left) + of_side(right)) as u32
 }
 
@@ -69,7 +69,7 @@ fn a_million_frames_end_in_numbers_and_no_failure_is_kept_quiet() {
     let rover = Rover::<f32>::assumed();
     let drive = Traverse::new(Scenario::StartStop, 40, &Rover::assumed(), &Options::default()).expect("a drive");
     let recorded: Vec<SensorFrame> = drive.run().expect("frames").into_iter().map(|(frame, _)| frame).collect();
-    let mut estimator = RoverEstimator::new(&rover).expect("a rover");
+    let mut estimator = RoverEstimator::new(&rover);
     let mut noise = Noise::new(&rover);
     let mut seen = 0;
     for (index, frame) in recorded.iter().cycle().take(FRAMES).enumerate() {

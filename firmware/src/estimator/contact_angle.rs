@@ -8,11 +8,11 @@
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
-use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, front_unlike, of_front_alone, of_unlike};
+use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_front_alone, of_unlike};
 use super::runs::Runs;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gate, Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::filter::{Gate, Gaussian, Innovation, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
 use crate::scalar::Scalar;
 
@@ -108,8 +108,6 @@ const FIRST_IN_RUNS: usize = 1;
 const RUNS: usize = MEASUREMENTS - 1 - FIRST_IN_RUNS;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
-/// The way over which a side comes to know how restless the ground is, m: about its own length, on which all of its wheels have met it.
-const ACQUAINTED_M: f64 = 1.0;
 /// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
 const STANDING: f64 = 1.5e-3;
 
@@ -123,23 +121,20 @@ pub(super) struct ContactAngleFilter<S> {
     begun: bool,
     runs: Runs<S, RUNS>,
     trends: Trends<S, 3>,
-    /// How restless the ground has been over the last way: 0 … 1.
-    acquainted: S,
     /// Variances of what the angles of the front wheel and of the bogie's drift by in a step, rad².
     drift_variances: [S; 2],
     /// The same of what the paths of the hubs turn back to the terrain by.
     turned_back: S,
     /// Variances of the angles after the last frame, rad².
     variances: PerAxle<S>,
-    /// See [`Self::still`].
-    still: [S; 2],
     /// Of each hub's speed against that of the axis, in the states; over the speed of the side.
     speed_slopes: PerAxle<[S; STATES]>,
 }
 
 impl<S: Scalar> ContactAngleFilter<S> {
     /// A filter that knows nothing but that the rover stands more or less level.
-    pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn new(rover: &Rover<S>, phase: usize) -> Self {
         let side = RollingSide::new(rover);
         let (zero, one) = (S::zero(), S::one());
         let model = ContactAngleModel {
@@ -149,23 +144,20 @@ impl<S: Scalar> ContactAngleFilter<S> {
             body_rate_rad_s: zero,
             sinking_rad: PerAxle::all(zero),
         };
-        let level = Gaussian::independent([one, zero, zero, zero, zero, zero, zero], Self::unknown_std())?;
-        Ok(Self {
-            filter: SigmaPointFilter::new(level, Self::unknown_std())?,
+        Self {
+            filter: SigmaPointFilter::unknowing([one, zero, zero, zero, zero, zero, zero], Self::unknown_std()),
             model,
             roughness: Roughness::new(phase),
             watch: Watch::default(),
             begun: false,
             runs: Runs::new(),
             trends: Trends::new(),
-            acquainted: zero,
             drift_variances: [zero; 2],
             turned_back: zero,
             variances: PerAxle::all(S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE)),
-            still: [one; 2],
             speed_slopes: hub_speed_slopes(rover)
                 .map(|PerAxle { front, middle, rear }| [zero, front, middle, rear, zero, zero, zero]),
-        })
+        }
     }
 
     fn unknown_std() -> [S; STATES] {
@@ -219,12 +211,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
         &self.trends
     }
 
-    /// By how much more restless the ground is than it has been over the last metre: 0 … 1.
-    pub fn fresh(&self) -> S {
-        let [restless, ..] = self.trends.restless();
-        (restless - self.acquainted).max(S::zero())
-    }
-
     /// The motion at the mean.
     pub fn motion(&self) -> RollingMotion<S> {
         self.model.motion(self.filter.estimate().mean())
@@ -233,7 +219,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// What the errors of the contact angles make of the hubs' speeds against that of the axis, of a side at this speed, as
     /// variances, m²/s².
     pub fn hub_speed_variances(&self, speed_m_s: S) -> PerAxle<S> {
-        self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().weighted_sum(&slopes).1)
+        self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().variance_of_sum(&slopes))
     }
 
     /// By how much the paths of the hubs are steeper than their links lie, rad: the mean, and the mean of the squares less what their
@@ -258,17 +244,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// The wheels have dug in: how the links moved meanwhile tells nothing of how rough the terrain is.
     pub fn settle(&mut self) {
         self.roughness.restart();
-    }
-
-    /// Of the variance of the front wheel's contact angle, and of those of the bogie's, what would be true of angles that have not drifted
-    /// at all.
-    pub fn still(&self) -> &[S; 2] {
-        &self.still
-    }
-
-    /// See [`front_unlike`].
-    pub fn front_unlike(&self) -> S {
-        front_unlike(&self.angles(), &self.variances)
     }
 
     /// How often the filter fell back to its floor, and how often it gave up what it believed.
@@ -329,7 +304,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         if loosened.is_none() {
             self.follow_trends(step_s, &before, &variances);
         }
-        self.follow_still(&variances);
+        self.variances = variances;
+        self.turned_back = S::zero();
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
@@ -347,20 +323,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let moved = self.angles().zip(*before).zip(*variances);
         let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
         self.trends.follow(self.travel_m(step_s), &moved.into_array());
-    }
-
-    /// Of an angle that stays what it is, while the filter thinks that it drifts by q in a frame, an update leaves the error
-    /// (1 − k)² ρ P + k² R where P is stated before and (1 − k) (P + q) after it.
-    #[inline(never)] // flash is scarcer than the time of a call
-    fn follow_still(&mut self, variances: &PerAxle<S>) {
-        let truly = core::mem::replace(&mut self.turned_back, S::zero());
-        let before = core::mem::replace(&mut self.variances, *variances);
-        let angles = [(before.front, variances.front), (before.rear, variances.rear)];
-        for ((still, drift), (before, now)) in self.still.iter_mut().zip(self.drift_variances).zip(angles) {
-            let expected = before + truly + drift;
-            let kept = (now / expected).min(S::one());
-            *still = S::one() - kept + kept * (*still * before + truly) / expected;
-        }
     }
 
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a
@@ -383,7 +345,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
             self.roughness.of_angles(bogie - rocker, self.runs.above(RUN)) + of_unlike(&self.angles(), &self.variances);
         let restless = restlessness(factor);
         self.trends.expect([restless; 3]);
-        self.acquainted += (travel * S::constant(1.0 / ACQUAINTED_M)).min(S::one()) * (restless - self.acquainted);
         let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
         let process = |state: &[S; STATES]| {
             let [ratio, front, middle, rear, links_and_body @ ..] = *state;

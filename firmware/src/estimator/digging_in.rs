@@ -65,6 +65,11 @@ impl<S: Scalar> DiggingIn<S> {
         self.told_by_links
     }
 
+    /// By what variance the contact angles err meanwhile, rad².
+    pub fn angle_variance(&self) -> S {
+        S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * self.told_by_links
+    }
+
     /// Lets wheels dig in that have stood: the path of a hub comes back to the terrain as it travels, and so drifts against it.
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn follow(&mut self, rolled: &Rolled<S>, angles: &mut ContactAngleFilter<S>) {
@@ -120,7 +125,7 @@ mod tests {
     #[test]
     fn wheels_dig_in_by_travel() {
         let rover = Rover::<f64>::assumed();
-        let mut angles = ContactAngleFilter::new(&rover, 0).expect("a rover");
+        let mut angles = ContactAngleFilter::new(&rover, 0);
         let mut digging = DiggingIn::new(&Scale::of(&rover));
         let rolled = Rolled { stands: false, speed_m_s: 0.01, rim_speed_m_s: 0.01, step_s: 0.001 };
         digging.follow(&rolled, &mut angles);

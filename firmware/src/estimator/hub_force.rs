@@ -19,7 +19,7 @@ use super::slip_torque::TORQUE_DRIFT_NM;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gaussian, Innovation, InvalidNumber, SigmaPointFilter};
+use crate::filter::{Gaussian, Innovation, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, Rover, Suspension};
 use crate::scalar::Scalar;
 
@@ -162,14 +162,14 @@ pub(super) struct HubForceFilter<S> {
 
 impl<S: Scalar> HubForceFilter<S> {
     /// A filter that knows the rover's weight.
-    pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn new(rover: &Rover<S>, phase: usize) -> Self {
         let weight = rover.mass_kg * rover.gravity_m_s2;
         let unknown_n = weight * S::constant(UNKNOWN_SHARE);
-        let estimate = Gaussian::independent([S::zero(); STATES], [unknown_n; STATES])?;
         let model = HubForceModel::new(&rover.suspension, (S::zero(), S::one()));
         let at_rest_n = rover.load_at_rest_n();
-        Ok(Self {
-            filter: SigmaPointFilter::new(estimate, [unknown_n; STATES])?,
+        Self {
+            filter: SigmaPointFilter::unknowing([S::zero(); STATES], [unknown_n; STATES]),
             at_rest_n,
             at_rest_nm: model.moments_of(at_rest_n),
             model,
@@ -181,7 +181,7 @@ impl<S: Scalar> HubForceFilter<S> {
             watch: Watch::default(),
             runs: Runs::new(),
             trends: Trends::new(),
-        })
+        }
     }
 
     /// What is known of the state, less [`Self::at_rest_n`] of the cells' forces.

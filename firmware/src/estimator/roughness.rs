@@ -64,12 +64,6 @@ pub(super) fn of_front_alone<S: Scalar>(angles: &PerAxle<S>, variances: &PerAxle
     (S::constant(1.0 / (ALONE_LENGTH * ANGLE_DRIFT * ANGLE_DRIFT)) * alone).min(S::constant(MOST_BY_FRONT_ALONE))
 }
 
-/// By how much the front wheel's angle differs from that of the wheel behind, squared, up to twice what their errors make of it, rad².
-pub(super) fn front_unlike<S: Scalar>(angles: &PerAxle<S>, variances: &PerAxle<S>) -> S {
-    let difference = angles.front - angles.middle;
-    (difference * difference).min(S::constant(2.0) * (variances.front + variances.middle))
-}
-
 /// How fast what is measured of a side's motion wanders.
 #[derive(Debug, Clone)]
 pub(super) struct Roughness<S> {

@@ -3,13 +3,11 @@
 use super::attitude::Attitude;
 use super::estimate::SideEstimate;
 use super::health::{EstimatorHealth, PerSensor, SensorHealth};
-use super::hub_force;
 use super::sensor_gate::{SensorGates, count};
-use super::side_estimate::WheelCovariance;
+use super::side_estimate::{Believed, HubForces, WheelCovariance};
 use super::side_estimator::{SideEstimator, SideFrame, SideInnovations};
 use super::surprise::Surprises;
 use super::whole_balance::balanced;
-use crate::filter::{Gaussian, InvalidNumber};
 use crate::rover::{PerSide, PerWheel, Rover, Side};
 use crate::scalar::Scalar;
 use crate::sensor_frame::SensorFrame;
@@ -24,14 +22,36 @@ const PHASES: PerSide<usize> = PerSide { left: 0, right: 3 };
 /// The estimators of a rover.
 #[derive(Debug, Clone)]
 pub struct RoverEstimator<S> {
+    common: Common<S>,
+    /// None until it has begun.
+    sides: PerSide<Option<SideEstimator<S>>>,
+}
+
+/// What is known of the rover as a whole.
+#[derive(Debug, Clone)]
+struct Common<S> {
     rover: Rover<S>,
     gates: SensorGates,
     attitude: Attitude<S>,
-    sides: PerSide<SideEstimator<S>>,
     health: EstimatorHealth,
     troubles_before: (u32, u32),
     last_time_us: Option<u64>,
     from_the_past: u8,
+}
+
+impl<S: Scalar> Common<S> {
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn new(rover: &Rover<S>) -> Self {
+        Self {
+            rover: *rover,
+            gates: SensorGates::new(&rover.map(Scalar::to_f32)),
+            attitude: Attitude::new(rover.gravity_m_s2),
+            health: EstimatorHealth::default(),
+            troubles_before: (0, 0),
+            last_time_us: None,
+            from_the_past: 0,
+        }
+    }
 }
 
 /// What became of a frame.
@@ -45,128 +65,113 @@ pub enum Taken {
 
 impl<S: Scalar> RoverEstimator<S> {
     /// Estimators for a rover that was just switched on. The `flight` rover has the same numbers in single precision; the
-    /// gates compare readings as they come.
-    ///
-    /// # Errors
-    /// Where a number of the rover is not finite.
-    pub fn new(rover: &Rover<S>) -> Result<Self, InvalidNumber> {
-        Ok(Self {
-            rover: *rover,
-            gates: SensorGates::new(&rover.map(Scalar::to_f32)),
-            attitude: Attitude::new(rover.gravity_m_s2),
-            sides: PerSide {
-                left: SideEstimator::new(rover, Side::Left, PHASES.left)?,
-                right: SideEstimator::new(rover, Side::Right, PHASES.right)?,
-            },
-            health: EstimatorHealth::default(),
-            troubles_before: (0, 0),
-            last_time_us: None,
-            from_the_past: 0,
-        })
+    /// gates compare readings as they come. For a rover that passes [`Rover::check`]; of another, estimates mean nothing.
+    pub fn new(rover: &Rover<S>) -> Self {
+        let mut estimator = Self::not_begun(rover);
+        estimator.restart(rover);
+        estimator
     }
 
-    /// Starts anew, for another rover, where this one is: two estimators do not fit on the stack.
-    ///
-    /// # Errors
-    /// Where a number of the rover is not finite. Then nothing has changed.
-    pub fn restart(&mut self, rover: &Rover<S>) -> Result<(), InvalidNumber> {
-        self.start_sides(rover)?;
-        self.rover = *rover;
-        self.gates = SensorGates::new(&rover.map(Scalar::to_f32));
-        self.attitude = Attitude::new(rover.gravity_m_s2);
-        self.health = EstimatorHealth::default();
-        self.troubles_before = (0, 0);
-        self.last_time_us = None;
-        self.from_the_past = 0;
-        Ok(())
+    /// Estimators that take no frame until [`Self::restart`]: what is large about them is made where it stays, for two do not fit on the
+    /// stack.
+    pub fn not_begun(rover: &Rover<S>) -> Self {
+        Self { common: Common::new(rover), sides: PerSide { left: None, right: None } }
     }
 
-    fn start_sides(&mut self, rover: &Rover<S>) -> Result<(), InvalidNumber> {
-        start_side(&mut self.sides.left, rover, Side::Left)?;
-        // The same numbers.
-        start_side(&mut self.sides.right, rover, Side::Right)
+    /// Starts anew, for another rover, where this one is.
+    pub fn restart(&mut self, rover: &Rover<S>) {
+        self.start_sides(rover);
+        self.common = Common::new(rover);
+    }
+
+    fn start_sides(&mut self, rover: &Rover<S>) {
+        start_side(&mut self.sides.left, rover, Side::Left);
+        start_side(&mut self.sides.right, rover, Side::Right);
     }
 
     /// Takes a frame.
     pub fn tick(&mut self, frame: &SensorFrame) -> Taken {
         let Some(step_s) = self.step_s(frame.time_us) else { return Taken::LeftOut };
-        self.health.frames = self.health.frames.saturating_add(1);
-        let readings = self.gates.admit(frame.readings(), &mut self.health.sensors);
+        let PerSide { left: Some(left_side), right: Some(right_side) } = &mut self.sides else { return Taken::LeftOut };
+        self.common.health.frames = self.common.health.frames.saturating_add(1);
+        let readings = self.common.gates.admit(frame.readings(), &mut self.common.health.sensors);
         let readings = readings.map(|reading| reading.map(S::from_f32));
-        if self.attitude.tick(readings.accel, readings.gyro, step_s, &self.rover.noise) {
-            let accel = &mut self.health.sensors.accel;
+        if self.common.attitude.tick(readings.accel, readings.gyro, step_s, &self.common.rover.noise) {
+            let accel = &mut self.common.health.sensors.accel;
             [&mut accel.x, &mut accel.z].into_iter().for_each(|sensor| count(&mut sensor.surprising));
         }
-        let left = self.sides.left.tick(step_s, &side_frame(&readings, Side::Left), &self.attitude);
-        let right = self.sides.right.tick(step_s, &side_frame(&readings, Side::Right), &self.attitude);
-        note_surprises(&mut self.health.sensors, &PerSide { left, right });
+        let left = left_side.tick(step_s, &side_frame(&readings, Side::Left), &self.common.attitude);
+        let right = right_side.tick(step_s, &side_frame(&readings, Side::Right), &self.common.attitude);
+        let travel_m = S::constant(0.5) * (left_side.speed_m_s() + right_side.speed_m_s()) * step_s;
+        note_surprises(&mut self.common.health.sensors, &PerSide { left, right });
         self.note_troubles();
-        Taken::Used(self.travel_m(step_s).to_f32())
+        Taken::Used(travel_m.to_f32())
     }
 
-    fn travel_m(&self, step_s: S) -> S {
-        let PerSide { left, right } = self.sides.as_ref().map(SideEstimator::speed_m_s);
-        S::constant(0.5) * (left + right) * step_s
-    }
-
-    /// What is known of the sides.
+    /// What is known of the sides; of those that have not begun, nothing.
     pub fn estimate(&self) -> PerSide<SideEstimate> {
-        let forces = self.balanced();
-        self.sides.as_ref().zip(forces).map(|(side, forces)| side.estimate(&forces))
+        self.of_sides(SideEstimator::estimate).unwrap_or_default()
     }
 
     /// How the errors of each wheel's estimates belong together.
-    pub fn covariances(&self) -> PerWheel<WheelCovariance<S>> {
-        let forces = self.balanced();
-        self.sides.as_ref().zip(forces).map(|(side, forces)| side.covariances(&forces))
+    pub fn covariances(&self) -> Option<PerWheel<WheelCovariance<S>>> {
+        self.of_sides(SideEstimator::covariances)
     }
 
-    /// The forces on the hubs of both sides, as they hold the rover together.
-    fn balanced(&self) -> PerSide<Gaussian<S, { hub_force::STATES }>> {
-        let sides = self.sides.as_ref().map(SideEstimator::forces);
-        let steady = self.sides.as_array().into_iter().all(SideEstimator::is_steady);
-        balanced(&self.rover, &self.attitude, steady, &sides)
+    /// What the filters state of their errors, which [`Self::covariances`] does not take as it is.
+    pub fn believed(&self) -> Option<PerSide<Believed<S>>> {
+        self.of_sides(SideEstimator::believed)
+    }
+
+    /// Of both sides, with the forces on their hubs as they hold the rover together.
+    fn of_sides<U>(&self, of: impl Fn(&SideEstimator<S>, &HubForces<S>) -> U) -> Option<PerSide<U>> {
+        let PerSide { left: Some(left), right: Some(right) } = &self.sides else { return None };
+        let sides = PerSide { left, right };
+        let steady = left.is_steady() && right.is_steady();
+        let forces = balanced(&self.common.rover, &self.common.attitude, steady, &sides.map(SideEstimator::forces));
+        Some(sides.zip(forces).map(|(side, forces)| of(side, &forces)))
     }
 
     /// What the measurements told the filters in the last frame.
-    pub fn innovations(&self) -> PerSide<&SideInnovations<S>> {
-        self.sides.as_ref().map(SideEstimator::innovations)
+    pub fn innovations(&self) -> Option<PerSide<&SideInnovations<S>>> {
+        let PerSide { left: Some(left), right: Some(right) } = &self.sides else { return None };
+        Some(PerSide { left, right }.map(SideEstimator::innovations))
     }
 
     /// Pitch of the body in the plane of its sides, rad, nose-up.
     pub fn pitch_rad(&self) -> S {
-        self.attitude.pitch_rad()
+        self.common.attitude.pitch_rad()
     }
 
     /// One standard deviation of that, rad.
     pub fn pitch_std_rad(&self) -> S {
-        self.attitude.pitch_variance().sqrt()
+        self.common.attitude.pitch_variance().sqrt()
     }
 
     /// How sensors and filters do.
     pub fn health(&self) -> &EstimatorHealth {
-        &self.health
+        &self.common.health
     }
 
     /// Seconds since the frame before; none for a frame that is to be left out.
     fn step_s(&mut self, time_us: u64) -> Option<S> {
-        let Some(last) = self.last_time_us else {
-            self.last_time_us = Some(time_us);
+        let Some(last) = self.common.last_time_us else {
+            self.common.last_time_us = Some(time_us);
             return Some(S::zero());
         };
         if time_us == last {
-            self.health.repeated_frames = self.health.repeated_frames.saturating_add(1);
+            self.common.health.repeated_frames = self.common.health.repeated_frames.saturating_add(1);
             return None;
         }
         if time_us < last {
-            self.health.backward_frames = self.health.backward_frames.saturating_add(1);
-            self.from_the_past = self.from_the_past.saturating_add(1);
-            if self.from_the_past < CLOCK_SET_BACK {
+            self.common.health.backward_frames = self.common.health.backward_frames.saturating_add(1);
+            self.common.from_the_past = self.common.from_the_past.saturating_add(1);
+            if self.common.from_the_past < CLOCK_SET_BACK {
                 return None;
             }
         }
-        self.from_the_past = 0;
-        self.last_time_us = Some(time_us);
+        self.common.from_the_past = 0;
+        self.common.last_time_us = Some(time_us);
         let step_us = time_us.checked_sub(last).filter(|step| *step <= GAP_US);
         let Some(step_us) = step_us.and_then(|step| u32::try_from(step).ok()) else {
             self.start_anew();
@@ -176,20 +181,21 @@ impl<S: Scalar> RoverEstimator<S> {
     }
 
     fn start_anew(&mut self) {
-        self.health.gaps = self.health.gaps.saturating_add(1);
-        self.attitude = Attitude::new(self.rover.gravity_m_s2);
-        // The same rover made the filters that are there.
-        let rover = self.rover;
-        let _ = self.start_sides(&rover);
-        self.troubles_before = (0, 0);
+        self.common.health.gaps = self.common.health.gaps.saturating_add(1);
+        self.common.attitude = Attitude::new(self.common.rover.gravity_m_s2);
+        let rover = self.common.rover;
+        self.start_sides(&rover);
+        self.common.troubles_before = (0, 0);
     }
 
     /// Adds what the filters counted since the frame before.
     fn note_troubles(&mut self) {
-        let (left, right) = (self.sides.left.troubles(), self.sides.right.troubles());
-        let now = (left.0.saturating_add(right.0), left.1.saturating_add(right.1));
-        let before = core::mem::replace(&mut self.troubles_before, now);
-        let health = &mut self.health;
+        let now =
+            self.sides.as_array().into_iter().flatten().map(SideEstimator::troubles).fold((0, 0), |sum, of_side| {
+                (u32::saturating_add(sum.0, of_side.0), u32::saturating_add(sum.1, of_side.1))
+            });
+        let before = core::mem::replace(&mut self.common.troubles_before, now);
+        let health = &mut self.common.health;
         health.filter_resets = health.filter_resets.saturating_add(now.0.saturating_sub(before.0));
         health.relearned = health.relearned.saturating_add(now.1.saturating_sub(before.1));
     }
@@ -197,8 +203,8 @@ impl<S: Scalar> RoverEstimator<S> {
 
 /// Never inlined: a side that is being made takes kilobytes, which the stack frame of a caller would keep.
 #[inline(never)]
-fn start_side<S: Scalar>(place: &mut SideEstimator<S>, rover: &Rover<S>, side: Side) -> Result<(), InvalidNumber> {
-    SideEstimator::new(rover, side, *PHASES.of(side)).map(|anew| *place = anew)
+fn start_side<S: Scalar>(place: &mut Option<SideEstimator<S>>, rover: &Rover<S>, side: Side) {
+    *place = Some(SideEstimator::new(rover, side, *PHASES.of(side)));
 }
 
 fn side_frame<S: Scalar>(readings: &PerSensor<Option<S>>, side: Side) -> SideFrame<S> {

@@ -35,16 +35,16 @@ impl<S: Scalar, const N: usize> Runs<S, N> {
         }
     }
 
-    /// By how much [`Self::over_chance`] is above one; zero below.
-    pub fn above_chance(&self) -> S {
-        (self.over_chance() - S::one()).max(S::zero())
-    }
-
     /// By how much [`Self::over_chance`] is above a level that chance hardly reaches: nothing at first, all but two in the end. What
     /// has just passed the level is told by the last digits of single precision, and may not weigh yet.
     pub fn above(&self, level: f64) -> S {
         let above = (self.over_chance() - S::constant(level)).max(S::zero());
         above * above / (above + S::constant(2.0))
+    }
+
+    /// The running means, each in standard deviations of its innovations.
+    pub fn means(&self) -> &[S; N] {
+        &self.means
     }
 
     /// Mean of the squared means over what they are by chance: one, give or take, where innovations are white.

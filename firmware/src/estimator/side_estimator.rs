@@ -4,15 +4,15 @@ use super::attitude::Attitude;
 use super::compaction::{Compaction, Correction};
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::digging_in::{DiggingIn, Rolled};
-use super::doubt::{Doubt, HowKnown};
-use super::drawbar_split::{BogieWheel, DrawbarSplit, along_contact};
+use super::drawbar_split::DrawbarSplit;
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
+use super::hub_on_ground::HubOnGround;
 use super::scale::Scale;
 use super::sinking::Sinking;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
-use crate::filter::{Innovation, InvalidNumber};
+use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
@@ -68,6 +68,8 @@ pub(super) struct SideEstimator<S> {
     pub(super) unsettled: PerAxle<u8>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
+    /// Which wheels bear no load that their cells can tell from none.
+    pub(super) lifted: PerAxle<bool>,
     /// Whether the torque of a wheel swings.
     pub(super) swings: bool,
     pub(super) digging_in: DiggingIn<S>,
@@ -100,11 +102,11 @@ struct WheelFrame<S> {
 
 impl<S: Scalar> SideEstimator<S> {
     /// Estimators that know the rover alone. `phase` spreads costly work over frames.
-    pub fn new(rover: &Rover<S>, side: Side, phase: usize) -> Result<Self, InvalidNumber> {
+    pub fn new(rover: &Rover<S>, side: Side, phase: usize) -> Self {
         let wheel = |place: usize| SlipTorqueFilter::new(rover, phase + place);
-        let angles = ContactAngleFilter::new(rover, phase)?;
+        let angles = ContactAngleFilter::new(rover, phase);
         let scale = Scale::of(rover);
-        Ok(Self {
+        Self {
             rover: *rover,
             scale,
             y_m: match side {
@@ -113,11 +115,12 @@ impl<S: Scalar> SideEstimator<S> {
             },
             motion: angles.motion(),
             angles,
-            wheels: PerAxle { front: wheel(0)?, middle: wheel(1)?, rear: wheel(2)? },
-            forces: HubForceFilter::new(rover, phase)?,
+            wheels: PerAxle { front: wheel(0), middle: wheel(1), rear: wheel(2) },
+            forces: HubForceFilter::new(rover, phase),
             activity: PerAxle::default(),
             unsettled: PerAxle::default(),
             rim_speed_m_s: S::zero(),
+            lifted: PerAxle::all(false),
             swings: false,
             digging_in: DiggingIn::new(&scale),
             sinking: Sinking::new(&scale),
@@ -128,7 +131,7 @@ impl<S: Scalar> SideEstimator<S> {
                 angles: Innovation::nothing(),
                 forces: Innovation::nothing(),
             },
-        })
+        }
     }
 
     /// How often a filter fell back to its floor, and how often one gave up what it believed.
@@ -172,19 +175,6 @@ impl<S: Scalar> SideEstimator<S> {
         self.sinking.follow(travel_m, &loads);
         self.follow_compaction(travel_m);
         surprises
-    }
-
-    /// How well all is known after the last frame. Worked out where it is wanted: memory is scarcer than the time of that.
-    #[inline(never)]
-    pub(super) fn doubt(&self) -> Doubt<S> {
-        let known = HowKnown {
-            still: self.angles.still(),
-            front_unlike: self.angles.front_unlike(),
-            told_by_links: self.digging_in.told_by_links(),
-            fresh: self.angles.fresh(),
-            restless_torques: self.wheels.as_ref().map(SlipTorqueFilter::restless_torque),
-        };
-        Doubt::of(self.angles.runs(), self.forces.runs(), self.angles.trends(), &known)
     }
 
     fn side_readings(&self, frame: &SideFrame<S>) -> SideReadings<S> {
@@ -326,7 +316,7 @@ impl<S: Scalar> SideEstimator<S> {
         let arm_squared = centre.x * centre.x + centre.z * centre.z;
         let half = S::constant(0.5);
         let body_std = half * self.rover.mass_kg * noise.accel_m_s2;
-        let lifted = self.lifted();
+        let lifted = self.lifted;
         let readings = ForceReadings {
             cells_n: frame.load_cell_n,
             cell_std_n: noise.load_cell_n,
@@ -342,10 +332,10 @@ impl<S: Scalar> SideEstimator<S> {
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
         self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, split, &readings);
         surprises.of_cells(&self.told.forces);
+        self.lifted = self.lifted();
     }
 
-    /// Which wheels bear no load that their cells can tell from none.
-    pub(super) fn lifted(&self) -> PerAxle<bool> {
+    fn lifted(&self) -> PerAxle<bool> {
         let [front, middle, rear, ..] = self.forces.estimate().stds();
         self.forces.cells_n().zip(PerAxle { front, middle, rear }).map(|(force, std)| {
             force < self.scale.force_n(LIFTED_N).max(S::constant(3.0) * std).min(self.scale.force_n(GREATEST_LIFTED_N))
@@ -361,35 +351,6 @@ impl<S: Scalar> SideEstimator<S> {
         let along = |pull: S, wheel: &HubOnGround<S>| pull * wheel.angle.1 - wheel.wheel.load_n * wheel.angle.0;
         along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
     }
-
-    /// The wheels along their contacts, with such forces on the hubs and the paths of these corrected.
-    #[inline(never)] // flash is scarcer than the time of a call
-    pub(super) fn on_ground(
-        &self,
-        forces: &PerAxle<Planar<S>>,
-        corrections: &PerAxle<Correction<S>>,
-    ) -> PerAxle<HubOnGround<S>> {
-        let [_, front, middle, rear, rocker, bogie, _] = *self.angles.estimate().mean();
-        let path = PerAxle { front: front - rocker, middle: middle - bogie, rear: rear - bogie };
-        let filters = path.zip(*corrections).zip(self.wheels.as_ref());
-        forces.zip(filters).map(|(force, ((path, correction), filter))| {
-            let angle = (path + correction.steeper).sin_cos();
-            let (load_n, drawbar_pull_n) = along_contact(force, angle);
-            let [_, torque, slip] = *filter.estimate().mean();
-            let wheel = BogieWheel { load_n, rim_force_n: torque / self.rover.wheel.radius_m, slip };
-            HubOnGround { wheel, drawbar_pull_n, angle }
-        })
-    }
-}
-
-/// A wheel, seen along its contact.
-pub(super) struct HubOnGround<S> {
-    /// What its share of a bogie's pull is told from.
-    pub wheel: BogieWheel<S>,
-    /// Drawbar pull, N.
-    pub drawbar_pull_n: S,
-    /// Sine and cosine of the contact angle less the pitch of its link.
-    pub angle: (S, S),
 }
 
 /// What a wheel does, by the speeds of its rim and its hub, m/s.

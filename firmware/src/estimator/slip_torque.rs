@@ -11,7 +11,7 @@ use super::swing::Swing;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gaussian, Innovation, InvalidNumber, Prediction, SigmaPointFilter};
+use crate::filter::{Gaussian, Innovation, Prediction, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
 
@@ -133,7 +133,7 @@ pub(super) struct SlipTorqueFilter<S> {
 
 impl<S: Scalar> SlipTorqueFilter<S> {
     /// A filter that knows nothing.
-    pub fn new(rover: &Rover<S>, phase: usize) -> Result<Self, InvalidNumber> {
+    pub fn new(rover: &Rover<S>, phase: usize) -> Self {
         let scale = Scale::of(rover);
         let unknown = of_rover(&UNKNOWN, &scale);
         let model = SlipTorqueModel {
@@ -141,8 +141,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             inverse_inertia: S::one() / rover.drive.reflected_inertia_kg_m2,
             motor_torque_nm: None,
         };
-        Ok(Self {
-            filter: SigmaPointFilter::new(Gaussian::independent([S::zero(); STATES], unknown)?, unknown)?,
+        Self {
+            filter: SigmaPointFilter::unknowing([S::zero(); STATES], unknown),
             model,
             slip_per_torque: S::constant(6.0) / (rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m),
             scale,
@@ -153,7 +153,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             watch: Watch::default(),
             trends: Trends::new(),
             drift_variances: [S::zero(); 2],
-        })
+        }
     }
 
     /// What is known of the state.
@@ -164,12 +164,6 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     /// Variance of the part of the slip's error that comes from the camera, and so is common to all wheels.
     pub fn shared_slip_variance(&self) -> S {
         self.shared_slip_variance
-    }
-
-    /// How restless its torque is, 0 … 1.
-    pub fn restless_torque(&self) -> S {
-        let [torque, _] = self.trends.restless();
-        torque
     }
 
     /// Whether its torque swings faster than ground makes torques drift.
@@ -366,7 +360,7 @@ mod tests {
 
     /// A wheel at slip 0.2 whose torque grows from 1.5 to 1.8 N·m, while no camera sees it: by how much it is taken to slip more.
     fn slips_more(direction: f64) -> f64 {
-        let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0).expect("a rover");
+        let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
         let slip_after = |filter: &mut SlipTorqueFilter<f64>, torque: f64, seen: bool| {
             let readings = WheelReadings {
                 rate_rad_s: Some(direction * 0.3),

@@ -1,9 +1,9 @@
 //! What the torques of a side tell of its contact angles, by what of them compacts the soil.
 
 use super::compaction::{Compaction, Correction, Known, Together};
-use super::doubt::WheelDoubt;
 use super::estimate::WheelActivity;
-use super::side_estimator::{HubOnGround, SideEstimator};
+use super::hub_on_ground::HubOnGround;
+use super::side_estimator::SideEstimator;
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
@@ -11,6 +11,14 @@ use crate::scalar::Scalar;
 /// wheel, and of a bogie's two, of which each has its own noise.
 const FRONT_SHARE: f64 = 0.015;
 const BOGIE_SHARE: f64 = 0.011;
+/// The variance of a contact angle by the path of its hub, over what the filter states, for the weight of what the torques tell. It errs the
+/// same way for many frames, the share is new in each: so it is above one.
+const OF_STATED: f64 = 1.4;
+/// How far an angle lags behind one that turns, rad for each rad/m.
+const ANGLE_LAG: f64 = 0.0205;
+/// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
+/// sink in ways that nothing tells.
+const ANGLE_UNTOLD: f64 = 0.003;
 
 impl<S: Scalar> SideEstimator<S> {
     /// Follows what compacts the soil under the front wheel and under the bogie's, while they roll and bear loads. Where they dig in, more
@@ -19,7 +27,7 @@ impl<S: Scalar> SideEstimator<S> {
     pub(super) fn follow_compaction(&mut self, travel_m: S) {
         let hubs = self.on_ground(&self.forces.forces_n(), &PerAxle::all(Correction::none()));
         let settled = !self.swings && self.digging_in.told_by_links() == S::zero();
-        let rolls = self.activity.zip(self.unsettled).zip(self.lifted()).map(|((activity, unsettled), lifted)| {
+        let rolls = self.activity.zip(self.unsettled).zip(self.lifted).map(|((activity, unsettled), lifted)| {
             activity == WheelActivity::Rolling && unsettled == 0 && !lifted && settled
         });
         let [of_front, of_bogie] = &mut self.compaction;
@@ -33,11 +41,15 @@ impl<S: Scalar> SideEstimator<S> {
         let estimate = self.angles.estimate();
         let [_, front, middle, rear, ..] = estimate.variances();
         let both = estimate.covariance(2, 3).unwrap_or(S::zero());
-        let truly = |variance: S, doubt: &WheelDoubt<S>| doubt.angle * variance + doubt.angle_variance;
-        let doubt = self.doubt().wheels;
-        let (front, middle, rear) =
-            (truly(front, &doubt.front), truly(middle, &doubt.middle), truly(rear, &doubt.rear));
-        let both = doubt.middle.angle * both;
+        let trends = self.angles.trends();
+        let [rough, ..] = trends.restless();
+        let square = |value: f64| S::constant(value * value);
+        let stated = S::constant(OF_STATED);
+        let untold = rough * square(ANGLE_UNTOLD);
+        let truly = |variance: S, trend: S| stated * variance + square(ANGLE_LAG) * trend * trend + untold;
+        let [turns_front, turns_middle, turns_rear] = trends.per_m();
+        let (front, middle, rear) = (truly(front, turns_front), truly(middle, turns_middle), truly(rear, turns_rear));
+        let both = stated * both;
         let loads = hubs.as_ref().map(|hub| hub.wheel.load_n.max(S::one()));
         let load_n = loads.middle + loads.rear;
         let (by_middle, by_rear) = (loads.middle / load_n, loads.rear / load_n);

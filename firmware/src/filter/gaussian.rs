@@ -65,9 +65,13 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
 
     /// Mean and variance of a weighted sum of the numbers, Σ wᵢ xᵢ.
     pub fn weighted_sum(&self, weights: &[T; N]) -> (T, T) {
-        let sum = |values: &[T; N]| dot(weights, values);
-        let variance = self.root.iter().map(sum).fold(T::zero(), |total, entry| total + entry * entry);
-        (sum(&self.mean), variance)
+        (dot(weights, &self.mean), self.variance_of_sum(weights))
+    }
+
+    /// Variance of a weighted sum of the numbers, Σ wᵢ xᵢ.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn variance_of_sum(&self, weights: &[T; N]) -> T {
+        self.root.iter().map(|column| dot(weights, column)).fold(T::zero(), |total, entry| total + entry * entry)
     }
 
     /// Takes a measurement of a weighted sum of the numbers, Σ wᵢ xᵢ, whose noise has this variance, which must be positive.

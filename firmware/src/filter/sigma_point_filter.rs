@@ -38,6 +38,15 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         Ok(Self { estimate, factors: spread.factors::<N>(), reset_std, resets: 0 })
     }
 
+    /// A filter that knows no more of its state than that it is `mean`, with independent standard deviations `std`, to which it falls back
+    /// too. For numbers that were checked before: of others, one that is not finite counts as zero, and a deviation for its magnitude.
+    pub fn unknowing(mean: [T; N], std: [T; N]) -> Self {
+        let finite = |number: T| if number.is_finite() { number } else { T::zero() };
+        let reset_std = std.map(|std| finite(std * std).sqrt());
+        let estimate = Gaussian { mean: mean.map(finite), root: diagonal(&reset_std) };
+        Self { estimate, factors: Spread::unit().factors::<N>(), reset_std, resets: 0 }
+    }
+
     /// What is known of the state.
     pub fn estimate(&self) -> &Gaussian<T, N> {
         &self.estimate
@@ -72,5 +81,19 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     fn fall_back(&mut self) {
         self.estimate.root = diagonal(&self.reset_std);
         self.resets = self.resets.saturating_add(1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SigmaPointFilter;
+
+    #[test]
+    fn a_filter_that_knows_nothing_holds_numbers_whatever_it_is_given() {
+        let filter = SigmaPointFilter::<f64, 3>::unknowing([1.0, f64::NAN, 3.0], [0.5, 2.0, -4.0]);
+        assert_eq!(*filter.estimate().mean(), [1.0, 0.0, 3.0]);
+        assert_eq!(filter.estimate().stds(), [0.5, 2.0, 4.0]);
+        let filter = SigmaPointFilter::<f32, 1>::unknowing([f32::INFINITY], [f32::NAN]);
+        assert_eq!((*filter.estimate().mean(), filter.estimate().stds()), ([0.0], [0.0]));
     }
 }

@@ -31,6 +31,7 @@ pub struct SoilOverTime {
 
 impl SoilOverTime {
     /// Nothing is known of the soil.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn new(rover: &Rover<f32>) -> Self {
         let suspension = &rover.suspension;
         let wheelbase_m = suspension.front_hub.x - (suspension.bogie_pivot.x + suspension.rear_hub.x);

@@ -24,6 +24,7 @@ pub struct FrameEstimate {
 
 impl FrameEstimate {
     /// That of a pipeline that has seen nothing yet.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn nothing() -> Self {
         Self {
             time_us: 0,

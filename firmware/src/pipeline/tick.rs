@@ -20,19 +20,28 @@ impl Pipeline {
     /// # Errors
     /// Where there can be no such rover.
     pub fn new(rover: &Rover<f32>) -> Result<Self, GeometryError> {
-        rover.check()?;
-        // A rover that passes has no number that a filter refuses.
-        let estimator = RoverEstimator::new(rover).map_err(|_| GeometryError::Coordinate)?;
-        Ok(Self { estimator, soil: SoilOverTime::new(rover), last: FrameEstimate::nothing() })
+        let mut pipeline = Self::not_begun(rover);
+        pipeline.restart(rover)?;
+        Ok(pipeline)
     }
 
-    /// Starts anew, for another rover, where this pipeline is: two do not fit on the stack.
+    /// A pipeline that knows nothing of any frame until [`Self::restart`]: what is large about it is made where it stays, for two do not fit
+    /// on the stack.
+    pub fn not_begun(rover: &Rover<f32>) -> Self {
+        Self {
+            estimator: RoverEstimator::not_begun(rover),
+            soil: SoilOverTime::new(rover),
+            last: FrameEstimate::nothing(),
+        }
+    }
+
+    /// Starts anew, for another rover, where this pipeline is.
     ///
     /// # Errors
     /// Where there can be no such rover. Then nothing has changed.
     pub fn restart(&mut self, rover: &Rover<f32>) -> Result<(), GeometryError> {
         rover.check()?;
-        self.estimator.restart(rover).map_err(|_| GeometryError::Coordinate)?;
+        self.estimator.restart(rover);
         self.soil = SoilOverTime::new(rover);
         self.last = FrameEstimate::nothing();
         Ok(())

@@ -17,12 +17,9 @@ pub(super) struct Estimation {
 }
 
 impl Estimation {
-    /// A pipeline for a rover.
-    ///
-    /// # Errors
-    /// Where there can be no such rover.
-    pub fn new(rover: &Rover<f32>, source: RoverSource) -> Result<Self, GeometryError> {
-        Ok(Self { pipeline: Pipeline::new(rover)?, source, watch: Watch::default(), last_sequence: None })
+    /// A pipeline that takes no frame until [`Self::restart`].
+    pub fn not_begun(rover: &Rover<f32>, source: RoverSource) -> Self {
+        Self { pipeline: Pipeline::not_begun(rover), source, watch: Watch::default(), last_sequence: None }
     }
 
     /// Starts anew, for another rover, where this pipeline is.

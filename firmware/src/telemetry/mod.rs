@@ -132,17 +132,17 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
 
     /// Starts the estimates anew.
     fn estimate_for(&mut self, rover: &Rover<f32>, source: RoverSource) -> Result<(), GeometryError> {
-        match &mut self.estimation {
-            Some(estimation) => estimation.restart(rover, source),
-            None => self.make_estimation(rover, source),
+        rover.check()?;
+        if self.estimation.is_none() {
+            self.make_estimation(rover, source);
         }
+        self.estimation.as_mut().map_or(Ok(()), |estimation| estimation.restart(rover, source))
     }
 
-    /// Never inlined: a pipeline that is being made takes kilobytes, which the stack frame of a caller would keep.
+    /// Never inlined: what is being made may pass through the stack, where the frame of a caller would keep its place.
     #[inline(never)]
-    fn make_estimation(&mut self, rover: &Rover<f32>, source: RoverSource) -> Result<(), GeometryError> {
-        self.estimation = Some(Estimation::new(rover, source)?);
-        Ok(())
+    fn make_estimation(&mut self, rover: &Rover<f32>, source: RoverSource) {
+        self.estimation = Some(Estimation::not_begun(rover, source));
     }
 
     fn take_frame(&mut self, sequence: u16, frame: &SensorFrame) -> (Reply, Event) {

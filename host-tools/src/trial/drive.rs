@@ -83,7 +83,7 @@ pub struct SoilPoint {
 }
 
 /// Seconds at the start that are not counted: the estimators know nothing yet, and the rover stands.
-const WARM_UP_S: f64 = 5.0;
+pub const WARM_UP_S: f64 = 5.0;
 
 /// Seconds after the first frame at which the soil is looked at: the rovers start at 1 s.
 pub const SOIL_LOOK_S: f64 = 31.0;
@@ -125,7 +125,8 @@ impl Drive {
     }
 
     fn take_squares(&mut self, index: usize, pipeline: &Pipeline, estimate: &FrameEstimate, truth: &Truth) {
-        let covariances = pipeline.estimator().covariances();
+        let estimator = pipeline.estimator();
+        let (Some(covariances), Some(innovations)) = (estimator.covariances(), estimator.innovations()) else { return };
         let wheels = estimate.wheels.zip_wheels(covariances).zip_wheels(truth.wheels);
         for (place, ((wheel, covariance), truth)) in wheels.iter_wheels().enumerate() {
             if let (Some(slip), Some(true_slip)) = (wheel.slip, truth.slip) {
@@ -142,7 +143,6 @@ impl Drive {
                 }
             }
         }
-        let innovations = pipeline.estimator().innovations();
         let [of_wheels, of_angles, of_forces] = &mut self.innovations;
         for (at, side) in innovations.as_array().into_iter().enumerate() {
             for (axle, wheel) in side.wheels.as_array().into_iter().enumerate() {

@@ -11,5 +11,5 @@ pub mod soil_seen;
 pub mod tally;
 pub mod whiteness;
 
-pub use drive::{Drive, Quantity, SOIL_LOOK_S, SoilPoint};
+pub use drive::{Drive, Quantity, SOIL_LOOK_S, SoilPoint, WARM_UP_S};
 pub use report::{Trial, trial};

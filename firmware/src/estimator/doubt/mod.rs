@@ -1,0 +1,105 @@
+//! How much larger errors are than the filters know.
+//!
+//! A filter states the errors of its own model: that the ground moves its state at random, at a rate that it has chosen by its
+//! innovations. Ground does not. Where it begins to bend, errors come in runs and are several times as large; on ground that stays plane
+//! half of what is stated is not there. How much, a small network tells, from what a side knows of how well it does: it is trained by
+//! likelihood on simulated drives, in which errors are known, and changes standard deviations only, never what is estimated.
+
+mod frozen;
+mod inputs;
+
+use crate::math::of_octaves;
+use crate::network::fixed_point::{FixedLayer, SUM_BITS, rounded};
+use crate::rover::PerAxle;
+use crate::scalar::Scalar;
+
+pub use inputs::INPUTS;
+
+/// Neurons of the hidden layer.
+pub const HIDDEN: usize = 12;
+/// Quantities of a wheel: resistive torque, slip, contact angle, normal load and drawbar pull.
+pub const QUANTITIES: usize = 5;
+/// Outputs: of the quantities of front, middle and rear wheel; then of the sum of the bogie's drawbar pulls.
+pub const OUTPUTS: usize = 3 * QUANTITIES + 1;
+/// The most by which an output may be off zero: no standard deviation is more than five times what is stated, nor less than a fifth.
+pub const GREATEST_OUTPUT: f32 = 2.25;
+
+/// One hidden layer of bipolar sigmoids. Outputs are standard deviations over those stated, in [octaves](of_octaves).
+#[derive(Debug, Clone, PartialEq)]
+pub struct DoubtNetwork {
+    /// Hidden layer.
+    pub first: FixedLayer<{ INPUTS / 4 }, { HIDDEN / 4 }>,
+    /// Linear output.
+    pub output: FixedLayer<{ HIDDEN / 4 }, { OUTPUTS / 4 }>,
+}
+
+impl DoubtNetwork {
+    /// All weights zero: the filters are believed.
+    pub const ZERO: Self = Self { first: FixedLayer::ZERO, output: FixedLayer::ZERO };
+
+    /// The outputs for inputs, which are taken to 1/4096 and saturate at ±8.
+    pub fn run(&self, inputs: &[f32; INPUTS]) -> [f32; OUTPUTS] {
+        self.output.outputs(&self.first.run(&rounded(inputs, SUM_BITS)))
+    }
+
+    /// Whether no inputs whatever can bring a sum past 32 bits, on which flight relies.
+    pub fn cannot_overflow(&self) -> bool {
+        self.first.cannot_overflow() && self.output.cannot_overflow()
+    }
+}
+
+/// By what the frozen network has standard deviations multiplied, in the order of its outputs.
+#[inline(never)] // flash is scarcer than the time of a call
+pub(super) fn doubt<S: Scalar>(inputs: &[f32; INPUTS]) -> [S; OUTPUTS] {
+    let mut doubt = [S::one(); OUTPUTS];
+    for (times, output) in doubt.iter_mut().zip(frozen::NETWORK.run(inputs)) {
+        *times = S::from_f32(times_stated(output));
+    }
+    doubt
+}
+
+/// By what an output has a standard deviation multiplied.
+#[cfg_attr(target_arch = "arm", inline(never))] // as above
+pub fn times_stated(output: f32) -> f32 {
+    of_octaves(output.clamp(-GREATEST_OUTPUT, GREATEST_OUTPUT))
+}
+
+/// Those of the wheels, front to rear, of all outputs.
+pub(super) fn of_wheels<S: Scalar>(outputs: &[S; OUTPUTS]) -> PerAxle<[S; QUANTITIES]> {
+    let [wheels @ .., _] = outputs;
+    let (wheels, _) = wheels.as_chunks::<QUANTITIES>();
+    match wheels {
+        [front, middle, rear] => PerAxle { front: *front, middle: *middle, rear: *rear },
+        _ => PerAxle::all([S::one(); QUANTITIES]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DoubtNetwork, GREATEST_OUTPUT, INPUTS, OUTPUTS, frozen, of_wheels, times_stated};
+    use crate::rover::PerAxle;
+
+    /// Flight relies on it: no input whatever may bring a sum past 32 bits.
+    #[test]
+    fn the_frozen_network_cannot_overflow() {
+        assert_ne!(frozen::NETWORK, DoubtNetwork::ZERO, "not trained: kapvik train-doubt");
+        assert!(frozen::NETWORK.cannot_overflow());
+    }
+
+    #[test]
+    fn whatever_a_side_seems_to_know_doubt_is_bounded() {
+        assert_eq!(DoubtNetwork::ZERO.run(&[3.0; INPUTS]).map(times_stated), [1.0; OUTPUTS]);
+        for input in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 8.0, -8.0] {
+            let doubt = frozen::NETWORK.run(&[input; INPUTS]).map(times_stated);
+            assert!(doubt.iter().all(|times| (0.2..=5.0).contains(times)), "{input}: {doubt:?}");
+        }
+        assert_eq!(times_stated(10.0), times_stated(GREATEST_OUTPUT));
+    }
+
+    #[test]
+    fn outputs_go_from_wheel_to_wheel() {
+        let outputs: [f64; OUTPUTS] = core::array::from_fn(|place| place as f64);
+        let PerAxle { front: [torque, ..], middle: [.., pull], rear: [_, slip, ..] } = of_wheels(&outputs);
+        assert_eq!([torque, pull, slip], [0.0, 9.0, 11.0]);
+    }
+}
