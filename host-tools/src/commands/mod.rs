@@ -14,6 +14,7 @@ mod simulate;
 mod soils;
 mod test;
 mod train;
+mod train_doubt;
 mod weights;
 
 use clap::Subcommand;
@@ -67,6 +68,11 @@ pub enum Command {
     Observe(observe::Arguments),
     /// Train the networks and write the frozen table
     Train(train::Arguments),
+    /// Train the network that tells how far the estimators err, and write it as Rust source
+    ///
+    /// Drives simulated rovers, learns by how much the standard deviations that the filters state are to be multiplied, and
+    /// prints how many errors lie within them before and after, on drives that took no part.
+    TrainDoubt(train_doubt::Arguments),
     /// Drawbar pull, load, torque and sinkage of a wheel on a soil, by equations 1–11
     ///
     /// Each row of IN.csv gives `slip` (-1 to 1) and one of `sinkage_m` and `load_n`; the columns `drawbar_pull_n`,
@@ -104,6 +110,7 @@ impl Command {
             Self::Diagnose(arguments) => diagnose::execute(&arguments),
             Self::Observe(arguments) => observe::execute(&arguments),
             Self::Train(arguments) => train::execute(&arguments),
+            Self::TrainDoubt(arguments) => train_doubt::execute(&arguments),
             Self::Forward(arguments) => forward::execute(&arguments),
             Self::Simulate(arguments) => simulate::execute(&arguments),
             Self::Soils => soils::execute(),

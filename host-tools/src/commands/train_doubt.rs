@@ -1,0 +1,50 @@
+//! `kapvik train-doubt`: trains the network that tells how far the estimators err, and writes it as Rust source.
+
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
+
+use crate::data::atomic_write::write_text;
+use crate::doubt::drives::{Plan, drive_all};
+use crate::doubt::emit::{Provenance, source};
+use crate::doubt::held_out::{BeforeAfter, tables};
+use crate::doubt::training::train;
+use crate::error::HostError;
+use crate::train::progress::with_progress;
+
+/// Options of `kapvik train-doubt`.
+#[derive(Args)]
+pub struct Arguments {
+    /// The source; `firmware/src/estimator/doubt/frozen.rs` is the one that the next build freezes in
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Seed of the first drive, from which all others follow; the same seed gives the same bytes
+    #[arg(long, default_value_t = 20_000)]
+    seed: u32,
+    /// Drives of each of six scenarios; some more have other noise or effects of the soil, and some are held out
+    #[arg(long, default_value_t = 160, value_parser = value_parser!(u32).range(1..=10_000))]
+    drives: u32,
+}
+
+/// Drives, trains, prints how the network does on what was held out, writes it.
+///
+/// # Errors
+/// Where no drive gave anything, the network cannot fly, or the file cannot be written.
+pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let plan = Plan { seed: arguments.seed, drives: arguments.drives };
+    let mut training = with_progress("drives", |bar| drive_all(&plan.training(), bar));
+    let held_out = plan.held_out().map(|journeys| with_progress("held-out drives", |bar| drive_all(&journeys, bar)));
+    if training.rows.is_empty() {
+        return Err(HostError::Failed("no drive gave anything to learn from: expected another seed".to_owned()));
+    }
+    println!("{} drives, {} rows; {} drives failed", training.drives, training.rows.len(), training.failed);
+    let network = with_progress("training", |bar| train(&mut training.rows, plan.seed, bar));
+    if !network.cannot_overflow() {
+        return Err(HostError::Failed("the network has diverged: its sums can overflow 32 bits".to_owned()));
+    }
+    println!("\n{}", tables(&held_out, &network));
+    let sets = held_out.map(|driven| BeforeAfter::of(&driven.rows, &network));
+    let provenance = Provenance { plan: &plan, held_out: &BeforeAfter::total(&sets) };
+    write_text(&arguments.output, &source(&network, &provenance))?;
+    Ok(())
+}

@@ -1,0 +1,242 @@
+//! The simulated drives that are learned from and those that are held out.
+
+use std::ops::Range;
+
+use indicatif::{ParallelProgressIterator, ProgressBar};
+use kapvik_firmware::pipeline::Pipeline;
+use kapvik_firmware::rover::{Rover, SensorNoise};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::rows::Row;
+use crate::data::rover_file::RoverFile;
+use crate::error::HostError;
+use crate::simulate::effects::RoverEffects;
+use crate::simulate::{Options, Scenario, Traverse};
+use crate::train::dataset::stream;
+use crate::trial::WARM_UP_S;
+
+/// What the network has to be right on.
+pub const NOMINAL: [Scenario; 6] =
+    [Scenario::Level, Scenario::Spread, Scenario::Slope, Scenario::Hills, Scenario::Rock, Scenario::Dropout];
+/// What it has to be right on, too, though less often.
+const OTHER: [Scenario; 2] = [Scenario::StartStop, Scenario::SoilChange];
+
+/// The simulation draws from the first two streams of a drive's seed.
+const DEVIATION_STREAM: usize = 2;
+/// What noises are multiplied by.
+const NOISE_FACTORS: Range<f64> = 0.5..2.0;
+/// Other rovers, and radii of their wheels.
+const MASSES_KG: Range<f64> = 8.0..900.0;
+const RADII_M: Range<f64> = 0.06..0.15;
+
+/// How many drives, and from which seed on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Plan {
+    /// Seed of the first drive; each further drive has the next.
+    pub seed: u32,
+    /// Drives of each nominal scenario; other sets are shares of it, of at least one drive.
+    pub drives: u32,
+}
+
+/// A drive to be simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Journey {
+    scenario: Scenario,
+    seed: u64,
+    deviation: Deviation,
+}
+
+/// In what a drive is not as the flight side assumes. How far is drawn from the seed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Deviation {
+    /// In nothing.
+    None,
+    /// Sensors are better or worse, and the flight side is told.
+    Noise,
+    /// The rover is lighter or heavier, on wheels of other sizes, and the flight side is told.
+    Mass,
+    /// Slip digs the wheels in.
+    SlipSinkage,
+    /// Torque and forces swing as grousers come to bear.
+    GrouserRipple,
+}
+
+/// So many drives of a kind.
+#[derive(Debug, Clone, Copy)]
+struct Set {
+    scenario: Scenario,
+    deviation: Deviation,
+    drives: u32,
+}
+
+/// What drives gave.
+#[derive(Debug, Clone, Default)]
+pub struct Driven {
+    /// A row for each side and frame.
+    pub rows: Vec<Row>,
+    /// How many drives gave them.
+    pub drives: usize,
+    /// How many were left out: rovers do get stuck.
+    pub failed: usize,
+}
+
+impl Plan {
+    /// What is learned from.
+    pub fn training(&self) -> Vec<Journey> {
+        numbered(u64::from(self.seed), &self.training_sets())
+    }
+
+    /// Of each nominal scenario, in the order of [`NOMINAL`], what is held out: seeds after all that are learned from.
+    pub fn held_out(&self) -> [Vec<Journey>; NOMINAL.len()] {
+        let learned: u64 = self.training_sets().iter().map(|set| u64::from(set.drives)).sum();
+        let mut seed = u64::from(self.seed) + learned;
+        NOMINAL.map(|scenario| {
+            let journeys = numbered(seed, &[Set { scenario, deviation: Deviation::None, drives: self.share(4) }]);
+            seed += journeys.len() as u64;
+            journeys
+        })
+    }
+
+    fn training_sets(&self) -> Vec<Set> {
+        let kinds = [
+            (Deviation::None, self.drives),
+            (Deviation::Noise, self.share(4)),
+            (Deviation::Mass, self.share(4)),
+            (Deviation::SlipSinkage, self.share(8)),
+            (Deviation::GrouserRipple, self.share(8)),
+        ];
+        let of_nominal = kinds.into_iter().flat_map(|(deviation, drives)| {
+            NOMINAL.into_iter().map(move |scenario| Set { scenario, deviation, drives })
+        });
+        let others =
+            OTHER.into_iter().map(|scenario| Set { scenario, deviation: Deviation::None, drives: self.share(4) });
+        of_nominal.chain(others).collect()
+    }
+
+    fn share(&self, of: u32) -> u32 {
+        self.drives.div_ceil(of)
+    }
+}
+
+/// The drives of sets, each with a seed of its own.
+fn numbered(first: u64, sets: &[Set]) -> Vec<Journey> {
+    let kinds = sets.iter().flat_map(|set| (0..set.drives).map(move |_| (set.scenario, set.deviation)));
+    (first..).zip(kinds).map(|(seed, (scenario, deviation))| Journey { scenario, seed, deviation }).collect()
+}
+
+/// Drives them all; the order of the rows does not hang on the number of cores.
+pub fn drive_all(journeys: &[Journey], progress: &ProgressBar) -> Driven {
+    progress.set_length(journeys.len() as u64);
+    let results: Vec<Result<Vec<Row>, HostError>> =
+        journeys.par_iter().progress_with(progress.clone()).map(Journey::rows).collect();
+    let mut driven = Driven::default();
+    driven.rows.reserve_exact(results.iter().flatten().map(Vec::len).sum());
+    for result in results {
+        match result {
+            Ok(rows) => {
+                driven.rows.extend(rows);
+                driven.drives += 1;
+            }
+            Err(_) => driven.failed += 1,
+        }
+    }
+    driven
+}
+
+impl Journey {
+    /// A row for each side and frame of which all is known.
+    ///
+    /// # Errors
+    /// Where the simulation fails.
+    fn rows(&self) -> Result<Vec<Row>, HostError> {
+        let failed = |what: String| HostError::Failed(format!("{:?}, seed {}: {what}", self.scenario, self.seed));
+        let (rover, options) = self.deviation.draw(&mut stream(self.seed, DEVIATION_STREAM)).map_err(failed)?;
+        let traverse = Traverse::new(self.scenario, self.seed, &rover, &options);
+        let mut pipeline =
+            Pipeline::new(&rover.map(|value| value as f32)).map_err(|error| failed(format!("{error:?}")))?;
+        let mut rows = Vec::new();
+        for step in traverse.map_err(|error| failed(error.to_string()))? {
+            let (frame, truth) = step.map_err(|error| failed(error.to_string()))?;
+            pipeline.tick(&frame);
+            if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
+                let estimator = pipeline.estimator();
+                let Some(believed) = estimator.believed() else { continue };
+                let sides = believed.zip(estimator.estimate()).zip(truth.wheels);
+                let of_sides = sides.map(|((believed, estimate), truth)| Row::new(&believed, &estimate, &truth));
+                rows.extend(of_sides.as_array().into_iter().flatten());
+            }
+        }
+        Ok(rows)
+    }
+}
+
+impl Deviation {
+    /// The rover, and what acts on it.
+    fn draw(self, random: &mut ChaCha8Rng) -> Result<(Rover<f64>, Options), String> {
+        let mut rover = RoverFile::assumed().rover;
+        let mut effects = RoverEffects::default();
+        match self {
+            Self::None => {}
+            Self::Noise => rover.noise = other_noise(&rover.noise, random),
+            Self::Mass => {
+                rover.mass_kg = log_uniform(&MASSES_KG, random);
+                rover.wheel.radius_m = log_uniform(&RADII_M, random);
+                rover.wheel.width_m = rover.wheel.radius_m;
+            }
+            Self::SlipSinkage => effects.set("slip-sinkage", random.random_range(0.0..0.3))?,
+            Self::GrouserRipple => effects.set("grouser-ripple", random.random_range(0.0..0.2))?,
+        }
+        Ok((rover, Options { effects, ..Options::default() }))
+    }
+}
+
+fn log_uniform(range: &Range<f64>, random: &mut ChaCha8Rng) -> f64 {
+    libm::exp(random.random_range(libm::log(range.start)..libm::log(range.end)))
+}
+
+/// Each noise by itself is better or worse.
+fn other_noise(noise: &SensorNoise<f64>, random: &mut ChaCha8Rng) -> SensorNoise<f64> {
+    let mut other = |std: f64| std * log_uniform(&NOISE_FACTORS, random);
+    SensorNoise {
+        wheel_rate_rad_s: other(noise.wheel_rate_rad_s),
+        motor_torque_nm: other(noise.motor_torque_nm),
+        load_cell_n: other(noise.load_cell_n),
+        angle_rad: other(noise.angle_rad),
+        accel_m_s2: other(noise.accel_m_s2),
+        gyro_rad_s: other(noise.gyro_rad_s),
+        velocity_m_s: other(noise.velocity_m_s),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn no_two_drives_have_the_same_seed() {
+        let plan = Plan { seed: 20_000, drives: 16 };
+        let training = plan.training();
+        assert_eq!(training.len(), 6 * (16 + 4 + 4 + 2 + 2) + 2 * 4);
+        let held_out = plan.held_out();
+        assert!(held_out.iter().all(|journeys| journeys.len() == 4));
+        let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();
+        assert_eq!(seeds.len(), training.len() + 24);
+        assert_eq!(seeds.first(), Some(&20_000));
+        assert!(Plan { seed: 0, drives: 1 }.held_out().iter().all(|journeys| journeys.len() == 1));
+    }
+
+    #[test]
+    fn a_drive_that_deviates_gives_the_same_rows_again() {
+        for deviation in
+            [Deviation::None, Deviation::Noise, Deviation::Mass, Deviation::SlipSinkage, Deviation::GrouserRipple]
+        {
+            let journey = Journey { scenario: Scenario::Level, seed: 3, deviation };
+            let rows = journey.rows().expect("a drive on the level");
+            assert!(rows.len() > 800, "{deviation:?}: {} rows", rows.len());
+            assert!(rows == journey.rows().expect("the same drive"), "{deviation:?}");
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! How honest standard deviations are before and after, on rows that took no part in training.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use kapvik_firmware::estimator::doubt::{DoubtNetwork, OUTPUTS, QUANTITIES, times_stated};
+
+use super::drives::{Driven, NOMINAL};
+use super::loss::loss;
+use super::rows::Row;
+
+/// What is stated: of each wheel, and of each bogie.
+const STATED: [&str; QUANTITIES + 1] =
+    ["resistive torque", "slip", "contact angle", "normal load", "drawbar pull", "bogie's pull"];
+
+/// Errors within one and within two standard deviations, and the loss.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Tally {
+    rows: u64,
+    loss: f64,
+    within: [[u64; STATED.len()]; 2],
+}
+
+/// The same rows as the filters state them and with the network.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BeforeAfter {
+    /// With the standard deviations that the filters state.
+    pub before: Tally,
+    /// With those that the network makes of them.
+    pub after: Tally,
+}
+
+impl Tally {
+    /// Of rows for which a network puts out these.
+    pub fn of(rows: &[Row], outputs: impl Fn(&Row) -> [f32; OUTPUTS]) -> Self {
+        let mut tally = Self::default();
+        for row in rows {
+            let outputs = outputs(row);
+            tally.rows += 1;
+            tally.loss += f64::from(loss(&outputs, row).value);
+            for (place, (error, output)) in row.errors.iter().zip(outputs).enumerate() {
+                let stated = if place + 1 < OUTPUTS { place % QUANTITIES } else { QUANTITIES };
+                let times = times_stated(output);
+                for (within, stds) in tally.within.iter_mut().zip([1.0, 2.0]) {
+                    within[stated] += u64::from(error.abs() <= stds * times);
+                }
+            }
+        }
+        tally
+    }
+
+    /// The loss a row.
+    pub fn mean_loss(&self) -> f64 {
+        self.loss / self.rows.max(1) as f64
+    }
+
+    /// Shares of the errors in what is stated that lie within one and within two standard deviations.
+    fn shares(&self, stated: usize) -> [f64; 2] {
+        let errors = self.rows.max(1) * if stated < QUANTITIES { 3 } else { 1 };
+        self.within.map(|within| within[stated] as f64 / errors as f64)
+    }
+
+    /// Their means over all that is stated.
+    pub fn mean_shares(&self) -> [f64; 2] {
+        let sum = (0..STATED.len()).map(|stated| self.shares(stated));
+        sum.fold([0.0; 2], |[one, two], [first, second]| [one + first, two + second])
+            .map(|sum| sum / STATED.len() as f64)
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.rows += other.rows;
+        self.loss += other.loss;
+        let pairs = self.within.as_flattened_mut().iter_mut().zip(other.within.as_flattened());
+        pairs.for_each(|(sum, part)| *sum += part);
+    }
+}
+
+impl BeforeAfter {
+    /// With and without the network.
+    pub fn of(rows: &[Row], network: &DoubtNetwork) -> Self {
+        Self { before: Tally::of(rows, |_| [0.0; OUTPUTS]), after: Tally::of(rows, |row| network.run(&row.inputs)) }
+    }
+
+    /// Of several sets together.
+    pub fn total(sets: &[Self]) -> Self {
+        let mut total = Self::default();
+        for set in sets {
+            total.before.add(&set.before);
+            total.after.add(&set.after);
+        }
+        total
+    }
+}
+
+/// Both tables: scenario by scenario, and all of them together, quantity by quantity.
+pub fn tables(driven: &[Driven; NOMINAL.len()], network: &DoubtNetwork) -> String {
+    let sets: Vec<BeforeAfter> = driven.iter().map(|driven| BeforeAfter::of(&driven.rows, network)).collect();
+    let mut scenarios = headed(&["scenario", "drives", "rows"], &["loss", "after"]);
+    let names = NOMINAL.iter().map(|scenario| format!("{scenario:?}"));
+    for ((name, driven), set) in names.zip(driven).zip(&sets) {
+        scenarios.add_row(of_scenario(name, driven.drives, set));
+    }
+    let total = BeforeAfter::total(&sets);
+    scenarios.add_row(of_scenario("all".to_owned(), driven.iter().map(|driven| driven.drives).sum(), &total));
+    let mut quantities = headed(&["quantity"], &[]);
+    for (stated, name) in STATED.iter().enumerate() {
+        let shares = percentages(total.before.shares(stated), total.after.shares(stated));
+        quantities.add_row(std::iter::once((*name).to_owned()).chain(shares));
+    }
+    let [scenarios, quantities] = [scenarios, quantities].map(aligned);
+    format!("{scenarios}\n\n{quantities}\n\nof normal errors 68.3 % and 95.4 % would be within")
+}
+
+fn of_scenario(name: String, drives: usize, set: &BeforeAfter) -> Vec<String> {
+    let BeforeAfter { before, after } = set;
+    let mut cells = vec![name, drives.to_string(), before.rows.to_string()];
+    cells.extend(percentages(before.mean_shares(), after.mean_shares()));
+    cells.extend([before, after].map(|tally| format!("{:.3}", tally.mean_loss())));
+    cells
+}
+
+fn percentages([one, two]: [f64; 2], [one_after, two_after]: [f64; 2]) -> [String; 4] {
+    [one, one_after, two, two_after].map(|share| format!("{:.1}", 100.0 * share))
+}
+
+fn headed(first: &[&str], last: &[&str]) -> Table {
+    let mut table = Table::new();
+    let shares = ["within 1σ/%", "after", "within 2σ/%", "after"];
+    table.load_style(NOTHING).set_header(first.iter().chain(&shares).chain(last).copied());
+    table
+}
+
+fn aligned(mut table: Table) -> Table {
+    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::estimator::doubt::INPUTS;
+
+    use super::*;
+    use crate::doubt::rows::tests::correlated;
+
+    #[test]
+    fn shares_are_of_each_quantity() {
+        let mut row = Row { inputs: [0.0; INPUTS], errors: [0.5; OUTPUTS], wheels: correlated() };
+        row.errors[1] = 1.5;
+        row.errors[OUTPUTS - 1] = -3.0;
+        let tally = Tally::of(&[row], |_| [0.0; OUTPUTS]);
+        assert_eq!(tally.shares(0), [1.0, 1.0]);
+        assert_eq!(tally.shares(1), [2.0 / 3.0, 1.0]);
+        assert_eq!(tally.shares(QUANTITIES), [0.0, 0.0]);
+        let doubled = Tally::of(&[row], |_| [1.0; OUTPUTS]);
+        assert_eq!(doubled.shares(QUANTITIES), [0.0, 1.0]);
+        assert!((doubled.mean_shares()[0] - 5.0 / 6.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,21 @@
+//! `kapvik train-doubt` with a drive of each kind: the source is written whole, and the same command writes the same bytes.
+
+use std::fs;
+
+use assert_cmd::Command;
+
+#[test]
+fn the_same_command_writes_the_same_source() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sources = ["one.rs", "other.rs"].map(|name| {
+        let path = folder.path().join(name);
+        let mut command = Command::cargo_bin("kapvik").expect("the command");
+        let command = command.args(["train-doubt", "--seed", "31", "--drives", "1", "--output"]).arg(&path);
+        let printed = String::from_utf8(command.assert().success().get_output().stdout.clone()).expect("text");
+        assert!(["Dropout", "bogie's pull", "within 2σ"].iter().all(|words| printed.contains(words)), "{printed}");
+        fs::read_to_string(path).expect("the source")
+    });
+    let [one, other] = sources;
+    assert_eq!(one, other);
+    assert!(one.contains("pub(super) static NETWORK: DoubtNetwork = DoubtNetwork {") && one.ends_with("};\n"), "{one}");
+}
