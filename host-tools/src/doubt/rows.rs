@@ -4,9 +4,10 @@ use kapvik_firmware::estimator::doubt::{INPUTS, OUTPUTS};
 use kapvik_firmware::estimator::{Believed, SideEstimate, WheelActivity, WheelCovariance, WheelEstimate};
 use kapvik_firmware::network::fixed_point::{Quad, SUM_BITS, rounded};
 use kapvik_firmware::rover::PerAxle;
-use nalgebra::{Cholesky, SMatrix};
+use nalgebra::Cholesky;
 
 use crate::data::truth_file::WheelTruth;
+use crate::trial::consistency::correlation;
 
 /// One side of the rover at one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,9 +102,7 @@ fn over_stated<const N: usize>(errors: [f64; N], variances: [f64; N]) -> Option<
 }
 
 fn inverse_correlation<const N: usize>(covariance: &[[f32; N]; N]) -> Option<[[f32; N]; N]> {
-    let covariance = SMatrix::<f64, N, N>::from_fn(|row, column| f64::from(covariance[row][column]));
-    let scale = covariance.diagonal().map(f64::sqrt);
-    let correlation = covariance.component_div(&(scale * scale.transpose()));
+    let (_, correlation) = correlation(covariance);
     // Symmetric: that columns are taken for rows does not matter.
     let inverse: [[f64; N]; N] = Cholesky::new(correlation)?.inverse().into();
     let inverse = inverse.map(|line| line.map(|entry| entry as f32));

@@ -1,5 +1,6 @@
 //! Whether a filter's covariance is that of its errors: normalised squares against χ².
 
+use nalgebra::{Cholesky, SMatrix, SVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Wheels of a rover, and so places at which one frame may have a square of its own.
@@ -89,13 +90,17 @@ impl NormalisedSquares {
 
 /// Square of an error in units of a covariance; none where that is singular.
 pub fn normalised_square<const N: usize>(error: [f64; N], covariance: &[[f32; N]; N]) -> Option<f64> {
-    let covariance = nalgebra::SMatrix::<f64, N, N>::from_fn(|row, column| f64::from(covariance[row][column]));
-    let error = nalgebra::SVector::<f64, N>::from(error);
-    // Of different units: scaled to a correlation first, so that the factorisation does not see them.
-    let scale = covariance.diagonal().map(f64::sqrt);
-    let correlation = covariance.component_div(&(scale * scale.transpose()));
-    let solved = nalgebra::linalg::Cholesky::new(correlation)?.solve(&error.component_div(&scale));
+    let (scale, correlation) = correlation(covariance);
+    let error = SVector::<f64, N>::from(error);
+    let solved = Cholesky::new(correlation)?.solve(&error.component_div(&scale));
     Some(solved.dot(&error.component_div(&scale)))
+}
+
+/// Standard deviations and correlations of a covariance. Of different units it is better factorised as these.
+pub fn correlation<const N: usize>(covariance: &[[f32; N]; N]) -> (SVector<f64, N>, SMatrix<f64, N, N>) {
+    let covariance = SMatrix::<f64, N, N>::from_fn(|row, column| f64::from(covariance[row][column]));
+    let scale = covariance.diagonal().map(f64::sqrt);
+    (scale, covariance.component_div(&(scale * scale.transpose())))
 }
 
 #[cfg(test)]
