@@ -72,7 +72,7 @@ fn differences(scenario: Scenario, seed: u64) -> [Differences; 6] {
         if frame.time_us < WARM_UP_US {
             continue;
         }
-        let sides: PerSide<(SideEstimate, SideEstimate)> = single.estimate().zip(double.estimate());
+        let sides: PerSide<(SideEstimate, SideEstimate)> = single.estimate().zip(*double.estimate());
         for (single, double) in sides.as_array() {
             let bogie = difference(single.bogie_drawbar_pull_n, double.bogie_drawbar_pull_n);
             for (single, double) in single.wheels.zip(double.wheels).as_array() {

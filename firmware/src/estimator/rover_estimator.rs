@@ -25,6 +25,7 @@ pub struct RoverEstimator<S> {
     common: Common<S>,
     /// None until it has begun.
     sides: PerSide<Option<SideEstimator<S>>>,
+    estimates: PerSide<SideEstimate>,
 }
 
 /// What is known of the rover as a whole.
@@ -52,6 +53,12 @@ impl<S: Scalar> Common<S> {
             from_the_past: 0,
         }
     }
+
+    /// The forces on the hubs of both sides as they hold the rover together.
+    fn balanced(&self, sides: &PerSide<&SideEstimator<S>>) -> PerSide<HubForces<S>> {
+        let steady = sides.left.is_steady() && sides.right.is_steady();
+        balanced(&self.rover, &self.attitude, steady, &sides.map(SideEstimator::forces))
+    }
 }
 
 /// What became of a frame.
@@ -75,13 +82,14 @@ impl<S: Scalar> RoverEstimator<S> {
     /// Estimators that take no frame until [`Self::restart`]: what is large about them is made where it stays, for two do not fit on the
     /// stack.
     pub fn not_begun(rover: &Rover<S>) -> Self {
-        Self { common: Common::new(rover), sides: PerSide { left: None, right: None } }
+        Self { common: Common::new(rover), sides: PerSide { left: None, right: None }, estimates: PerSide::default() }
     }
 
     /// Starts anew, for another rover, where this one is.
     pub fn restart(&mut self, rover: &Rover<S>) {
         self.start_sides(rover);
         self.common = Common::new(rover);
+        self.estimates = PerSide::default();
     }
 
     fn start_sides(&mut self, rover: &Rover<S>) {
@@ -105,12 +113,13 @@ impl<S: Scalar> RoverEstimator<S> {
         let travel_m = S::constant(0.5) * (left_side.speed_m_s() + right_side.speed_m_s()) * step_s;
         note_surprises(&mut self.common.health.sensors, &PerSide { left, right });
         self.note_troubles();
+        self.estimate_sides();
         Taken::Used(travel_m.to_f32())
     }
 
-    /// What is known of the sides; of those that have not begun, nothing.
-    pub fn estimate(&self) -> PerSide<SideEstimate> {
-        self.of_sides(SideEstimator::estimate).unwrap_or_default()
+    /// What is known of the sides since the last frame that was used; before the first one, nothing.
+    pub fn estimate(&self) -> &PerSide<SideEstimate> {
+        &self.estimates
     }
 
     /// How the errors of each wheel's estimates belong together.
@@ -125,17 +134,25 @@ impl<S: Scalar> RoverEstimator<S> {
 
     /// Of both sides, with the forces on their hubs as they hold the rover together.
     fn of_sides<U>(&self, of: impl Fn(&SideEstimator<S>, &HubForces<S>) -> U) -> Option<PerSide<U>> {
-        let PerSide { left: Some(left), right: Some(right) } = &self.sides else { return None };
-        let sides = PerSide { left, right };
-        let steady = left.is_steady() && right.is_steady();
-        let forces = balanced(&self.common.rover, &self.common.attitude, steady, &sides.map(SideEstimator::forces));
-        Some(sides.zip(forces).map(|(side, forces)| of(side, &forces)))
+        let sides = self.begun()?;
+        Some(sides.zip(self.common.balanced(&sides)).map(|(side, forces)| of(side, &forces)))
+    }
+
+    fn begun(&self) -> Option<PerSide<&SideEstimator<S>>> {
+        let PerSide { left, right } = &self.sides;
+        Some(PerSide { left: left.as_ref()?, right: right.as_ref()? })
+    }
+
+    fn estimate_sides(&mut self) {
+        let PerSide { left: Some(left), right: Some(right) } = &mut self.sides else { return };
+        let forces = self.common.balanced(&PerSide { left, right });
+        self.estimates.left = left.estimate(&forces.left);
+        self.estimates.right = right.estimate(&forces.right);
     }
 
     /// What the measurements told the filters in the last frame.
     pub fn innovations(&self) -> Option<PerSide<&SideInnovations<S>>> {
-        let PerSide { left: Some(left), right: Some(right) } = &self.sides else { return None };
-        Some(PerSide { left, right }.map(SideEstimator::innovations))
+        Some(self.begun()?.map(SideEstimator::innovations))
     }
 
     /// Pitch of the body in the plane of its sides, rad, nose-up.

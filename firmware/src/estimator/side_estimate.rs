@@ -1,7 +1,7 @@
 //! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
 
 use super::contact_forces::{ContactForces, ErrorOf};
-use super::doubt::{INPUTS, OUTPUTS, QUANTITIES, doubt, of_wheels};
+use super::doubt::{INPUTS, OUTPUTS, QUANTITIES, of_wheels};
 use super::drawbar_split::DrawbarSplit;
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
@@ -28,8 +28,8 @@ pub struct Believed<S> {
     pub wheels: PerAxle<WheelCovariance<S>>,
     /// Of the sum of the bogie's drawbar pulls, N².
     pub bogie_pull_variance: S,
-    /// The inputs of that network.
-    pub inputs: [f32; INPUTS],
+    /// The inputs of that network, where it was run in this frame.
+    pub inputs: Option<[f32; INPUTS]>,
 }
 
 /// What is known of the forces on a side's hubs.
@@ -42,12 +42,15 @@ impl<S: Scalar> SideEstimator<S> {
         SideForces::new(self.forces.estimate(), (rocker - body).sin_cos(), (bogie - body).sin_cos())
     }
 
-    /// What is known of the side now, with such forces on its hubs.
-    pub fn estimate(&self, forces: &HubForces<S>) -> SideEstimate {
+    /// What is known of the side now, with such forces on its hubs. To be asked for once a frame, for doubt remembers.
+    pub fn estimate(&mut self, forces: &HubForces<S>) -> SideEstimate {
         let contacts = self.contacts(forces);
         let mut stds = self.variances(forces, &contacts);
-        let doubt = doubt(&self.doubt_inputs(&stds, &contacts));
-        stds.iter_mut().zip(doubt).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());
+        if self.doubt.its_turn() {
+            let inputs = self.doubt_inputs(&stds, &contacts);
+            self.doubt.take(&inputs);
+        }
+        stds.iter_mut().zip(self.doubt.times()).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());
         let [.., sum_std] = stds;
         let PerAxle { front, middle, rear } = &contacts;
         let sum = middle.pull_n + rear.pull_n;
@@ -70,8 +73,8 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// How the errors of each wheel's estimates belong together, with such forces on the hubs.
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
-        let believed = self.believed(forces);
-        believed.wheels.zip(of_wheels(&doubt(&believed.inputs))).map(|(covariance, doubt)| covariance.times(doubt))
+        let wheels = self.believed(forces).wheels;
+        wheels.zip(of_wheels(&self.doubt.times())).map(|(covariance, doubt)| covariance.times(doubt))
     }
 
     /// What the filters would have believed, with such forces on the hubs.
@@ -80,7 +83,7 @@ impl<S: Scalar> SideEstimator<S> {
             |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
         let contacts = self.contacts(forces);
         let variances = self.variances(forces, &contacts);
-        let inputs = self.doubt_inputs(&variances, &contacts);
+        let inputs = self.doubt.its_turn().then(|| self.doubt_inputs(&variances, &contacts));
         let [.., bogie_pull_variance] = variances;
         let wheels = contacts.zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
             torque_slip: [[entry(filter, 1, 1), entry(filter, 1, 2)], [entry(filter, 2, 1), entry(filter, 2, 2)]],

@@ -4,6 +4,7 @@ use super::attitude::Attitude;
 use super::compaction::{Compaction, Correction};
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::digging_in::{DiggingIn, Rolled};
+use super::doubt::Doubt;
 use super::drawbar_split::DrawbarSplit;
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
@@ -34,6 +35,10 @@ pub(super) struct SideFrame<S> {
     /// Gyro, rad/s.
     pub gyro_rad_s: Axes<Option<S>>,
 }
+
+/// Of a side and the body, those whose silence makes estimates worse: encoders, drive torques and cells of the three wheels, front to rear,
+/// bogie, rocker and the velocimeter.
+pub(super) const SENSORS: usize = 12;
 
 /// Below this speed of rim and hub a wheel stands, m/s.
 const STANDING: f64 = 1.5e-3;
@@ -78,6 +83,9 @@ pub(super) struct SideEstimator<S> {
     pub(super) compaction: [Compaction<S>; 2],
     /// What these tell of the contact angles.
     pub(super) corrections: PerAxle<Correction<S>>,
+    pub(super) doubt: Doubt,
+    /// One for a sensor that cannot be used in this frame.
+    pub(super) silent: [S; SENSORS],
     told: SideInnovations<S>,
 }
 
@@ -126,6 +134,8 @@ impl<S: Scalar> SideEstimator<S> {
             sinking: Sinking::new(&scale),
             compaction: [Compaction::new(); 2],
             corrections: PerAxle::all(Correction::none()),
+            doubt: Doubt::new(phase),
+            silent: [S::zero(); SENSORS],
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -160,6 +170,8 @@ impl<S: Scalar> SideEstimator<S> {
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();
+        self.doubt.take_turns();
+        self.silent = frame.silent();
         let readings = self.side_readings(frame);
         self.follow_rims(&frame.wheel_rate_rad_s);
         let slopes = *self.sinking.slopes();
@@ -350,6 +362,23 @@ impl<S: Scalar> SideEstimator<S> {
         let half = S::constant(0.5);
         let along = |pull: S, wheel: &HubOnGround<S>| pull * wheel.angle.1 - wheel.wheel.load_n * wheel.angle.0;
         along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
+    }
+}
+
+impl<S: Scalar> SideFrame<S> {
+    /// One for each sensor that cannot be used, in the order of [`SENSORS`].
+    fn silent(&self) -> [S; SENSORS] {
+        let Self {
+            wheel_rate_rad_s: rates, motor_torque_nm: torques, load_cell_n: cells, velocity_m_s: velocity, ..
+        } = self;
+        let of_wheels = [rates, torques, cells].map(|sensors| [sensors.front, sensors.middle, sensors.rear]);
+        let of_side = [self.bogie_angle_rad, self.rocker_angle_rad, velocity.x.and(velocity.z)];
+        let mut silent = [S::zero(); SENSORS];
+        let readings = of_wheels.as_flattened().iter().chain(&of_side);
+        for (silent, _) in silent.iter_mut().zip(readings).filter(|(_, reading)| reading.is_none()) {
+            *silent = S::one();
+        }
+        silent
     }
 }
 

@@ -52,8 +52,8 @@ impl Pipeline {
     pub fn tick(&mut self, frame: &SensorFrame) -> FrameEstimate {
         if let Taken::Used(travel_m) = self.estimator.tick(frame) {
             let sides = self.estimator.estimate();
-            let wheels = sides.map(|side| side.wheels);
-            let bogie_drawbar_pull_n = sides.map(|side| side.bogie_drawbar_pull_n);
+            let wheels = sides.as_ref().map(|side| side.wheels);
+            let bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
             let pitch = Estimate { value: self.estimator.pitch_rad(), std: self.estimator.pitch_std_rad() };
             let (wheel_soils, soil) = self.soil.tick(&wheels, pitch, travel_m);
             self.last = FrameEstimate { time_us: frame.time_us, wheels, bogie_drawbar_pull_n, wheel_soils, soil };

@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Seed of the first drive, from which all others follow; the same seed gives the same bytes
     #[arg(long, default_value_t = 20_000)]
     seed: u32,
-    /// Drives of each of six scenarios; some more have other noise or effects of the soil, and some are held out
+    /// Drives of each of six scenarios; some more have other noise, sensors that fail or effects of the soil, and some are held out
     #[arg(long, default_value_t = 160, value_parser = value_parser!(u32).range(1..=10_000))]
     drives: u32,
 }
@@ -34,16 +34,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let plan = Plan { seed: arguments.seed, drives: arguments.drives };
     let mut training = with_progress("drives", |bar| drive_all(&plan.training(), bar));
     let held_out = plan.held_out().map(|journeys| with_progress("held-out drives", |bar| drive_all(&journeys, bar)));
-    if training.rows.is_empty() {
+    let rows = training.known();
+    if rows == 0 {
         return Err(HostError::Failed("no drive gave anything to learn from: expected another seed".to_owned()));
     }
-    println!("{} drives, {} rows; {} drives failed", training.drives, training.rows.len(), training.failed);
-    let network = with_progress("training", |bar| train(&mut training.rows, plan.seed, bar));
+    println!("{} drives, {rows} rows; {} drives failed", training.drives, training.failed);
+    let network = with_progress("training", |bar| train(&mut training.sides, plan.seed, bar));
     if !network.cannot_overflow() {
         return Err(HostError::Failed("the network has diverged: its sums can overflow 32 bits".to_owned()));
     }
     println!("\n{}", tables(&held_out, &network));
-    let sets = held_out.map(|driven| BeforeAfter::of(&driven.rows, &network));
+    let sets = held_out.map(|driven| BeforeAfter::of(&driven.sides, &network));
     let provenance = Provenance { plan: &plan, held_out: &BeforeAfter::total(&sets) };
     write_text(&arguments.output, &source(&network, &provenance))?;
     Ok(())

@@ -4,15 +4,17 @@ use std::ops::Range;
 
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use kapvik_firmware::pipeline::Pipeline;
-use kapvik_firmware::rover::{Rover, SensorNoise};
+use kapvik_firmware::rover::{PerSide, Rover, SensorNoise};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::rows::Row;
+use super::rows::{Known, Row, SideRows};
 use crate::data::rover_file::RoverFile;
+use crate::data::sensor_channels::names;
 use crate::error::HostError;
 use crate::simulate::effects::RoverEffects;
+use crate::simulate::faults::{Failure, Fault};
 use crate::simulate::{Options, Scenario, Traverse};
 use crate::train::dataset::stream;
 use crate::trial::WARM_UP_S;
@@ -27,6 +29,12 @@ const OTHER: [Scenario; 2] = [Scenario::StartStop, Scenario::SoilChange];
 const DEVIATION_STREAM: usize = 2;
 /// What noises are multiplied by.
 const NOISE_FACTORS: Range<f64> = 0.5..2.0;
+/// How sensors fail, for how long, s, and how long until the next one does.
+const FAILURES: [Failure; 4] = [Failure::Nan, Failure::Outlier, Failure::Stuck, Failure::Dropout];
+const FAILING_S: Range<f64> = 1.0..6.0;
+const WORKING_S: Range<f64> = 2.0..10.0;
+/// No drive is longer, s.
+const LONGEST_S: f64 = 120.0;
 /// Other rovers, and radii of their wheels.
 const MASSES_KG: Range<f64> = 8.0..900.0;
 const RADII_M: Range<f64> = 0.06..0.15;
@@ -55,6 +63,8 @@ enum Deviation {
     None,
     /// Sensors are better or worse, and the flight side is told.
     Noise,
+    /// One sensor after the other fails for seconds.
+    Failures,
     /// The rover is lighter or heavier, on wheels of other sizes, and the flight side is told.
     Mass,
     /// Slip digs the wheels in.
@@ -74,8 +84,8 @@ struct Set {
 /// What drives gave.
 #[derive(Debug, Clone, Default)]
 pub struct Driven {
-    /// A row for each side and frame.
-    pub rows: Vec<Row>,
+    /// Both sides of each drive.
+    pub sides: Vec<SideRows>,
     /// How many drives gave them.
     pub drives: usize,
     /// How many were left out: rovers do get stuck.
@@ -103,6 +113,7 @@ impl Plan {
         let kinds = [
             (Deviation::None, self.drives),
             (Deviation::Noise, self.share(4)),
+            (Deviation::Failures, self.share(4)),
             (Deviation::Mass, self.share(4)),
             (Deviation::SlipSinkage, self.share(8)),
             (Deviation::GrouserRipple, self.share(8)),
@@ -126,17 +137,23 @@ fn numbered(first: u64, sets: &[Set]) -> Vec<Journey> {
     (first..).zip(kinds).map(|(seed, (scenario, deviation))| Journey { scenario, seed, deviation }).collect()
 }
 
-/// Drives them all; the order of the rows does not hang on the number of cores.
+impl Driven {
+    /// Rows of which something is known.
+    pub fn known(&self) -> usize {
+        self.sides.iter().flatten().filter(|row| row.known.is_some()).count()
+    }
+}
+
+/// Drives them all; the order of the sides does not hang on the number of cores.
 pub fn drive_all(journeys: &[Journey], progress: &ProgressBar) -> Driven {
     progress.set_length(journeys.len() as u64);
-    let results: Vec<Result<Vec<Row>, HostError>> =
-        journeys.par_iter().progress_with(progress.clone()).map(Journey::rows).collect();
+    let results: Vec<Result<PerSide<SideRows>, HostError>> =
+        journeys.par_iter().progress_with(progress.clone()).map(Journey::sides).collect();
     let mut driven = Driven::default();
-    driven.rows.reserve_exact(results.iter().flatten().map(Vec::len).sum());
     for result in results {
         match result {
-            Ok(rows) => {
-                driven.rows.extend(rows);
+            Ok(PerSide { left, right }) => {
+                driven.sides.extend([left, right]);
                 driven.drives += 1;
             }
             Err(_) => driven.failed += 1,
@@ -146,29 +163,33 @@ pub fn drive_all(journeys: &[Journey], progress: &ProgressBar) -> Driven {
 }
 
 impl Journey {
-    /// A row for each side and frame of which all is known.
+    /// Both sides, from the first frame on.
     ///
     /// # Errors
     /// Where the simulation fails.
-    fn rows(&self) -> Result<Vec<Row>, HostError> {
+    fn sides(&self) -> Result<PerSide<SideRows>, HostError> {
         let failed = |what: String| HostError::Failed(format!("{:?}, seed {}: {what}", self.scenario, self.seed));
         let (rover, options) = self.deviation.draw(&mut stream(self.seed, DEVIATION_STREAM)).map_err(failed)?;
         let traverse = Traverse::new(self.scenario, self.seed, &rover, &options);
         let mut pipeline =
             Pipeline::new(&rover.map(|value| value as f32)).map_err(|error| failed(format!("{error:?}")))?;
-        let mut rows = Vec::new();
+        let mut sides = PerSide::<SideRows>::default();
         for step in traverse.map_err(|error| failed(error.to_string()))? {
             let (frame, truth) = step.map_err(|error| failed(error.to_string()))?;
             pipeline.tick(&frame);
-            if frame.time_us as f64 * 1.0e-6 >= WARM_UP_S {
-                let estimator = pipeline.estimator();
-                let Some(believed) = estimator.believed() else { continue };
-                let sides = believed.zip(estimator.estimate()).zip(truth.wheels);
-                let of_sides = sides.map(|((believed, estimate), truth)| Row::new(&believed, &estimate, &truth));
-                rows.extend(of_sides.as_array().into_iter().flatten());
+            let estimator = pipeline.estimator();
+            let Some(believed) = estimator.believed() else { continue };
+            let counts = frame.time_us as f64 * 1.0e-6 >= WARM_UP_S;
+            let seen = believed.as_ref().zip(estimator.estimate().as_ref()).zip(truth.wheels.as_ref());
+            let PerSide { left, right } = sides.as_mut().zip(seen);
+            for (rows, ((believed, estimate), truth)) in [left, right] {
+                if let Some(inputs) = &believed.inputs {
+                    let known = counts.then(|| Known::new(believed, estimate, truth)).flatten();
+                    rows.push(Row { known, ..Row::new(inputs) });
+                }
             }
         }
-        Ok(rows)
+        Ok(sides)
     }
 }
 
@@ -177,9 +198,11 @@ impl Deviation {
     fn draw(self, random: &mut ChaCha8Rng) -> Result<(Rover<f64>, Options), String> {
         let mut rover = RoverFile::assumed().rover;
         let mut effects = RoverEffects::default();
+        let mut faults = Vec::new();
         match self {
             Self::None => {}
             Self::Noise => rover.noise = other_noise(&rover.noise, random),
+            Self::Failures => faults = failures(random)?,
             Self::Mass => {
                 rover.mass_kg = log_uniform(&MASSES_KG, random);
                 rover.wheel.radius_m = log_uniform(&RADII_M, random);
@@ -188,12 +211,27 @@ impl Deviation {
             Self::SlipSinkage => effects.set("slip-sinkage", random.random_range(0.0..0.3))?,
             Self::GrouserRipple => effects.set("grouser-ripple", random.random_range(0.0..0.2))?,
         }
-        Ok((rover, Options { effects, ..Options::default() }))
+        Ok((rover, Options { effects, faults, ..Options::default() }))
     }
 }
 
 fn log_uniform(range: &Range<f64>, random: &mut ChaCha8Rng) -> f64 {
     libm::exp(random.random_range(libm::log(range.start)..libm::log(range.end)))
+}
+
+/// One sensor at a time fails, in one of its columns.
+fn failures(random: &mut ChaCha8Rng) -> Result<Vec<Fault>, String> {
+    let columns = names();
+    let mut failures = Vec::new();
+    let mut start_s = WARM_UP_S;
+    while start_s < LONGEST_S {
+        let column = &columns[random.random_range(0..columns.len())];
+        let failure = FAILURES[random.random_range(0..FAILURES.len())];
+        let end_s = start_s + random.random_range(FAILING_S);
+        failures.push(Fault::new(failure, column, (start_s, end_s))?);
+        start_s = end_s + random.random_range(WORKING_S);
+    }
+    Ok(failures)
 }
 
 /// Each noise by itself is better or worse.
@@ -219,7 +257,7 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 6 * (16 + 4 + 4 + 2 + 2) + 2 * 4);
+        assert_eq!(training.len(), 6 * (16 + 4 + 4 + 4 + 2 + 2) + 2 * 4);
         let held_out = plan.held_out();
         assert!(held_out.iter().all(|journeys| journeys.len() == 4));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();
@@ -230,13 +268,19 @@ mod tests {
 
     #[test]
     fn a_drive_that_deviates_gives_the_same_rows_again() {
-        for deviation in
-            [Deviation::None, Deviation::Noise, Deviation::Mass, Deviation::SlipSinkage, Deviation::GrouserRipple]
-        {
+        for deviation in [
+            Deviation::None,
+            Deviation::Noise,
+            Deviation::Failures,
+            Deviation::Mass,
+            Deviation::SlipSinkage,
+            Deviation::GrouserRipple,
+        ] {
             let journey = Journey { scenario: Scenario::Level, seed: 3, deviation };
-            let rows = journey.rows().expect("a drive on the level");
-            assert!(rows.len() > 800, "{deviation:?}: {} rows", rows.len());
-            assert!(rows == journey.rows().expect("the same drive"), "{deviation:?}");
+            let sides = journey.sides().expect("a drive on the level");
+            let known = sides.as_ref().map(|rows| rows.iter().filter(|row| row.known.is_some()).count());
+            assert!(known.left > 200 && known.right > 200, "{deviation:?}: {known:?} rows");
+            assert!(sides == journey.sides().expect("the same drive"), "{deviation:?}");
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use kapvik_firmware::estimator::doubt::{DoubtNetwork, OUTPUTS, QUANTITIES, times_stated};
+use kapvik_firmware::estimator::doubt::{DoubtNetwork, Memory, OUTPUTS, QUANTITIES, times_stated};
 
 use super::drives::{Driven, NOMINAL};
 use super::loss::loss;
-use super::rows::Row;
+use super::rows::{Known, Row, SideRows};
 
 /// What is stated: of each wheel, and of each bogie.
 const STATED: [&str; QUANTITIES + 1] =
@@ -30,22 +30,29 @@ pub struct BeforeAfter {
 }
 
 impl Tally {
-    /// Of rows for which a network puts out these.
-    pub fn of(rows: &[Row], outputs: impl Fn(&Row) -> [f32; OUTPUTS]) -> Self {
+    /// Of what is known of some sides; `outputs` are those of each row of a side in turn.
+    pub fn of(sides: &[SideRows], outputs: impl Fn(&[Row]) -> Vec<[f32; OUTPUTS]>) -> Self {
         let mut tally = Self::default();
-        for row in rows {
-            let outputs = outputs(row);
-            tally.rows += 1;
-            tally.loss += f64::from(loss(&outputs, row).value);
-            for (place, (error, output)) in row.errors.iter().zip(outputs).enumerate() {
-                let stated = if place + 1 < OUTPUTS { place % QUANTITIES } else { QUANTITIES };
-                let times = times_stated(output);
-                for (within, stds) in tally.within.iter_mut().zip([1.0, 2.0]) {
-                    within[stated] += u64::from(error.abs() <= stds * times);
+        for side in sides {
+            for (row, outputs) in side.iter().zip(outputs(side)) {
+                if let Some(known) = &row.known {
+                    tally.add_row(known, &outputs);
                 }
             }
         }
         tally
+    }
+
+    fn add_row(&mut self, known: &Known, outputs: &[f32; OUTPUTS]) {
+        self.rows += 1;
+        self.loss += f64::from(loss(outputs, known).value);
+        for (place, (error, output)) in known.errors.iter().zip(outputs).enumerate() {
+            let stated = if place + 1 < OUTPUTS { place % QUANTITIES } else { QUANTITIES };
+            let times = times_stated(*output);
+            for (within, stds) in self.within.iter_mut().zip([1.0, 2.0]) {
+                within[stated] += u64::from(error.abs() <= stds * times);
+            }
+        }
     }
 
     /// The loss a row.
@@ -76,8 +83,8 @@ impl Tally {
 
 impl BeforeAfter {
     /// With and without the network.
-    pub fn of(rows: &[Row], network: &DoubtNetwork) -> Self {
-        Self { before: Tally::of(rows, |_| [0.0; OUTPUTS]), after: Tally::of(rows, |row| network.run(&row.inputs)) }
+    pub fn of(sides: &[SideRows], network: &DoubtNetwork) -> Self {
+        Self { before: Tally::of(sides, believed), after: Tally::of(sides, |rows| flown(network, rows)) }
     }
 
     /// Of several sets together.
@@ -91,9 +98,20 @@ impl BeforeAfter {
     }
 }
 
+/// The outputs of a network that believes the filters.
+pub fn believed(rows: &[Row]) -> Vec<[f32; OUTPUTS]> {
+    vec![[0.0; OUTPUTS]; rows.len()]
+}
+
+/// The outputs of a network for the rows of a side, as it flies.
+pub fn flown(network: &DoubtNetwork, rows: &[Row]) -> Vec<[f32; OUTPUTS]> {
+    let mut memory = Memory::EMPTY;
+    rows.iter().map(|row| network.run(&mut memory, &row.inputs)).collect()
+}
+
 /// Both tables: scenario by scenario, and all of them together, quantity by quantity.
 pub fn tables(driven: &[Driven; NOMINAL.len()], network: &DoubtNetwork) -> String {
-    let sets: Vec<BeforeAfter> = driven.iter().map(|driven| BeforeAfter::of(&driven.rows, network)).collect();
+    let sets: Vec<BeforeAfter> = driven.iter().map(|driven| BeforeAfter::of(&driven.sides, network)).collect();
     let mut scenarios = headed(&["scenario", "drives", "rows"], &["loss", "after"]);
     let names = NOMINAL.iter().map(|scenario| format!("{scenario:?}"));
     for ((name, driven), set) in names.zip(driven).zip(&sets) {
@@ -143,14 +161,17 @@ mod tests {
 
     #[test]
     fn shares_are_of_each_quantity() {
-        let mut row = Row { inputs: [0.0; INPUTS], errors: [0.5; OUTPUTS], wheels: correlated() };
-        row.errors[1] = 1.5;
-        row.errors[OUTPUTS - 1] = -3.0;
-        let tally = Tally::of(&[row], |_| [0.0; OUTPUTS]);
+        let mut known = Known { errors: [0.5; OUTPUTS], wheels: correlated() };
+        known.errors[1] = 1.5;
+        known.errors[OUTPUTS - 1] = -3.0;
+        let row = Row { known: Some(known), ..Row::new(&[0.0; INPUTS]) };
+        let sides = [vec![Row { known: None, ..row }, row]];
+        let tally = Tally::of(&sides, believed);
+        assert_eq!(tally.rows, 1, "of the other nothing is known");
         assert_eq!(tally.shares(0), [1.0, 1.0]);
         assert_eq!(tally.shares(1), [2.0 / 3.0, 1.0]);
         assert_eq!(tally.shares(QUANTITIES), [0.0, 0.0]);
-        let doubled = Tally::of(&[row], |_| [1.0; OUTPUTS]);
+        let doubled = Tally::of(&sides, |rows| vec![[1.0; OUTPUTS]; rows.len()]);
         assert_eq!(doubled.shares(QUANTITIES), [0.0, 1.0]);
         assert!((doubled.mean_shares()[0] - 5.0 / 6.0).abs() < 1e-12);
     }

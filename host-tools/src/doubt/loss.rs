@@ -6,7 +6,7 @@
 
 use kapvik_firmware::estimator::doubt::{GREATEST_OUTPUT, OUTPUTS, times_stated};
 
-use super::rows::{Precision, Row};
+use super::rows::{Known, Precision};
 
 /// How much the likelihood of each quantity of a wheel by itself counts, beside that of all together.
 const ALONE: f32 = 0.5;
@@ -20,15 +20,15 @@ pub struct Loss {
     pub slope: [f32; OUTPUTS],
 }
 
-/// The loss of a row where the network puts out these.
-pub fn loss(outputs: &[f32; OUTPUTS], row: &Row) -> Loss {
+/// The loss of a row of which this is known, where the network puts out these.
+pub fn loss(outputs: &[f32; OUTPUTS], known: &Known) -> Loss {
     let times = outputs.map(times_stated);
-    let mut errors = row.errors;
+    let mut errors = known.errors;
     errors.iter_mut().zip(times).for_each(|(error, times)| *error /= times);
     let mut loss = Loss { value: 0.0, slope: [0.0; OUTPUTS] };
     let (of_wheels, of_bogie) = errors.as_chunks();
     let (slopes, bogie_slope) = loss.slope.as_chunks_mut();
-    for ((errors, slope), precision) in of_wheels.iter().zip(slopes).zip(row.wheels.as_array()) {
+    for ((errors, slope), precision) in of_wheels.iter().zip(slopes).zip(known.wheels.as_array()) {
         loss.value += add_wheel(errors, precision, slope);
     }
     for (error, slope) in of_bogie.iter().zip(bogie_slope) {
@@ -82,11 +82,10 @@ fn square<const N: usize>(errors: &[f32; N], precision: &[[f32; N]; N], slope: &
 mod tests {
     use super::*;
     use crate::doubt::rows::tests::correlated;
-    use kapvik_firmware::estimator::doubt::INPUTS;
 
-    fn row() -> Row {
+    fn known() -> Known {
         let errors = std::array::from_fn(|place| 2.0 * libm::sinf(2.399 * place as f32));
-        Row { inputs: [0.0; INPUTS], errors, wheels: correlated() }
+        Known { errors, wheels: correlated() }
     }
 
     #[test]
@@ -94,12 +93,12 @@ mod tests {
         const STEP: f32 = 5e-3;
         // None is near a whole octave, where the slope jumps.
         let outputs: [f32; OUTPUTS] = std::array::from_fn(|place| 1.4 * libm::sinf(1.7 * place as f32 + 0.2));
-        let slope = loss(&outputs, &row()).slope;
+        let slope = loss(&outputs, &known()).slope;
         for (place, slope) in slope.into_iter().enumerate() {
             let at = |step: f32| {
                 let mut moved = outputs;
                 moved[place] += step;
-                f64::from(loss(&moved, &row()).value)
+                f64::from(loss(&moved, &known()).value)
             };
             let expected = (at(STEP) - at(-STEP)) / f64::from(2.0 * STEP);
             let slope = f64::from(slope);
@@ -109,7 +108,7 @@ mod tests {
 
     #[test]
     fn beyond_its_bounds_an_output_changes_nothing() {
-        let [at, beyond] = [1.0, 1.5].map(|times| loss(&[-times * GREATEST_OUTPUT; OUTPUTS], &row()));
+        let [at, beyond] = [1.0, 1.5].map(|times| loss(&[-times * GREATEST_OUTPUT; OUTPUTS], &known()));
         assert_eq!(at.value, beyond.value);
         assert_eq!(beyond.slope, [0.0; OUTPUTS]);
     }

@@ -9,11 +9,21 @@ use nalgebra::Cholesky;
 use crate::data::truth_file::WheelTruth;
 use crate::trial::consistency::correlation;
 
+/// A side of a drive, in the order of time: a row for each frame in which the network was run.
+pub type SideRows = Vec<Row>;
+
 /// One side of the rover at one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
     /// Inputs of the network as it sees them: rounded to 1/4096, within ±8.
     pub inputs: [f32; INPUTS],
+    /// How far what was stated was true; none of what is seen only by neurons that remember.
+    pub known: Option<Known>,
+}
+
+/// What is known of the errors of a side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Known {
     /// Estimate less truth over the stated standard deviation, in the order of the network's outputs.
     pub errors: [f32; OUTPUTS],
     /// How the errors of each wheel are stated to belong together.
@@ -33,6 +43,13 @@ pub struct Precision {
 type OfWheel = [f64; 5];
 
 impl Row {
+    /// A row of which nothing is known yet.
+    pub fn new(inputs: &[f32; INPUTS]) -> Self {
+        Self { inputs: seen(inputs), known: None }
+    }
+}
+
+impl Known {
     /// Of what the filters of a side state, what is estimated, and the truth. None where a number is missing or not finite, where
     /// nothing is stated, or where a wheel is in the air or held fast: what is said of it then does not come from the filters.
     pub fn new(believed: &Believed<f32>, estimate: &SideEstimate, truth: &PerAxle<WheelTruth>) -> Option<Self> {
@@ -46,11 +63,7 @@ impl Row {
         let error_n = f64::from(estimate.bogie_drawbar_pull_n.value) - true_pull_n;
         of_bogie.copy_from_slice(&over_stated([error_n], [f64::from(believed.bogie_pull_variance)])?);
         let PerAxle { front, middle, rear } = believed.wheels.as_ref().map(Precision::new);
-        Some(Self {
-            inputs: seen(&believed.inputs),
-            errors,
-            wheels: PerAxle { front: front?, middle: middle?, rear: rear? },
-        })
+        Some(Self { errors, wheels: PerAxle { front: front?, middle: middle?, rear: rear? } })
     }
 }
 
@@ -128,7 +141,7 @@ pub(super) mod tests {
             torque_slip: [[4.0, 0.0], [0.0, 0.01]],
             contact: [[0.04, 0.0, 0.0], [0.0, 9.0, 4.5], [0.0, 4.5, 9.0]],
         };
-        Believed { wheels: PerAxle::all(of_wheel), bogie_pull_variance: 16.0, inputs: [9.0; INPUTS] }
+        Believed { wheels: PerAxle::all(of_wheel), bogie_pull_variance: 16.0, inputs: None }
     }
 
     fn off_by(value: f32) -> Estimate {
@@ -154,11 +167,14 @@ pub(super) mod tests {
 
     #[test]
     fn errors_are_in_stated_deviations() {
-        let row = Row::new(&stated(), &estimated(), &truth()).expect("all is known");
+        let known = Known::new(&stated(), &estimated(), &truth()).expect("all is known");
         let expected = [-1.0, 2.0, 0.5, 2.0, 0.5].repeat(3).into_iter().chain([-2.0]);
-        assert!(row.errors.iter().zip(expected).all(|(error, expected)| (error - expected).abs() < 1e-6));
-        assert!(row.inputs.iter().all(|input| *input == 32_767.0 / 4096.0), "inputs saturate as in flight");
-        let [_, [_, load, cross], _] = row.wheels.rear.contact;
+        assert!(known.errors.iter().zip(expected).all(|(error, expected)| (error - expected).abs() < 1e-6));
+        assert!(
+            Row::new(&[9.0; INPUTS]).inputs.iter().all(|input| *input == 32_767.0 / 4096.0),
+            "inputs saturate as in flight"
+        );
+        let [_, [_, load, cross], _] = known.wheels.rear.contact;
         assert!((load - 4.0 / 3.0).abs() < 1e-5 && (cross + 2.0 / 3.0).abs() < 1e-5, "{load}, {cross}");
     }
 
@@ -169,14 +185,14 @@ pub(super) mod tests {
         let mut standing = estimated();
         standing.wheels.front.slip = None;
         for estimate in [lifted, standing] {
-            assert_eq!(Row::new(&stated(), &estimate, &truth()), None);
+            assert_eq!(Known::new(&stated(), &estimate, &truth()), None);
         }
         let mut sure = stated();
         sure.bogie_pull_variance = 0.0;
         let mut singular = stated();
         singular.wheels.middle.torque_slip = [[1.0, 1.0], [1.0, 1.0]];
         for stated in [sure, singular] {
-            assert_eq!(Row::new(&stated, &estimated(), &truth()), None);
+            assert_eq!(Known::new(&stated, &estimated(), &truth()), None);
         }
     }
 }

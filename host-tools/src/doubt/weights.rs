@@ -61,7 +61,8 @@ impl DoubtWeights {
 mod tests {
     use super::*;
     use crate::doubt::pass::outputs_of;
-    use crate::doubt::rows::seen;
+    use crate::doubt::rows::Row;
+    use kapvik_firmware::estimator::doubt::Memory;
 
     /// Numbers without a pattern, −1 … 1.
     fn wave(seed: usize) -> f32 {
@@ -78,13 +79,16 @@ mod tests {
         let mean = std::array::from_fn(|k| if k == 5 { 0.02 } else { 4.0 * wave(10 + k) });
         let flown = weights.rounded(&mean);
         assert!(flown.cannot_overflow());
-        for seed in 0..200 {
-            let input: [f32; INPUTS] = std::array::from_fn(|k| {
+        let inputs = |seed: usize| {
+            std::array::from_fn(|k| {
                 let spread = if k == 5 { 0.02 } else { 1.0 };
                 mean[k] + spread * wave(100 * seed + k)
-            });
-            let input = seen(&input);
-            for (exact, rounded) in outputs_of(&weights, &input).into_iter().zip(flown.run(&input)) {
+            })
+        };
+        let rows: Vec<Row> = (0..400).map(|seed| Row::new(&inputs(seed))).collect();
+        let mut memory = Memory::EMPTY;
+        for (row, exact) in rows.iter().zip(outputs_of(&weights, &rows)) {
+            for (exact, rounded) in exact.into_iter().zip(flown.run(&mut memory, &row.inputs)) {
                 assert!((exact - rounded).abs() < 0.02, "{exact}, {rounded}");
             }
         }

@@ -2,7 +2,7 @@
 
 use super::OUTPUTS;
 use crate::estimator::contact_forces::ContactForces;
-use crate::estimator::side_estimator::SideEstimator;
+use crate::estimator::side_estimator::{SENSORS, SideEstimator};
 use crate::math::octaves;
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
@@ -11,8 +11,9 @@ use crate::scalar::Scalar;
 /// standard deviations of torque, slip, contact angle, load and drawbar pull, of front, middle and rear wheel (15); slip, load and pull of
 /// each (9), times 2; the bends of rocker and bogie, the differences between the contact angles of neighbours, rad, the trends of these
 /// angles, rad/m (7), and how restless the ground is, 0 … 1, all times 8; the runs of innovations, of velocity up, rocker and bogie, then
-/// of three cells and the moments on bogie and rocker, in standard deviations (8), times 2.
-pub const INPUTS: usize = 40;
+/// of three cells and the moments on bogie and rocker, in standard deviations (8), times 2; for each sensor that cannot be used in this
+/// frame 4, of encoders, drive torques and cells of the three wheels, of bogie, rocker and velocimeter (12).
+pub const INPUTS: usize = 40 + SENSORS;
 
 impl<S: Scalar> SideEstimator<S> {
     /// The inputs of the network, where the filters state such variances, in the order of its outputs.
@@ -27,10 +28,7 @@ impl<S: Scalar> SideEstimator<S> {
         let per_torque = per_rest / self.rover.wheel.radius_m;
         let [of_torque, of_force] = [per_torque, per_rest].map(|per| per * per);
         let [mut known @ .., _] = *variances;
-        let units = [of_torque, one, one, of_force, of_force].into_iter().cycle();
-        for (place, unit) in known.iter_mut().zip(units) {
-            *place = S::from_f32(octaves((unit * *place).to_f32()));
-        }
+        to_octaves(&mut known, &[of_torque, one, one, of_force, of_force]);
         let wheels = contacts.as_ref().zip(self.wheels.as_ref()).map(|(contact, filter)| {
             let [_, _, slip] = *filter.estimate().mean();
             [slip, contact.load_n * per_rest, contact.pull_n * per_rest]
@@ -41,7 +39,7 @@ impl<S: Scalar> SideEstimator<S> {
         let of_side =
             [rocker - body, bogie - rocker, front - middle, middle - rear, of_front, of_middle, of_rear, rough];
         let PerAxle { front, middle, rear } = &wheels;
-        let parts: [(&[S], f32); 7] = [
+        let parts: [(&[S], f32); 8] = [
             (&known, 0.25),
             (front, 2.0),
             (middle, 2.0),
@@ -49,14 +47,29 @@ impl<S: Scalar> SideEstimator<S> {
             (&of_side, 8.0),
             (self.angles.runs().means(), 2.0),
             (self.forces.runs().means(), 2.0),
+            (&self.silent, 4.0),
         ];
         let mut inputs = [0.0; INPUTS];
-        let mut places = inputs.iter_mut();
-        for (values, times) in parts {
-            for (value, place) in values.iter().zip(places.by_ref()) {
-                *place = times * value.to_f32().abs();
-            }
-        }
+        magnitudes(&parts, &mut inputs);
         inputs
+    }
+}
+
+/// Variances, in these units in turn, to [`octaves`].
+#[inline(never)] // flash is scarcer than the time of a call, and of lists of known lengths each number would have code of its own
+fn to_octaves<S: Scalar>(variances: &mut [S], units: &[S]) {
+    for (place, unit) in variances.iter_mut().zip(units.iter().cycle()) {
+        *place = S::from_f32(octaves((*unit * *place).to_f32()));
+    }
+}
+
+/// The magnitudes of the values of each part, so many times, one behind the other.
+#[inline(never)] // as above
+fn magnitudes<S: Scalar>(parts: &[(&[S], f32)], magnitudes: &mut [f32]) {
+    let mut places = magnitudes.iter_mut();
+    for (values, times) in parts {
+        for (value, place) in values.iter().zip(places.by_ref()) {
+            *place = times * value.to_f32().abs();
+        }
     }
 }

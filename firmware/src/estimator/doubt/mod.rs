@@ -2,21 +2,24 @@
 //!
 //! A filter states the errors of its own model: that the ground moves its state at random, at a rate that it has chosen by its
 //! innovations. Ground does not. Where it begins to bend, errors come in runs and are several times as large; on ground that stays plane
-//! half of what is stated is not there. How much, a small network tells, from what a side knows of how well it does: it is trained by
-//! likelihood on simulated drives, in which errors are known, and changes standard deviations only, never what is estimated.
+//! half of what is stated is not there. How much, a small network tells, from what a side knows of how well it does now and did before:
+//! it is trained by likelihood on simulated drives, in which errors are known, and changes standard deviations only, never what is
+//! estimated.
 
 mod frozen;
 mod inputs;
+mod memory;
 
 use crate::math::of_octaves;
-use crate::network::fixed_point::{FixedLayer, SUM_BITS, rounded};
+use crate::network::fixed_point::{FixedLayer, Quad, SUM_BITS, rounded};
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
 pub use inputs::INPUTS;
+pub use memory::{Memory, SHARE_BITS, SLOW};
 
-/// Neurons of the hidden layer.
-pub const HIDDEN: usize = 12;
+/// Neurons of the hidden layer, of which the last [`SLOW`] remember.
+pub const HIDDEN: usize = 32;
 /// Quantities of a wheel: resistive torque, slip, contact angle, normal load and drawbar pull.
 pub const QUANTITIES: usize = 5;
 /// Outputs: of the quantities of front, middle and rear wheel; then of the sum of the bogie's drawbar pulls.
@@ -37,9 +40,11 @@ impl DoubtNetwork {
     /// All weights zero: the filters are believed.
     pub const ZERO: Self = Self { first: FixedLayer::ZERO, output: FixedLayer::ZERO };
 
-    /// The outputs for inputs, which are taken to 1/4096 and saturate at ±8.
-    pub fn run(&self, inputs: &[f32; INPUTS]) -> [f32; OUTPUTS] {
-        self.output.outputs(&self.first.run(&rounded(inputs, SUM_BITS)))
+    /// The outputs for inputs, which are taken to 1/4096 and saturate at ±8, after what is remembered, which takes them in.
+    pub fn run(&self, memory: &mut Memory, inputs: &[f32; INPUTS]) -> [f32; OUTPUTS] {
+        let mut hidden: [Quad; HIDDEN / 4] = self.first.run(&rounded(inputs, SUM_BITS));
+        memory.follow(&mut hidden);
+        self.output.outputs(&hidden)
     }
 
     /// Whether no inputs whatever can bring a sum past 32 bits, on which flight relies.
@@ -48,14 +53,40 @@ impl DoubtNetwork {
     }
 }
 
-/// By what the frozen network has standard deviations multiplied, in the order of its outputs.
-#[inline(never)] // flash is scarcer than the time of a call
-pub(super) fn doubt<S: Scalar>(inputs: &[f32; INPUTS]) -> [S; OUTPUTS] {
-    let mut doubt = [S::one(); OUTPUTS];
-    for (times, output) in doubt.iter_mut().zip(frozen::NETWORK.run(inputs)) {
-        *times = S::from_f32(times_stated(output));
+/// How far a side's filters are believed.
+#[derive(Debug, Clone)]
+pub(super) struct Doubt {
+    memory: Memory,
+    times: [f32; OUTPUTS],
+    its_turn: bool,
+}
+
+impl Doubt {
+    /// Of filters that have seen nothing, which are believed. The sides take turns, by `phase`: it is odd on one of them.
+    pub fn new(phase: usize) -> Self {
+        Self { memory: Memory::EMPTY, times: [1.0; OUTPUTS], its_turn: phase.is_multiple_of(2) }
     }
-    doubt
+
+    /// To be called once a frame, before anything else.
+    pub fn take_turns(&mut self) {
+        self.its_turn = !self.its_turn;
+    }
+
+    /// Whether the network is run in this frame: in every other one.
+    pub fn its_turn(&self) -> bool {
+        self.its_turn
+    }
+
+    /// Takes the inputs of a frame.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn take(&mut self, inputs: &[f32; INPUTS]) {
+        self.times = frozen::NETWORK.run(&mut self.memory, inputs).map(times_stated);
+    }
+
+    /// By what standard deviations are multiplied, in the order of the network's outputs.
+    pub fn times<S: Scalar>(&self) -> [S; OUTPUTS] {
+        self.times.map(S::from_f32)
+    }
 }
 
 /// By what an output has a standard deviation multiplied.
@@ -76,7 +107,7 @@ pub(super) fn of_wheels<S: Scalar>(outputs: &[S; OUTPUTS]) -> PerAxle<[S; QUANTI
 
 #[cfg(test)]
 mod tests {
-    use super::{DoubtNetwork, GREATEST_OUTPUT, INPUTS, OUTPUTS, frozen, of_wheels, times_stated};
+    use super::{Doubt, DoubtNetwork, GREATEST_OUTPUT, INPUTS, Memory, OUTPUTS, frozen, of_wheels, times_stated};
     use crate::rover::PerAxle;
 
     /// Flight relies on it: no input whatever may bring a sum past 32 bits.
@@ -88,12 +119,33 @@ mod tests {
 
     #[test]
     fn whatever_a_side_seems_to_know_doubt_is_bounded() {
-        assert_eq!(DoubtNetwork::ZERO.run(&[3.0; INPUTS]).map(times_stated), [1.0; OUTPUTS]);
+        let mut memory = Memory::EMPTY;
+        assert_eq!(DoubtNetwork::ZERO.run(&mut memory, &[3.0; INPUTS]).map(times_stated), [1.0; OUTPUTS]);
         for input in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 8.0, -8.0] {
-            let doubt = frozen::NETWORK.run(&[input; INPUTS]).map(times_stated);
+            let doubt = frozen::NETWORK.run(&mut memory, &[input; INPUTS]).map(times_stated);
             assert!(doubt.iter().all(|times| (0.2..=5.0).contains(times)), "{input}: {doubt:?}");
         }
         assert_eq!(times_stated(10.0), times_stated(GREATEST_OUTPUT));
+    }
+
+    #[test]
+    fn sides_take_turns_and_doubt_holds_until_the_next() {
+        let mut sides = [Doubt::new(0), Doubt::new(3)];
+        let mut before = sides.each_ref().map(Doubt::its_turn);
+        for _ in 0..4 {
+            sides.iter_mut().for_each(Doubt::take_turns);
+            let now = sides.each_ref().map(Doubt::its_turn);
+            assert_eq!(now, before.map(|turn| !turn));
+            assert!(now[0] != now[1]);
+            before = now;
+        }
+        let [side, _] = &mut sides;
+        assert_eq!(side.times::<f64>(), [1.0; OUTPUTS]);
+        side.take(&[1.0; INPUTS]);
+        let taken = side.times::<f32>();
+        assert_ne!(taken, [1.0; OUTPUTS]);
+        side.take_turns();
+        assert_eq!(side.times::<f32>(), taken);
     }
 
     #[test]
