@@ -2,6 +2,7 @@
 
 use kapvik_firmware::rover::Rover;
 use kapvik_host::simulate::Scenario;
+use kapvik_host::trial::errors::Errors;
 use kapvik_host::trial::{Quantity, trial};
 
 /// Kapvik's frame under five, ten and twenty-two times its mass, on its own wheels and on wheels twice as large.
@@ -14,16 +15,21 @@ fn heavy_rovers() -> [Rover<f64>; 4] {
     })
 }
 
+/// What is driven, and the errors over drives of a scenario; some heavy rovers get stuck.
+fn errors(scenario: Scenario, rover: &Rover<f64>) -> (String, Errors) {
+    let what = format!("{} kg on {} m, {scenario:?}", rover.mass_kg, rover.wheel.radius_m);
+    let trial = trial(scenario, 50..58, rover);
+    assert!(trial.drives.len() >= 4, "{what}: {:?}", trial.failures);
+    (what, trial.errors())
+}
+
 /// What the project wants of every rover: slip and load no worse than the raw sensors, and what is stated no narrower than what is true.
 /// A drive's sensor that is this precise against what it measures is hard to beat: torque may err by twice its noise. Drives of a heavy
 /// rover differ more than those of Kapvik: eight give shares to some 5 %.
 #[test]
 fn a_heavy_rover_beats_its_raw_sensors_and_says_how_well() {
     for rover in heavy_rovers() {
-        let trial = trial(Scenario::Spread, 50..58, &rover);
-        let what = format!("{} kg on {} m", rover.mass_kg, rover.wheel.radius_m);
-        assert!(trial.drives.len() >= 4, "{what}: {:?}", trial.failures);
-        let errors = trial.errors();
+        let (what, errors) = errors(Scenario::Spread, &rover);
         for quantity in [Quantity::Slip, Quantity::Torque, Quantity::Load] {
             let tally = errors.of(quantity);
             let (ratio, most) = match quantity {
@@ -42,10 +48,7 @@ fn a_heavy_rover_beats_its_raw_sensors_and_says_how_well() {
 #[test]
 fn on_hills_a_heavy_rover_claims_no_more_than_it_knows() {
     for rover in heavy_rovers() {
-        let trial = trial(Scenario::Hills, 50..58, &rover);
-        let what = format!("{} kg on {} m, hills", rover.mass_kg, rover.wheel.radius_m);
-        assert!(trial.drives.len() >= 4, "{what}: {:?}", trial.failures);
-        let errors = trial.errors();
+        let (what, errors) = errors(Scenario::Hills, &rover);
         for quantity in [Quantity::Torque, Quantity::ContactAngle, Quantity::FrontPull, Quantity::BogiePull] {
             let [one, two] = errors.of(quantity).coverage();
             println!("{what}, {quantity:?}: {one:.2} {two:.2} within");
