@@ -73,23 +73,27 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// How the errors of each wheel's estimates belong together, with such forces on the hubs.
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
-        let wheels = self.believed(forces).wheels;
+        let wheels = self.stated(forces, &self.contacts(forces));
         wheels.zip(of_wheels(&self.doubt.times())).map(|(covariance, doubt)| covariance.times(doubt))
     }
 
     /// What the filters would have believed, with such forces on the hubs.
     pub fn believed(&self, forces: &HubForces<S>) -> Believed<S> {
-        let entry =
-            |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
         let contacts = self.contacts(forces);
         let variances = self.variances(forces, &contacts);
         let inputs = self.doubt.its_turn().then(|| self.doubt_inputs(&variances, &contacts));
         let [.., bogie_pull_variance] = variances;
-        let wheels = contacts.zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
+        Believed { wheels: self.stated(forces, &contacts), bogie_pull_variance, inputs }
+    }
+
+    /// Covariances as the filters state them, with such forces on the hubs.
+    fn stated(&self, forces: &HubForces<S>, contacts: &PerAxle<ContactForces<S>>) -> PerAxle<WheelCovariance<S>> {
+        let entry =
+            |filter: &SlipTorqueFilter<S>, one, other| filter.estimate().covariance(one, other).unwrap_or(S::zero());
+        contacts.as_ref().zip(self.wheels.as_ref()).map(|(contact, filter)| WheelCovariance {
             torque_slip: [[entry(filter, 1, 1), entry(filter, 1, 2)], [entry(filter, 2, 1), entry(filter, 2, 2)]],
             contact: contact.errors.map(|one| contact.errors.map(|other| self.covariance(forces, &one, &other))),
-        });
-        Believed { wheels, bogie_pull_variance, inputs }
+        })
     }
 
     /// Variances as the filters state them, with such forces on the hubs: in the order of the outputs of the network that tells how true
