@@ -43,8 +43,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     if !network.cannot_overflow() {
         return Err(HostError::Failed("the network has diverged: its sums can overflow 32 bits".to_owned()));
     }
-    println!("\n{}", tables(&held_out, &network));
-    let sets = held_out.map(|driven| BeforeAfter::of(&driven.sides, &network));
+    let sets = held_out.each_ref().map(|driven| BeforeAfter::of(&driven.sides, &network));
+    println!("\n{}", tables(&held_out, &sets));
     let provenance = Provenance { plan: &plan, held_out: &BeforeAfter::total(&sets) };
     write_text(&arguments.output, &source(&network, &provenance))?;
     Ok(())

@@ -110,14 +110,13 @@ pub fn flown(network: &DoubtNetwork, rows: &[Row]) -> Vec<[f32; OUTPUTS]> {
 }
 
 /// Both tables: scenario by scenario, and all of them together, quantity by quantity.
-pub fn tables(driven: &[Driven; NOMINAL.len()], network: &DoubtNetwork) -> String {
-    let sets: Vec<BeforeAfter> = driven.iter().map(|driven| BeforeAfter::of(&driven.sides, network)).collect();
+pub fn tables(driven: &[Driven; NOMINAL.len()], sets: &[BeforeAfter; NOMINAL.len()]) -> String {
     let mut scenarios = headed(&["scenario", "drives", "rows"], &["loss", "after"]);
     let names = NOMINAL.iter().map(|scenario| format!("{scenario:?}"));
-    for ((name, driven), set) in names.zip(driven).zip(&sets) {
+    for ((name, driven), set) in names.zip(driven).zip(sets) {
         scenarios.add_row(of_scenario(name, driven.drives, set));
     }
-    let total = BeforeAfter::total(&sets);
+    let total = BeforeAfter::total(sets);
     scenarios.add_row(of_scenario("all".to_owned(), driven.iter().map(|driven| driven.drives).sum(), &total));
     let mut quantities = headed(&["quantity"], &[]);
     for (stated, name) in STATED.iter().enumerate() {
