@@ -3,7 +3,7 @@
 
 use kapvik_firmware::dual::Dual;
 use kapvik_firmware::scalar::Scalar;
-use kapvik_firmware::terramechanics::effects::{Effects, Grousers};
+use kapvik_firmware::terramechanics::effects::{CATALOGUE, Effects, Grousers};
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 
 use crate::data::campaign::Campaign;
@@ -13,6 +13,19 @@ use super::measurements::{Measurements, grousers};
 use super::site::{Bare, Carried, SLOTS, Site, Sloped};
 use super::soil_coordinates::{SoilParameter, Treatment, treatments};
 use super::specification::Specification;
+
+/// Derivatives of the largest model that there can be: all of the soil free, and every parameter of every effect.
+const MOST: usize = SoilParameter::ALL.len() + most_effect_parameters() + SLOTS;
+
+/// Parameters of all effects together.
+const fn most_effect_parameters() -> usize {
+    let (mut sum, mut place) = (0, 0);
+    while place < CATALOGUE.len() {
+        sum += CATALOGUE[place].parameters.len();
+        place += 1;
+    }
+    sum
+}
 
 /// A model of the readings of a campaign.
 #[derive(Debug, Clone)]
@@ -138,7 +151,9 @@ impl Model for CampaignModel<'_> {
             11..=12 => self.run::<12>(parameters, rows, latents),
             13..=14 => self.run::<14>(parameters, rows, latents),
             15 => self.run::<15>(parameters, rows, latents),
-            _ => self.run::<22>(parameters, rows, latents),
+            16..=22 => self.run::<22>(parameters, rows, latents),
+            23..=40 => self.run::<40>(parameters, rows, latents),
+            _ => self.run::<MOST>(parameters, rows, latents),
         }
     }
 
@@ -169,10 +184,10 @@ fn blank_soil() -> Soil<f64> {
 
 #[cfg(test)]
 mod tests {
-    use kapvik_firmware::terramechanics::effects::effect_info;
+    use kapvik_firmware::terramechanics::effects::{ParameterInfo, effect_info};
 
     use super::*;
-    use crate::data::campaign::Carried as Campaigns;
+    use crate::data::campaign::{Carried as Campaigns, Knowledge};
     use crate::diagnose::fit::Start;
     use crate::diagnose::specification::EffectForm;
 
@@ -181,6 +196,30 @@ mod tests {
     /// The last step to the sinkage takes its slope, which is summed in another order where there are more of them.
     fn check_rounding(one: f64, other: f64) {
         assert!((one - other).abs() <= 1e-13 * one.abs(), "{one}, {other}");
+    }
+
+    #[test]
+    fn a_model_may_have_every_effect_there_is() {
+        let campaign = Campaigns::from_name("cmu-smooth-transients").expect("carried").campaign().expect("a campaign");
+        let measurements = Measurements::of(&campaign, false).expect("measured");
+        let mut specification = Specification::default();
+        for info in CATALOGUE {
+            // Whatever a file gives bounds to is free, whichever form the effect has.
+            let between = |parameter: &ParameterInfo| {
+                let width = 1e-3 * (parameter.high - parameter.low);
+                let (min, max) = (parameter.low.max(parameter.neutral - width), parameter.neutral + width);
+                (parameter.name, Knowledge::Between { min, max })
+            };
+            let known = info.parameters.iter().map(between).collect();
+            specification = specification.with(EffectForm { known, ..EffectForm::new(info, &info.forms[0]) });
+            let model = CampaignModel::new(&campaign, &measurements, &specification);
+            let start = Start::of(&model, &measurements.rows);
+            let run = &measurements.rows_of_run[0];
+            let mut latents: Vec<Latent> = run.iter().map(|row| start.latents[*row]).collect();
+            let predictions = model.predict(&start.parameters, run, &mut latents).expect("predictions");
+            let slopes = predictions.iter().map(|prediction| prediction.slopes.by_parameter.len());
+            assert!(slopes.into_iter().all(|count| count == start.parameters.len()), "{}", info.id);
+        }
     }
 
     #[test]

@@ -119,7 +119,8 @@ pub(super) fn measured(campaign: &Campaign, options: &DiagnoseOptions) -> Result
 /// The declared model at its best: where the campaign leaves open which form a declared effect has, the form that fits best.
 pub(super) fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostError> {
     let specifications =
-        Specification::declared(bench.campaign, |form| is_measured(bench.campaign, bench.measurements, form));
+        Specification::declared(bench.campaign, |form| is_measured(bench.campaign, bench.measurements, form))
+            .map_err(|count| too_many(bench.campaign, count))?;
     let mut best: Option<Trial<'a>> = None;
     let mut refused = None;
     for specification in specifications {
@@ -137,6 +138,18 @@ pub(super) fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostErr
             .campaign
             .error(format!("the declared model does not fit{why}: expected loads that a soil within [soil] carries"))
     })
+}
+
+/// What is said where the declared effects have too many forms together.
+fn too_many(campaign: &Campaign, count: usize) -> HostError {
+    let most = campaign.declared.effects.iter().filter(|effect| effect.form.is_none());
+    let most = most.max_by_key(|effect| effect.info.forms.len()).map(|effect| effect.info);
+    let (id, form) = most.map_or(("", ""), |info| (info.id, info.forms.first().map_or("", |form| form.name)));
+    HostError::Failed(format!(
+        "{}: the effects of [declared] may come in {count} combinations of forms: expected fewer effects, or the form of \
+         some, as in [declared.{id}] form = \"{form}\"",
+        campaign.path.with_extension("toml").display()
+    ))
 }
 
 /// For each effect that was found, the candidates that are tried again where runs are held out: what was found before it is

@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 
 use kapvik_firmware::terramechanics::effects::{EffectInfo, Effects, Form, ParameterInfo, Role};
 
-use crate::data::campaign::{Campaign, Knowledge};
+use crate::data::campaign::{Campaign, DeclaredEffect, Knowledge};
 
 use super::fit::{Coordinate, Reading};
 use super::measurements::{Measurements, median};
+
+/// Combinations of forms that are tried at most: each is a fit from several starts.
+const MOST_COMBINATIONS: usize = 256;
 
 /// The effects of a model, in the order in which they came in.
 #[derive(Debug, Clone, Default)]
@@ -40,23 +43,22 @@ pub struct FreeParameter {
 
 impl Specification {
     /// What a campaign declares: every combination of the forms that its declared effects may have.
-    pub fn declared(campaign: &Campaign, measured: impl Fn(&Form) -> bool) -> Vec<Self> {
+    ///
+    /// # Errors
+    /// How many those are, where they are more than anybody waits for.
+    pub fn declared(campaign: &Campaign, measured: impl Fn(&Form) -> bool) -> Result<Vec<Self>, usize> {
+        let effects = &campaign.declared.effects;
+        let forms: Vec<_> = effects.iter().map(|declared| possible_forms(declared, &measured)).collect();
+        let combinations = forms.iter().map(Vec::len).fold(1, usize::saturating_mul);
+        if combinations > MOST_COMBINATIONS {
+            return Err(combinations);
+        }
         let mut found = vec![Self::default()];
-        for declared in &campaign.declared.effects {
-            let given = |form: &&Form| declared.known.keys().all(|name| is_part(form, name));
-            let all = declared.info.forms.iter();
-            let mut forms: Vec<_> = match declared.form {
-                Some(form) => vec![form],
-                None => all.clone().filter(|form| measured(form) && given(form)).collect(),
-            };
-            if forms.is_empty() {
-                forms.extend(all.take(1));
-            }
-            let known = &declared.known;
-            let with = |form| EffectForm { info: declared.info, form, known: known.clone() };
+        for (declared, forms) in effects.iter().zip(&forms) {
+            let with = |form| EffectForm { info: declared.info, form, known: declared.known.clone() };
             found = forms.iter().flat_map(|form| found.iter().map(|spec| spec.with(with(form)))).collect();
         }
-        found
+        Ok(found)
     }
 
     /// The same with one more effect.
@@ -138,6 +140,20 @@ impl EffectForm {
     }
 }
 
+/// The forms that a declared effect may have: the one that the file states, or those that show and have the parameters it knows.
+fn possible_forms(declared: &DeclaredEffect, measured: impl Fn(&Form) -> bool) -> Vec<&'static Form> {
+    let given = |form: &&Form| declared.known.keys().all(|name| is_part(form, name));
+    let all = declared.info.forms.iter();
+    let mut forms: Vec<_> = match declared.form {
+        Some(form) => vec![form],
+        None => all.clone().filter(|form| measured(form) && given(form)).collect(),
+    };
+    if forms.is_empty() {
+        forms.extend(all.take(1));
+    }
+    forms
+}
+
 /// Whether a parameter is one that a form frees or sets.
 fn is_part(form: &Form, name: &str) -> bool {
     form.free.contains(&name) || form.set.iter().any(|(set, _)| *set == name) || name.starts_with("reference")
@@ -153,5 +169,29 @@ fn reference(parameter: &str, measurements: &Measurements) -> Option<f64> {
         "reference_speed_m_s" => median(measurements.speeds_m_s().flatten().collect()).filter(|speed| *speed > 0.0),
         "reference_c" => middle(|conditions| conditions.temperature_c),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// How many combinations of forms there are where everything is measured.
+    fn combinations(declared: &str) -> Result<usize, usize> {
+        let csv = "run,t_s,slip,load_n,torque_nm\na,0,0.1,65,1.2\n";
+        let toml = format!(
+            "name = \"a\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.075\nwidth_m = 0.07\n[declared]\n{declared}"
+        );
+        let campaign = Campaign::parse(Path::new("a.csv"), csv, &toml).expect("a campaign");
+        Specification::declared(&campaign, |_| true).map(|found| found.len())
+    }
+
+    #[test]
+    fn more_combinations_than_can_be_tried_are_counted() {
+        assert_eq!(combinations("effects = [\"force-bias\"]\n"), Ok(3));
+        let many = "effects = [\"force-bias\", \"force-drift\", \"crosstalk\", \"rate\", \"multi-pass\"]\n";
+        assert!(combinations(many).is_err_and(|count| count > MOST_COMBINATIONS));
     }
 }
