@@ -1,5 +1,7 @@
 //! The command line, `cargo kapvik …`.
 
+mod output;
+
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -20,6 +22,7 @@ struct CommandLine {
 fn main() -> ExitCode {
     // Whoever reads only the first lines of what is printed ends the command, as with other commands, and has no panic.
     sigpipe::reset();
+    output::end_where_it_cannot_be_written();
     match CommandLine::parse().command.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -1,0 +1,17 @@
+//! Standard output that cannot be written.
+
+#![cfg(target_os = "linux")]
+
+use std::fs::File;
+use std::process::{Command, Stdio};
+
+#[test]
+fn a_full_disk_is_one_line_and_no_panic() {
+    let full = File::options().write(true).open("/dev/full").expect("the device that is always full");
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("kapvik"));
+    let output = command.arg("soils").stdout(Stdio::from(full)).output().expect("started");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.starts_with("kapvik: standard output could not be written: "), "{said}");
+}
