@@ -8,6 +8,7 @@ use std::path::Path;
 use kapvik_host::compare::{CompareOptions, Comparison, Parameter, ParameterScore, compare};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::{Method, identify_by};
+use kapvik_host::report::identified;
 use serde_json::Value;
 use support::{Made, TOML};
 
@@ -104,6 +105,45 @@ fn a_value_that_the_file_states_is_believed() {
     let (_, freely) = friction(TOML);
     let (value, told) = friction(&with("phi = { value = 0.60, std = 0.001 }"));
     assert!((value - 0.60).abs() < 0.003 && told < 0.2 * freely, "{value} ± {told}, without it ± {freely}");
+}
+
+/// Slip, load and torque that no soil has, beside their sinkage: least squares answer all the same.
+#[test]
+fn an_answer_that_is_no_soil_tells_nothing_and_says_so() {
+    let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n".to_owned();
+    for (slip, load, torque) in [(0.2, 40.0, 0.2), (0.3, 60.0, 1.6), (0.4, 80.0, 3.6), (0.5, 100.0, 5.5)] {
+        csv += &format!("a,0,{slip},{load},2.1,{torque},0.018\n");
+    }
+    let document = document(Method::Iagnemma, &csv, TOML).expect("a document");
+    let run = &document["runs"][0];
+    assert!(run["cohesion_pa"]["value"].as_f64().is_some_and(|c| c < -1e3), "{run}");
+    assert!(run["no_soil"].as_str().is_some_and(|why| why.contains("c is below zero")), "{run}");
+    for key in ["cohesion_pa", "friction_angle_rad", "shear_modulus_m"] {
+        assert_eq!(run[key]["identifiable"], false, "{run}");
+    }
+    let campaign = Campaign::parse(Path::new("made.csv"), &csv, TOML).expect("a campaign");
+    let told = identified(&identify_by(Method::Iagnemma, &campaign).expect("a document"));
+    assert!(told.contains("no soil: c is below zero") && told.matches(" ?").count() > 1, "{told}");
+}
+
+#[test]
+fn noise_of_zero_is_named() {
+    let csv = Made { runs: vec![("a", 1)], ..Made::default() }.csv();
+    let toml = TOML.replace("torque_nm = 0.05", "torque_nm = 0");
+    for method in [Method::Map, Method::Ding, Method::Ray] {
+        let document = document(method, &csv, &toml).expect("a document");
+        let refused = document["runs"][0]["refused"].as_str().expect("a reason");
+        assert!(refused.contains("the noise of torque_nm is 0"), "{}: {refused}", method.name());
+    }
+}
+
+#[test]
+fn a_number_that_the_file_holds_to_be_exact_is_taken_as_given() {
+    let csv = Made { runs: vec![("a", 1)], ..Made::default() }.csv();
+    let toml = TOML.replace("[soil]\n", "[soil]\nphi = 0.557\n");
+    let document = document(Method::Map, &csv, &toml).expect("a document");
+    let run = &document["runs"][0];
+    assert!(run["friction_angle_rad"]["assumed"] == true && run["no_soil"].is_null(), "{run}");
 }
 
 /// Scores of the situations in which [C] has figures (an independent implementation; its pattern of loads is not stated,

@@ -49,6 +49,9 @@ pub struct RunDocument {
     instants: usize,
     rows_used: usize,
     rows_left_out: Vec<LeftOutDocument>,
+    /// Why the estimate is none that a soil can be; then nothing in it is called identifiable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_soil: Option<String>,
     /// How well the method's model explains the run, where the method says.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<FitDocument>,
@@ -209,6 +212,7 @@ impl RunDocument {
             refused: found.err().cloned(),
             condition_number: found.ok().and_then(|found| found.condition_number),
             soil: found.map(SoilDocument::of_method).unwrap_or_default(),
+            no_soil: found.ok().and_then(|found| found.no_soil.clone()),
             fit: found.ok().and_then(|found| found.fit).map(FitDocument::of),
             ..Self::empty(states)
         }
@@ -224,6 +228,7 @@ impl RunDocument {
             instants: states.instants,
             rows_used: states.rows_used,
             rows_left_out: states.rows_left_out.iter().map(left_out).collect(),
+            no_soil: None,
             fit: None,
             networks: None,
         }

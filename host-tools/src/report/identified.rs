@@ -1,7 +1,7 @@
 //! What `identify` says of each run, for the terminal.
 
 use crate::compare::Parameter;
-use crate::identify::{Document, ParameterDocument, SoilDocument};
+use crate::identify::{Document, ParameterDocument, RunDocument, SoilDocument};
 
 use super::draw::number;
 use super::terminal::{align_right, plain_table};
@@ -15,10 +15,16 @@ pub fn identified(document: &Document) -> String {
     table.set_header(["run", "c, Pa", "φ, °", "K, mm", ""]);
     for run in document.runs() {
         let [cohesion, friction, modulus] = soil_cells(&run.soil);
-        table.add_row([run.run.clone(), cohesion, friction, modulus, run.refused.clone().unwrap_or_default()]);
+        table.add_row([run.run.clone(), cohesion, friction, modulus, remark(run)]);
     }
     align_right(&mut table);
     format!("{table}\n  {LEGEND}")
+}
+
+/// Why there is no estimate, or none that can be relied on.
+pub fn remark(run: &RunDocument) -> String {
+    let no_soil = run.no_soil.as_ref().map(|why| format!("no soil: {why}"));
+    run.refused.clone().or(no_soil).unwrap_or_default()
 }
 
 /// Cells of a soil: c (Pa), φ (°), K (mm).

@@ -16,6 +16,8 @@ pub struct Finding {
     pub condition_number: Option<f64>,
     /// How well the method's model explains what was seen, where it says.
     pub fit: Option<Fit>,
+    /// Why the answer is none that a soil can be, in a few words; none where it is one.
+    pub no_soil: Option<String>,
 }
 
 /// What a method says of one parameter.
@@ -66,6 +68,7 @@ impl From<&Identified<f64>> for Finding {
             shear_modulus_m: Statement::from(&identified.shear_modulus_m),
             condition_number: Some(identified.condition_number).filter(|number| number.is_finite()),
             fit: None,
+            no_soil: None,
         }
     }
 }
@@ -78,6 +81,7 @@ impl From<&SoilEstimate> for Finding {
             shear_modulus_m: Statement::from(&estimate.shear_modulus_m),
             condition_number: None,
             fit: None,
+            no_soil: None,
         }
     }
 }

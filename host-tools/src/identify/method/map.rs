@@ -21,6 +21,10 @@ pub fn map(evidence: &Evidence) -> Result<Finding, String> {
     finding.cohesion_pa = of_logarithm(finding.cohesion_pa, estimate.ln_cohesion);
     finding.shear_modulus_m = of_logarithm(finding.shear_modulus_m, estimate.ln_shear_modulus);
     finding.fit = Some(fit(&estimate));
+    let beliefs = [evidence.prior.ln_cohesion, evidence.prior.friction_angle_rad, evidence.prior.ln_shear_modulus];
+    for (statement, belief) in finding.statements_mut().into_iter().zip(beliefs) {
+        statement.assumed = belief.is_known();
+    }
     Ok(finding)
 }
 

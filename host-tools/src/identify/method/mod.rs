@@ -9,6 +9,8 @@ mod limit;
 mod literature;
 mod map;
 pub mod networks;
+mod no_soil;
+mod out_of_range;
 mod words;
 
 use clap::ValueEnum;
@@ -115,8 +117,10 @@ impl Method {
 /// # Errors
 /// The reason, in words.
 pub fn answer(method: Method, evidence: &Evidence) -> Result<Finding, String> {
-    let mut finding = by_itself(method, evidence)?;
+    let refused = |reason| out_of_range::named(evidence).unwrap_or(reason);
+    let mut finding = by_itself(method, evidence).map_err(refused)?;
     bootstrap::complete(&mut finding, evidence, |redrawn| by_itself(method, redrawn).ok());
+    no_soil::doubt(&mut finding);
     Ok(finding)
 }
 

@@ -4,7 +4,7 @@ use comfy_table::Table;
 
 use crate::compare::{CONTENDERS, Compared, Comparison, MeasuredRow, Parameter, ParameterScore, Score};
 use crate::report::draw::number;
-use crate::report::identified::soil_cells;
+use crate::report::identified::{remark, soil_cells};
 use crate::report::terminal::{align_right, plain_table};
 
 use super::verdict::{is_best, to_limit, verdicts};
@@ -124,14 +124,13 @@ fn measured(rows: &[MeasuredRow]) -> Table {
     table
 }
 
-/// The cells of each measured row: method, c, φ, K, and why it refused.
+/// The cells of each measured row: method, c, φ, K, and why it refused or is no soil.
 pub fn measured_rows(rows: &[MeasuredRow]) -> Vec<[String; 5]> {
     let row = |row: &MeasuredRow| {
         let declared =
             if row.declared.is_empty() { String::new() } else { format!(", told of {}", row.declared.join(", ")) };
         let [cohesion, friction, modulus] = soil_cells(&row.found.soil);
-        let refused = row.found.refused.clone().unwrap_or_default();
-        [format!("{}{declared}", row.method), cohesion, friction, modulus, refused]
+        [format!("{}{declared}", row.method), cohesion, friction, modulus, remark(&row.found)]
     };
     rows.iter().map(row).collect()
 }
