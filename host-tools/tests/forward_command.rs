@@ -77,6 +77,13 @@ fn rows_are_completed_and_all_else_is_kept() {
 }
 
 #[test]
+fn blanks_around_names_are_no_part_of_them() {
+    let rows = Run::new(WHEEL, SOIL, "note, slip , load_n\na, 0.20, 65.40\n").rows(&[]);
+    assert_eq!(rows[0].join(","), "note,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m");
+    assert!((number(&rows[1][3]) / 2.09 - 1.0).abs() < 0.01, "{:?}", rows[1]);
+}
+
+#[test]
 fn numbers_read_back_and_lead_back() {
     let by_load = Run::new(WHEEL, SOIL, "slip,load_n\n0.3,65.4\n").rows(&[]);
     let sinkage = &by_load[1][4];

@@ -30,7 +30,7 @@ struct Row {
 pub struct Column(usize);
 
 impl Table {
-    /// Reads a table. A byte-order mark, either kind of line end and quoted fields are taken as they come.
+    /// Reads a table. A byte-order mark, either kind of line end, quoted fields and blanks around names are taken as they come.
     ///
     /// # Errors
     /// Where the file cannot be read or is not UTF-8, leaves a quote open, has no header, names a column twice, or has a
@@ -53,7 +53,7 @@ impl Table {
             let line = lines.of_record(&record);
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
             if table.header.is_empty() {
-                table.header = fields;
+                table.header = fields.iter().map(|name| name.trim().to_owned()).collect();
                 table.check_header(line)?;
             } else {
                 table.check_length(line, fields.len())?;
@@ -76,7 +76,7 @@ impl Table {
     fn check_header(&self, line: u64) -> Result<(), HostError> {
         for (place, name) in self.header.iter().enumerate() {
             let column = place as u64 + 1;
-            if name.trim().is_empty() {
+            if name.is_empty() {
                 return Err(self.error(line, column, "this column has no name: expected one in the header"));
             }
             if self.header.iter().take(place).any(|other| other == name) {
