@@ -12,7 +12,20 @@ use super::wheel_file::{Grousers, LARGEST_M};
 use crate::error::HostError;
 
 type Number = Option<Spanned<f64>>;
-type Point<const N: usize> = Option<Spanned<[f64; N]>>;
+type Point<const N: usize> = Option<Spanned<Coordinates<N>>>;
+
+/// As many numbers as there are axes. By way of a list, for an array takes the first of too many.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(try_from = "Vec<f64>")]
+struct Coordinates<const N: usize>([f64; N]);
+
+impl<const N: usize> TryFrom<Vec<f64>> for Coordinates<N> {
+    type Error = String;
+    fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
+        let found = numbers.len();
+        numbers.try_into().map(Self).map_err(|_| format!("{found} numbers: expected {N}"))
+    }
+}
 
 /// A rover as a file describes it. A key that is absent takes the value of the assumed set K0.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -143,7 +156,8 @@ impl RoverTable {
             ("rear_hub", rear_hub),
         ];
         for (name, point) in points {
-            let is_far = |point: &&Spanned<[f64; 2]>| point.get_ref().iter().any(|place| is_beyond(*place, FARTHEST_M));
+            let is_far =
+                |point: &&Spanned<Coordinates<2>>| point.get_ref().0.iter().any(|place| is_beyond(*place, FARTHEST_M));
             if let Some(point) = point.as_ref().filter(is_far) {
                 return Err(file.error_at(point, format!("{name}: expected metres, at most {FARTHEST_M}")));
             }
@@ -179,11 +193,11 @@ impl RoverTable {
             (&self.suspension.rear_hub, &mut suspension.rear_hub),
         ];
         for (given, place) in points {
-            if let Some([x, z]) = given.as_ref().map(|point| *point.get_ref()) {
+            if let Some([x, z]) = given.as_ref().map(|point| point.get_ref().0) {
                 *place = Planar { x, z };
             }
         }
-        if let Some([x, y, z]) = self.suspension.centre_of_mass.as_ref().map(|point| *point.get_ref()) {
+        if let Some([x, y, z]) = self.suspension.centre_of_mass.as_ref().map(|point| point.get_ref().0) {
             suspension.centre_of_mass = Axes { x, y, z };
         }
         rover
@@ -199,7 +213,7 @@ impl RoverTable {
         };
         let points = |keys: &[&Point<2>]| {
             let there = || keys.iter().filter_map(|key| key.as_ref());
-            let wrong = there().find(|key| key.get_ref().iter().any(|coordinate| !coordinate.is_finite()));
+            let wrong = there().find(|key| key.get_ref().0.iter().any(|coordinate| !coordinate.is_finite()));
             wrong.or_else(|| there().next()).map(Spanned::span)
         };
         let centre = suspension.centre_of_mass.as_ref().map(Spanned::span);
@@ -211,7 +225,7 @@ impl RoverTable {
                 let bad_centre = suspension
                     .centre_of_mass
                     .as_ref()
-                    .filter(|centre| centre.get_ref().iter().any(|coordinate| !coordinate.is_finite()));
+                    .filter(|centre| centre.get_ref().0.iter().any(|coordinate| !coordinate.is_finite()));
                 let possible = |track: f64| track > 0.0 && track.is_finite();
                 let bad_track = half_track.as_ref().filter(|track| !possible(*track.get_ref()));
                 let single = bad_track.map(Spanned::span).or(bad_centre.map(Spanned::span));
@@ -220,7 +234,7 @@ impl RoverTable {
             GeometryError::HubOrder => points(&[front_hub, middle_hub, rear_hub, bogie_pivot]),
             GeometryError::BogiePivot => points(&[bogie_pivot, middle_hub, rear_hub, front_hub]),
             GeometryError::LeverArm => {
-                let below = |key: &&&Point<2>| key.as_ref().is_some_and(|point| point.get_ref()[1] >= 0.0);
+                let below = |key: &&&Point<2>| key.as_ref().is_some_and(|point| point.get_ref().0[1] >= 0.0);
                 let hubs = [front_hub, middle_hub, rear_hub];
                 hubs.iter().find(below).map_or_else(|| points(&hubs), |key| points(&[*key]))
             }
