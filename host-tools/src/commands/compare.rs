@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::compare::{CompareOptions, compare};
 use crate::data::atomic_write::{write_json, write_text};
+use crate::data::outputs;
 use crate::error::HostError;
 use crate::report::compare::{page, terminal};
 
@@ -38,6 +39,7 @@ pub struct Arguments {
 /// # Errors
 /// Where there is no such situation, or a file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    outputs::check(&[arguments.json.as_deref(), arguments.html.as_deref()], &[])?;
     let options = CompareOptions {
         cases: arguments.cases as usize,
         limit_cases: arguments.limit_cases as usize,

@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::data::atomic_write::{write_json, write_text};
 use crate::data::campaign::{Campaign, Carried};
+use crate::data::outputs;
 use crate::diagnose::{DiagnoseOptions, Outcome, declared_file, diagnose};
 use crate::error::HostError;
 use crate::report::diagnosis::{DiagnosisFindings, page, terminal};
@@ -36,17 +37,20 @@ pub struct Arguments {
 /// # Errors
 /// Where a file is not as it should be, or cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let campaign = campaign(&arguments.campaign)?;
+    let Arguments { campaign: table, json, html, declared, .. } = arguments;
+    let outputs = [json.as_deref(), html.as_deref(), declared.as_deref()];
+    outputs::check(&outputs, &[Some(table), Some(&table.with_extension("toml"))])?;
+    let campaign = campaign(table)?;
     let outcome = with_progress(&campaign, arguments.braking)?;
     let findings = findings(&campaign, &outcome);
     println!("{}", terminal(&findings));
-    if let Some(path) = &arguments.json {
+    if let Some(path) = json {
         write_json(path, &outcome.document)?;
     }
-    if let Some(path) = &arguments.html {
+    if let Some(path) = html {
         write_text(path, &page(&findings))?;
     }
-    if let Some(path) = &arguments.declared {
+    if let Some(path) = declared {
         write_text(path, &declared_file(&campaign, &outcome.document))?;
     }
     Ok(())

@@ -8,6 +8,7 @@ use kapvik_firmware::terramechanics::{
     ForceError, SinkageError, Soil, Wheel, deepest_sinkage, greatest_load, sinkage_for_load, wheel_forces,
 };
 
+use crate::data::outputs;
 use crate::data::soil_file::SoilTable;
 use crate::data::table::{Column, Table};
 use crate::data::wheel_file::WheelTable;
@@ -44,6 +45,8 @@ enum Precision {
 /// # Errors
 /// Where a file cannot be read or written, or does not hold what is expected: it names file, line and column.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let Arguments { wheel, soil, input, output, .. } = arguments;
+    outputs::check(&[Some(output)], &[Some(wheel), Some(soil), Some(input)])?;
     let wheel = WheelTable::read(&arguments.wheel)?.wheel();
     let soil = SoilTable::read_complete(&arguments.soil)?;
     let mut table = Table::read(&arguments.input)?;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::data::atomic_write::write_json;
+use crate::data::outputs;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
 use crate::identify::{Document, Method, identify, identify_by};
@@ -27,7 +28,9 @@ pub struct Arguments {
 
 /// Identifies the soil of each run.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let campaign = campaign(&arguments.campaign)?;
+    let table = &arguments.campaign;
+    outputs::check(&[Some(&arguments.json)], &[Some(table), Some(&table.with_extension("toml"))])?;
+    let campaign = campaign(table)?;
     let document = match arguments.method {
         Method::Network => {
             let mut computer = FlightComputer::in_process()?;

@@ -10,6 +10,7 @@ use kapvik_firmware::terramechanics::Soil;
 
 use super::simulate;
 use crate::data::atomic_write::write_text;
+use crate::data::outputs;
 use crate::data::rover_file::RoverFile;
 use crate::error::HostError;
 use crate::identifiability::advice::Advice;
@@ -117,6 +118,8 @@ pub struct Arguments {
 /// # Errors
 /// Where a file is not as it should be or cannot be written, or the rover cannot drive on the soil.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let outputs = [&arguments.json, &arguments.html, &arguments.picture].map(|path| path.as_deref());
+    outputs::check(&outputs, &[Some(arguments.soil.as_ref()), arguments.rover.as_deref()])?;
     let told = observability(arguments)?;
     println!("{}", terminal(&told));
     if let Some(path) = &arguments.json {

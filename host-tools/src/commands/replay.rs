@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::data::atomic_write::{refuse_to_replace, write_atomically};
+use crate::data::atomic_write::write_atomically;
+use crate::data::outputs;
 use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::qemu::LogView;
@@ -38,7 +39,8 @@ pub struct Arguments {
 /// # Errors
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    refuse_to_replace(&arguments.output, &arguments.frames)?;
+    let Arguments { frames, output, rover, weights, .. } = arguments;
+    outputs::check(&[Some(output)], &[Some(frames), rover.as_deref(), weights.as_deref()])?;
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
     let rover = recording.rover.map(|value| value as f32);

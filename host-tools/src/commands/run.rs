@@ -7,6 +7,8 @@ use clap::Args;
 use crate::data::atomic_write::write_text;
 use crate::data::campaign::Campaign;
 use crate::data::frame_file;
+use crate::data::outputs;
+use crate::data::truth_file::truth_path;
 use crate::error::HostError;
 use crate::flight_computer::Computer;
 use crate::process::workspace;
@@ -56,6 +58,10 @@ struct Told {
 /// # Errors
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let Arguments { input, rover, weights, report, picture, .. } = arguments;
+    let [about, truth] = [input.as_ref().map(|input| input.with_extension("toml")), input.as_deref().map(truth_path)];
+    let inputs = [input, rover, weights, &about, &truth].map(|path| path.as_deref());
+    outputs::check(&[report.as_deref(), picture.as_deref()], &inputs)?;
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let (on, weights) = (arguments.on, weights.as_ref());
     let told = match &arguments.input {

@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use kapvik_firmware::terramechanics::Soil;
 
 use crate::data::atomic_write::write_atomically;
+use crate::data::outputs;
 use crate::data::rover_file::RoverFile;
 use crate::data::soil_file::SoilTable;
 use crate::data::truth_file::{truth_path, write_truth};
@@ -67,6 +68,9 @@ pub struct Arguments {
 /// # Errors
 /// Where an argument or a file is not what is expected, or the rover gets stuck: then nothing is written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let truth = truth_path(&arguments.output);
+    let inputs = [arguments.rover.as_deref(), arguments.soil.as_deref().map(Path::new)];
+    outputs::check(&[Some(&arguments.output), Some(&truth)], &inputs)?;
     let RoverFile { rover, grousers } = match &arguments.rover {
         Some(path) => RoverFile::read(path)?,
         None => RoverFile::assumed(),
@@ -89,7 +93,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
             None => error.to_string(),
         })
     })?;
-    let truth = truth_path(&arguments.output);
     let told = write(&arguments.output, &truth, traverse)?;
     println!("{told}, seed {}", arguments.seed);
     println!("{} and {}", arguments.output.display(), truth.display());

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::data::atomic_write::write_text;
 use crate::data::campaign::Declared;
+use crate::data::outputs;
 use crate::error::HostError;
 use crate::train::comparison::{Row, compare_fifth_inputs, compare_trainers};
 use crate::train::curve::draw;
@@ -47,6 +48,8 @@ pub struct Arguments {
 /// # Errors
 /// Where a file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    let Arguments { output, declared, picture, .. } = arguments;
+    outputs::check(&[Some(output), picture.as_deref()], &[declared.as_deref()])?;
     let plan = if arguments.quick { Plan::quick(arguments.seed) } else { Plan::full(arguments.seed) };
     let world = match &arguments.declared {
         Some(path) => World::declared(&Declared::read_from(path)?),

@@ -43,19 +43,6 @@ pub fn write_atomically(
     Ok(())
 }
 
-/// Refuses an output that is the recording it would be made from: no second one may ever be had.
-///
-/// # Errors
-/// Where both are the same file.
-pub fn refuse_to_replace(output: &Path, input: &Path) -> Result<(), HostError> {
-    let same = matches!((output.canonicalize(), input.canonicalize()), (Ok(output), Ok(input)) if output == input);
-    if same && fs::metadata(output).is_ok_and(|metadata| metadata.is_file()) {
-        let name = output.display();
-        return Err(HostError::Failed(format!("{name}: the output is the input: expected another file")));
-    }
-    Ok(())
-}
-
 /// Writes a text the same way.
 ///
 /// # Errors

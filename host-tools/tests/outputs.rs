@@ -1,0 +1,58 @@
+//! Outputs that could not be written, or would replace what is read, are refused before any work begins.
+
+mod support;
+
+use std::fs;
+
+use assert_cmd::Command;
+use support::{Made, TOML};
+
+/// What a command says that is refused in a folder with a campaign, which stays as it was.
+fn refusal(arguments: &[&str]) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let csv = Made::default().csv();
+    fs::write(folder.path().join("made.csv"), &csv).expect("written");
+    fs::write(folder.path().join("made.toml"), TOML).expect("written");
+    let mut command = Command::cargo_bin("kapvik").expect("the binary");
+    let assert = command.current_dir(folder.path()).args(arguments).assert().failure();
+    let said = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(assert.get_output().stdout.is_empty(), "{arguments:?} began");
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).expect("readable");
+    assert!(read("made.csv") == csv && read("made.toml") == TOML, "{arguments:?}");
+    said
+}
+
+#[test]
+fn an_output_that_is_an_input_is_refused() {
+    let cases: [&[&str]; 7] = [
+        &["diagnose", "made.csv", "--declared", "made.toml"],
+        &["diagnose", "made.csv", "--json", "./made.csv"],
+        &["identify", "made.csv", "--method", "map", "--json", "made.csv"],
+        &["train", "--quick", "--declared", "made.toml", "-o", "made.toml"],
+        &["run", "made.csv", "--on", "host", "--report", "made.toml"],
+        &["observe", "--soil", "made.toml", "--json", "made.toml"],
+        &["forward", "--wheel", "made.toml", "--soil", "made.toml", "made.csv", "-o", "made.csv"],
+    ];
+    for arguments in cases {
+        let said = refusal(arguments);
+        assert!(said.contains("the output is the input: expected another file"), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn outputs_that_are_one_file_are_refused() {
+    for arguments in [
+        ["diagnose", "made.csv", "--json", "same", "--html", "same"],
+        ["train", "--quick", "-o", "same", "--picture", "./same"],
+    ] {
+        let said = refusal(&arguments);
+        assert!(said.contains("two outputs go to this file"), "{said}");
+    }
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_told_before_training() {
+    let said = refusal(&["train", "-o", "nowhere/x.table"]);
+    assert!(said.starts_with("kapvik: nowhere/x.table: No such file"), "{said}");
+}
