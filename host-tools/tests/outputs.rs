@@ -25,10 +25,11 @@ fn refusal(arguments: &[&str]) -> String {
 
 #[test]
 fn an_output_that_is_an_input_is_refused() {
-    let cases: [&[&str]; 7] = [
+    let cases: [&[&str]; 8] = [
         &["diagnose", "made.csv", "--declared", "made.toml"],
         &["diagnose", "made.csv", "--json", "./made.csv"],
         &["identify", "made.csv", "--method", "map", "--json", "made.csv"],
+        &["close-loop", "made.csv", "--quick", "-o", ".", "--diagnosis", "declared.toml"],
         &["train", "--quick", "--declared", "made.toml", "-o", "made.toml"],
         &["run", "made.csv", "--on", "host", "--report", "made.toml"],
         &["observe", "--soil", "made.toml", "--json", "made.toml"],

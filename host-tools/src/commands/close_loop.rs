@@ -9,7 +9,9 @@ use kapvik_firmware::terramechanics::Soil;
 use crate::close_loop::{Options, close};
 use crate::data::atomic_write::{write_json, write_text};
 use crate::data::campaign::{Campaign, Provenance};
+use crate::data::outputs;
 use crate::data::soil_file::SoilTable;
+use crate::data::text::TextFile;
 use crate::diagnose::document::Diagnosis;
 use crate::error::HostError;
 use crate::process::workspace;
@@ -52,12 +54,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let campaign = diagnose::campaign(&arguments.campaign)?;
     let truth = truth(arguments)?;
     let folder = arguments.output.clone().unwrap_or_else(|| workspace().join("target/kapvik-close-loop"));
+    std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
+    check_outputs(arguments, &folder)?;
     let diagnosis = match &arguments.diagnosis {
-        Some(path) => read(path)?,
+        Some(path) => read(path, &campaign)?,
         None => {
             say("diagnosis");
             let outcome = diagnose::with_progress(&campaign, false)?;
-            std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
             write_text(&folder.join("diagnosis.html"), &page(&diagnose::findings(&campaign, &outcome)))?;
             write_json(&folder.join("diagnosis.json"), &outcome.document)?;
             outcome.document
@@ -91,6 +94,19 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     Ok(())
 }
 
+/// What is written to the folder must not take the place of what is read.
+fn check_outputs(arguments: &Arguments, folder: &Path) -> Result<(), HostError> {
+    let Arguments { campaign, diagnosis, truth, .. } = arguments;
+    let mut names = vec!["declared.toml", "kapvik.table"];
+    if diagnosis.is_none() {
+        names.extend(["diagnosis.html", "diagnosis.json"]);
+    }
+    let written: Vec<PathBuf> = names.into_iter().map(|name| folder.join(name)).collect();
+    let written: Vec<Option<&Path>> = written.iter().map(|path| Some(path.as_path())).collect();
+    let about = campaign.with_extension("toml");
+    outputs::check(&written, &[Some(campaign), Some(&about), diagnosis.as_deref(), truth.as_deref()])
+}
+
 /// The soil that was named, or that of a file beside the campaign.
 fn truth(arguments: &Arguments) -> Result<Option<Soil<f64>>, HostError> {
     let beside = arguments.campaign.with_extension("truth.toml");
@@ -119,12 +135,56 @@ fn sentence(diagnosis: &Diagnosis) -> String {
     }
 }
 
-fn read(path: &Path) -> Result<Diagnosis, HostError> {
-    let text = std::fs::read_to_string(path).map_err(HostError::file(path))?;
-    serde_json::from_str(&text).map_err(|error| HostError::Input {
+/// A diagnosis of the campaign from a file; one of another campaign is refused.
+fn read(path: &Path, campaign: &Campaign) -> Result<Diagnosis, HostError> {
+    let file = TextFile::read(path)?;
+    let diagnosis: Diagnosis = serde_json::from_str(file.text()).map_err(|error| HostError::Input {
         path: path.to_path_buf(),
         line: error.line() as u64,
         column: error.column() as u64,
         message: format!("not a diagnosis: {error}"),
-    })
+    })?;
+    let refuse = |key: &str, message: String| {
+        let place = file.text().find(&format!("\"{key}\"")).unwrap_or(0);
+        Err(file.error_at(place, message))
+    };
+    if diagnosis.campaign != campaign.name {
+        let (found, expected) = (&diagnosis.campaign, &campaign.name);
+        return refuse("campaign", format!("a diagnosis of `{found}`: expected one of `{expected}`"));
+    }
+    if diagnosis.declared != campaign.declared.ids() {
+        let [found, expected] =
+            [&diagnosis.declared, &campaign.declared.ids()].map(|ids| format!("[{}]", ids.join(", ")));
+        return refuse("declared", format!("a diagnosis with {found} declared: expected one with {expected}"));
+    }
+    Ok(diagnosis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of a diagnosis of the campaign `name` with some effects declared, beside one named `sand` that declares none.
+    fn refusal(name: &str, declared: &str) -> Option<String> {
+        let csv = "run,t_s,slip,load_n,torque_nm\na,0,0.1,65,1.2\n";
+        let toml = "name = \"sand\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.075\nwidth_m = 0.07\n";
+        let campaign = Campaign::parse(Path::new("sand.csv"), csv, toml).expect("a campaign");
+        let json = format!(
+            "{{\n  \"campaign\": \"{name}\",\n  \"declared\": [{declared}], \"verdict\": \"none\", \"effects\": [],\n  \
+             \"runner_up\": null, \"ambiguous_with\": [], \"unexplained\": [], \"channels\": {{}},\n  \
+             \"soil_before\": {{}}, \"soil_after\": {{}}, \"held_out_runs\": []\n}}\n"
+        );
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), json).expect("written");
+        read(file.path(), &campaign).err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_diagnosis_of_another_campaign_is_refused() {
+        assert_eq!(refusal("sand", ""), None);
+        let other = refusal("gravel", "").expect("refused");
+        assert!(other.ends_with(":2:3: a diagnosis of `gravel`: expected one of `sand`"), "{other}");
+        let other = refusal("sand", "\"rate\"").expect("refused");
+        assert!(other.ends_with(":3:3: a diagnosis with [rate] declared: expected one with []"), "{other}");
+    }
 }
