@@ -20,7 +20,12 @@ struct Case {
 impl Case {
     /// Frames of a level drive, with the line of that number replaced, from 1, the header being the first.
     fn with(replaced: Option<(usize, String)>) -> Self {
-        let options = Options { duration_s: Some(6.0), ..Options::default() };
+        Self::lasting(6.0, replaced)
+    }
+
+    /// The same over so many seconds.
+    fn lasting(duration_s: f64, replaced: Option<(usize, String)>) -> Self {
+        let options = Options { duration_s: Some(duration_s), ..Options::default() };
         let drive = Traverse::new(Scenario::Level, 3, &Rover::assumed(), &options).expect("a drive");
         let mut bytes = Vec::new();
         write_header(&mut bytes).expect("written");
@@ -107,6 +112,36 @@ fn a_rover_file_is_used() {
 }
 
 #[test]
+fn columns_of_no_sensor_are_named_once() {
+    let case = Case::with(None);
+    let text = fs::read_to_string(case.path("frames.csv")).expect("readable");
+    assert!(text.starts_with("t_s,wheel_rate_fl_rad_s,"));
+    fs::write(case.path("frames.csv"), text.replacen("wheel_rate_fl_rad_s", "wheel_rate_fl", 1)).expect("written");
+    for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
+        let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().success();
+        let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+        assert_eq!(told.matches("columns that name no sensor, and are not used: wheel_rate_fl\n").count(), 1, "{told}");
+    }
+}
+
+#[test]
+fn load_cells_that_do_not_bear_the_mass_are_told_of() {
+    let case = Case::lasting(30.0, None);
+    for (mass, is_off) in [("40", true), ("41", false)] {
+        fs::write(case.path("rover.toml"), format!("mass_kg = {mass}\n")).expect("written");
+        for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
+            let arguments = ["frames.csv", output, "out", "--rover", "rover.toml"];
+            let assert = case.command(subcommand).args(arguments).assert().success();
+            let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+            let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert_eq!(told.contains("mass, gravity or the cells' zero is off"), is_off, "{told}");
+        }
+        let html = fs::read_to_string(case.path("out")).expect("written");
+        assert_eq!(html.contains("The load cells together bear 402 N where"), is_off);
+    }
+}
+
+#[test]
 fn bad_frames_are_refused_at_their_place() {
     let last = 62;
     for (line, text, words) in [
@@ -135,6 +170,8 @@ fn missing_files_and_impossible_rovers_are_refused() {
     case.is_refused(&["frames.csv", "--rover", "rover.toml"], &["rover.toml:3:12: radius_m = 75: expected m"]);
     fs::write(case.path("rover.toml"), "[suspension]\nfront_hub = [350, -200]\n").expect("written");
     case.is_refused(&["frames.csv", "--rover", "rover.toml"], &["rover.toml:2:13: front_hub: expected metres"]);
+    fs::write(case.path("rover.toml"), "[suspension]\nfront_hub = [0.35, -0.20, 99]\n").expect("written");
+    case.is_refused(&["frames.csv", "--rover", "rover.toml"], &["rover.toml:2:13: 3 numbers: expected 2"]);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::data::outputs;
 use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::qemu::LogView;
-use crate::replay::{EstimateWriter, Recording, lines, replay};
+use crate::replay::{EstimateWriter, Recording, lines, replay, unknown_columns};
 use crate::report::link_in_words;
 
 use super::weights::Weights;
@@ -44,6 +44,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
     let rover = recording.rover.map(|value| value as f32);
+    let unknown = recording.frames.unknown_columns();
     let mut computer = FlightComputer::start(arguments.on, LogView::Nothing)?;
     let mut outcome = None;
     write_atomically(&arguments.output, |out| {
@@ -57,7 +58,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         if let Some(weights) = &weights {
             println!("networks: {}", weights.in_words());
         }
-        lines(outcome).iter().for_each(|line| println!("{line}"));
+        unknown_columns(&unknown).iter().chain(&lines(outcome)).for_each(|line| println!("{line}"));
         if arguments.on == Computer::Qemu {
             println!("link: {}", link_in_words(&outcome.health));
         }

@@ -50,6 +50,13 @@ impl FrameReader {
         Ok(Self { stream, time, columns, last_us: None, is_empty: true })
     }
 
+    /// The columns that are passed over, such as those of a sensor whose name is not quite right.
+    pub fn unknown_columns(&self) -> Vec<String> {
+        let sensors = names();
+        let is_unknown = |name: &&String| *name != TIME && !sensors.contains(name);
+        self.stream.header().iter().filter(is_unknown).cloned().collect()
+    }
+
     fn frame(&mut self, row: &Row) -> Result<SensorFrame, HostError> {
         let time_us = self.time(row)?;
         let mut frame = SensorFrame { time_us, ..SensorFrame::default() };

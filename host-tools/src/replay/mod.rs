@@ -5,6 +5,7 @@ pub mod health;
 pub mod naive;
 mod outcome;
 mod recording;
+mod weighing;
 
 use std::time::{Duration, Instant};
 
@@ -21,8 +22,9 @@ use crate::flight_computer::FlightComputer;
 
 pub use estimate_file::EstimateWriter;
 pub use health::{REASONS, SensorTrouble, sensor_name, troubles};
-pub use outcome::lines;
+pub use outcome::{lines, unknown_columns};
 pub use recording::Recording;
+pub use weighing::{Misfit, Weighing};
 
 /// What is known once all frames went through.
 #[derive(Debug, Clone)]
@@ -37,6 +39,8 @@ pub struct Outcome {
     pub soil: Result<RoverSoil, Refusal>,
     /// Times at which another soil was noticed, µs.
     pub soil_changes_us: Vec<u64>,
+    /// What is wrong with rover file or load cells, where these do not bear what that says.
+    pub misfit: Option<Misfit>,
     /// How sensors and filters did.
     pub estimator: EstimatorHealth,
     /// Who answered.
@@ -71,7 +75,9 @@ pub fn replay(
     }
     let start = Instant::now();
     let mut counted: Option<Counted> = None;
-    computer.frames(frames, |estimate| {
+    let mut weighing = Weighing::of(rover);
+    let weighed = frames.inspect(|frame| frame.iter().for_each(|frame| weighing.take(frame)));
+    computer.frames(weighed, |estimate| {
         counted.get_or_insert_with(|| Counted::from(estimate.time_us)).count(&estimate);
         take(&estimate)
     })?;
@@ -79,7 +85,8 @@ pub fn replay(
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
-    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, estimator, boot, health })
+    let misfit = weighing.misfit();
+    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, misfit, estimator, boot, health })
 }
 
 impl Counted {

@@ -21,9 +21,15 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
         Err(reason) => format!("soil at the end: no estimate: {}", network_refusal(*reason)),
     });
     lines.extend(change_line(outcome));
+    lines.extend(outcome.misfit.map(|misfit| misfit.to_string()));
     lines.extend(filter_lines(outcome));
     lines.extend(sensor_lines(outcome));
     lines
+}
+
+/// What a person is told of columns of a recording that are passed over; a name may be misspelt.
+pub fn unknown_columns(names: &[String]) -> Option<String> {
+    (!names.is_empty()).then(|| format!("columns that name no sensor, and are not used: {}", names.join(", ")))
 }
 
 fn soil_line(soil: &RoverSoil) -> String {

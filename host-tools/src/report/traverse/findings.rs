@@ -29,6 +29,8 @@ pub struct TraverseFindings {
     pub origin: Origin,
     /// The rover that was calculated with.
     pub rover: Rover<f32>,
+    /// Columns of the recording that were passed over.
+    pub unknown_columns: Vec<String>,
     /// Estimates and truths, thinned.
     pub samples: Samples,
     /// Errors against the truth, where it is known.

@@ -33,6 +33,7 @@ type Step = Result<(SensorFrame, Option<Truth>), HostError>;
 pub struct Source {
     origin: Origin,
     rover: Rover<f64>,
+    unknown_columns: Vec<String>,
     steps: Box<dyn Iterator<Item = Step>>,
 }
 
@@ -50,7 +51,8 @@ impl Source {
         let steps = traverse
             .progress_with(bar)
             .map(move |step| step.map(|(frame, truth)| (frame, Some(truth))).map_err(failed));
-        Ok(Self { origin: Origin::Simulated { scenario, seed }, rover, steps: Box::new(steps) })
+        let origin = Origin::Simulated { scenario, seed };
+        Ok(Self { origin, rover, unknown_columns: Vec::new(), steps: Box::new(steps) })
     }
 
     /// A recording, with the truth where NAME.truth.csv is beside it.
@@ -59,6 +61,7 @@ impl Source {
     /// Where a file cannot be read, or is not what it should be.
     pub fn recorded(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
         let Recording { rover, frames: recorded } = Recording::open(frames, rover)?;
+        let unknown_columns = recorded.unknown_columns();
         let truths = truth_path(frames);
         let mut truths = if truths.is_file() { Some(TruthReader::open(&truths)?.peekable()) } else { None };
         let steps = recorded.map(move |frame| {
@@ -71,7 +74,7 @@ impl Source {
             Ok((frame, truths.next_if(same).transpose()?))
         });
         let name = frames.file_name().unwrap_or(frames.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { origin: Origin::Recorded(name), rover, steps: Box::new(steps) })
+        Ok(Self { origin: Origin::Recorded(name), rover, unknown_columns, steps: Box::new(steps) })
     }
 }
 
@@ -91,7 +94,7 @@ impl TraverseFindings {
     /// # Errors
     /// Where the computer cannot be had, does not pass its self-test or does not answer, or a frame cannot be read.
     pub fn gather(source: Source, on: Computer) -> Result<Self, HostError> {
-        let Source { origin, rover, steps } = source;
+        let Source { origin, rover, unknown_columns, steps } = source;
         let flight_rover = rover.map(|value| value as f32);
         let mut computer = FlightComputer::start(on, LogView::Nothing)?;
         // Estimates come some frames after what they are of.
@@ -116,7 +119,7 @@ impl TraverseFindings {
             fingerprint: format!("{fingerprint:08x}"),
             networks: None,
         };
-        Ok(Self { origin, rover: flight_rover, samples, errors, outcome, flight })
+        Ok(Self { origin, rover: flight_rover, unknown_columns, samples, errors, outcome, flight })
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a drive told: forces and soil over time, as a page to look at, a picture, and a table for the terminal.
 
 mod caveats;
+mod cells_and_mass;
 mod errors;
 mod findings;
 mod gather;

@@ -4,6 +4,7 @@ use maud::{DOCTYPE, Markup, html};
 
 use super::CHART_CSS;
 use super::caveats::caveats;
+use super::cells_and_mass::cells_and_mass;
 use super::errors;
 use super::findings::{Origin, TraverseFindings};
 use super::soil_chart::SoilChart;
@@ -34,7 +35,9 @@ pub fn page(findings: &TraverseFindings) -> String {
                     (sensors(findings))
                     section {
                         h2 { "What to keep in mind" }
-                        ul class="caveats" { @for caveat in caveats(findings) { li { (caveat) } } }
+                        ul class="caveats" {
+                            @for caveat in caveats(findings).into_iter().chain(cells_and_mass(findings)) { li { (caveat) } }
+                        }
                     }
                     section {
                         h2 { "From sensors to soil" }
