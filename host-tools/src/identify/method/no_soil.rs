@@ -6,6 +6,9 @@ use super::{Finding, Statement};
 const STEEPEST_RAD: f64 = 60.0 * std::f64::consts::PI / 180.0;
 /// Standard deviations below zero from which noise is no excuse for a cohesion.
 const EXCUSED: f64 = 2.0;
+/// Standard deviations of c (Pa), φ (rad) and K (m) that are as good as zero: methods that choose among soils state 1e-60, which
+/// only says that no soil of theirs is near.
+const NO_SPREAD: [f64; 3] = [1e-2, 1e-6, 1e-8];
 
 /// Where an answer is no soil, says why, and calls nothing in it identifiable: what one parameter errs by, the others make up for.
 pub fn doubt(finding: &mut Finding) {
@@ -19,15 +22,16 @@ pub fn doubt(finding: &mut Finding) {
 fn why(finding: &Finding) -> Option<String> {
     let Finding { cohesion_pa: c, friction_angle_rad: phi, shear_modulus_m: k, .. } = finding;
     let said = |statement: &Statement| !statement.assumed;
-    let has_spread = |statement: &Statement| statement.std > 0.0 && statement.std.is_finite();
+    let lacks_spread = finding
+        .statements()
+        .into_iter()
+        .zip(NO_SPREAD)
+        .any(|(one, none)| said(one) && !(one.std > none && one.std.is_finite()));
     let wrong = [
         (said(c) && (c.value.is_nan() || c.value < -EXCUSED * c.std), "c is below zero"),
         (said(phi) && !(0.0..=STEEPEST_RAD).contains(&phi.value), "φ is not from 0 to 60°"),
         (said(k) && (k.value.is_nan() || k.value <= 0.0), "K is not above zero"),
-        (
-            finding.statements().into_iter().any(|one| said(one) && !has_spread(one)),
-            "a standard deviation is missing or zero",
-        ),
+        (lacks_spread, "a standard deviation is missing or zero"),
     ];
     let wrong: Vec<&str> = wrong.into_iter().filter(|(is_wrong, _)| *is_wrong).map(|(_, words)| words).collect();
     (!wrong.is_empty()).then(|| wrong.join(", "))
@@ -79,7 +83,7 @@ mod tests {
         says(&doubted(|finding| finding.friction_angle_rad.value = 62_f64.to_radians()), "φ is not from 0 to 60°");
         says(&doubted(|finding| finding.friction_angle_rad.value = -0.56), "φ is not from 0 to 60°");
         says(&doubted(|finding| finding.shear_modulus_m.value = 0.0), "K is not above zero");
-        for std in [0.0, f64::INFINITY, f64::NAN] {
+        for std in [0.0, 1e-60, f64::INFINITY, f64::NAN] {
             says(&doubted(|finding| finding.friction_angle_rad.std = std), "standard deviation");
         }
     }
