@@ -6,6 +6,7 @@ use indicatif::ProgressBar;
 use kapvik_firmware::network::PosteriorScale;
 
 use super::back_propagation::{Adam, Momentum, mean_loss};
+use super::cosine_fall::cosine_fall;
 use super::curve::Curve;
 use super::dataset::{prior_scale, shuffle, wheel_examples, wheel_inputs};
 use super::example::{Example, WheelInput, normalisation};
@@ -182,7 +183,7 @@ fn by_batches(
     for epoch in 0..epochs {
         shuffle(&mut examples, course.sets.order + 1 + epoch as u64);
         let share = epoch as f32 / epochs as f32;
-        let rate = greatest_rate * 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share));
+        let rate = greatest_rate * cosine_fall(share);
         examples.chunks(128).for_each(|batch| step(network, batch, rate));
         course.watch(network, examples.len());
     }

@@ -3,6 +3,7 @@
 pub mod back_propagation;
 pub mod calibration;
 pub mod comparison;
+pub mod cosine_fall;
 pub mod cross;
 pub mod curve;
 pub mod dataset;

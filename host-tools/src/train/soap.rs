@@ -10,6 +10,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::back_propagation::mean_gradient;
+use super::cosine_fall::cosine_fall;
 use super::example::Example;
 use super::loss::{Loss, gaussian};
 use super::plan::Passes;
@@ -81,9 +82,8 @@ impl Soap {
         let batches = order.len().div_ceil(size) as f32;
         for (index, places) in order.chunks(size).enumerate() {
             let share = (epoch as f32 + index as f32 / batches) / passes.epochs as f32;
-            let fall = 0.5 * (1.0 + libm::cosf(std::f32::consts::PI * share));
             let batch: Vec<_> = places.par_iter().map(|&place| example(place as usize)).collect();
-            self.step(network, &batch, RATE * fall * (50.0 * share).min(1.0));
+            self.step(network, &batch, RATE * cosine_fall(share) * (50.0 * share).min(1.0));
         }
     }
 
