@@ -1,6 +1,6 @@
 //! What a reader must know before believing a number.
 
-use kapvik_firmware::soil::SoilEstimate;
+use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use super::findings::{Origin, TraverseFindings};
 use crate::report::parameter::Parameter;
@@ -24,7 +24,7 @@ pub fn caveats(findings: &TraverseFindings) -> Vec<String> {
     });
     let split = "Of the drawbar pull of a bogie's two wheels, the sensors tell the sum alone; how it is split follows from \
                  the wheels' torques, and its uncertainty is in the bands.";
-    [simulated, assumed, Some(split.to_owned()), cannot_be_told(findings), outside(findings)]
+    [simulated, assumed, Some(split.to_owned()), cannot_be_told(findings), at_the_end(findings), outside(findings)]
         .into_iter()
         .flatten()
         .collect()
@@ -47,9 +47,61 @@ fn cannot_be_told(findings: &TraverseFindings) -> Option<String> {
     })
 }
 
+fn at_the_end(findings: &TraverseFindings) -> Option<String> {
+    let soil = last_soil(findings)?;
+    let reaching = Parameter::ALL.into_iter().filter_map(|parameter| {
+        let end = end_of_training(parameter, parameter.of(soil))?;
+        Some(format!("{} at {} {}", parameter.symbol(), parameter.number(end), parameter.unit()))
+    });
+    let reaching: Vec<String> = reaching.collect();
+    (!reaching.is_empty()).then(|| {
+        format!(
+            "Intervals end where the training did ({}): the networks know no soil beyond it, and take one that is \
+             (ice-cemented, for example) for one near that end.",
+            reaching.join(", ")
+        )
+    })
+}
+
+/// The end of what the networks were trained for, if a parameter is told and its interval reaches that end.
+fn end_of_training(parameter: Parameter, estimate: &ParameterEstimate) -> Option<f64> {
+    const REACHES: f64 = 1.0e-3;
+    let trained = parameter.prior();
+    let [least, greatest] = estimate.interval_95.map(|end| trained.share(f64::from(end)));
+    let end = if greatest > 1.0 - REACHES {
+        trained.high
+    } else if least < REACHES {
+        trained.low
+    } else {
+        return None;
+    };
+    estimate.identifiable.then_some(end)
+}
+
 fn outside(findings: &TraverseFindings) -> Option<String> {
     last_soil(findings)?.outside_training_range.then(|| {
         "At the end the wheels' states lie outside the range that the networks were trained on: the soil cannot be relied on."
             .to_owned()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(interval_95: [f32; 2]) -> ParameterEstimate {
+        let value = (interval_95[0] + interval_95[1]) / 2.0;
+        ParameterEstimate { value, std: 0.02, interval_68: interval_95, interval_95, identifiable: true }
+    }
+
+    #[test]
+    fn an_interval_that_reaches_the_end_of_the_training_is_named() {
+        let trained = Parameter::FrictionAngle.prior();
+        let (low, high) = (trained.low as f32, trained.high as f32);
+        let end = |estimate: &ParameterEstimate| end_of_training(Parameter::FrictionAngle, estimate);
+        assert_eq!(end(&told([0.5, 0.6])), None);
+        assert_eq!(end(&told([0.68, high])), Some(trained.high));
+        assert_eq!(end(&told([low, 0.45])), Some(trained.low));
+        assert_eq!(end(&ParameterEstimate { identifiable: false, ..told([0.6, high]) }), None);
+    }
 }
