@@ -78,9 +78,8 @@ impl FrameReader {
         let Some(time_us) = microseconds(time_s) else { return refuse(time_s.to_string(), "a time of 0 s or more") };
         match self.last_us {
             Some(last) if time_us < last => {
-                refuse(format!("{time_s}: time runs backwards"), "a later time than before")
+                refuse(format!("{time_s}: time runs backwards"), "no earlier time than before")
             }
-            Some(last) if time_us == last => refuse(format!("{time_s}: this time again"), "a later time than before"),
             _ => Ok(time_us),
         }
     }
