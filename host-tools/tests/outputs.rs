@@ -33,7 +33,7 @@ fn an_output_that_is_an_input_is_refused() {
         &["train", "--quick", "--declared", "made.toml", "-o", "made.toml"],
         &["run", "made.csv", "--on", "host", "--report", "made.toml"],
         &["observe", "--soil", "made.toml", "--json", "made.toml"],
-        &["forward", "--wheel", "made.toml", "--soil", "made.toml", "made.csv", "-o", "made.csv"],
+        &["forward", "--wheel", "made.toml", "--soil", "made.toml", "made.csv", "-o", "made.toml"],
     ];
     for arguments in cases {
         let said = refusal(arguments);

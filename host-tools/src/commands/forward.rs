@@ -45,8 +45,8 @@ enum Precision {
 /// # Errors
 /// Where a file cannot be read or written, or does not hold what is expected: it names file, line and column.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let Arguments { wheel, soil, input, output, .. } = arguments;
-    outputs::check(&[Some(output)], &[Some(wheel), Some(soil), Some(input)])?;
+    let Arguments { wheel, soil, output, .. } = arguments;
+    outputs::check(&[Some(output)], &[Some(wheel), Some(soil)])?;
     let wheel = WheelTable::read(&arguments.wheel)?.wheel();
     let soil = SoilTable::read_complete(&arguments.soil)?;
     let mut table = Table::read(&arguments.input)?;
