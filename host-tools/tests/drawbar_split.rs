@@ -9,6 +9,7 @@ fn wheel(scene: &Scene, state: &WheelState) -> BogieWheel<f64> {
         load_n: f64::from(state.load_n),
         rim_force_n: f64::from(state.torque_nm) / scene.wheel.radius_m,
         slip: f64::from(state.slip),
+        direction: 1.0,
     }
 }
 

@@ -13,7 +13,7 @@ fn drive(scenario: Scenario, seed: u64) -> Vec<(FrameEstimate, Truth)> {
     traverse
         .map(|step| {
             let (frame, truth) = step.expect("the rover drives on");
-            (pipeline.tick(&frame), truth)
+            (*pipeline.tick(&frame), truth)
         })
         .collect()
 }
@@ -61,5 +61,21 @@ fn a_wheel_in_the_air_is_told_and_bears_nothing() {
             }
         }
         assert!(in_the_air > 50, "seed {seed}: {in_the_air}");
+    }
+}
+
+/// Pulls and torques of wheels that roll back are those of their mirror images: the soil is the one that it was.
+#[test]
+fn a_rover_that_turns_back_stays_on_its_soil() {
+    for seed in 1000..1004 {
+        let frames = drive(Scenario::StartStop, seed);
+        let back = frames.windows(2).filter(|pair| pair[1].1.x_m < pair[0].1.x_m - 1.0e-4).count();
+        assert!(back > 20, "seed {seed}: {back} frames back");
+        let (last, truth) = frames.last().expect("frames");
+        let soil = last.soil.as_ref().expect("a soil");
+        let (estimate, truth) = (soil.estimate.friction_angle_rad, truth.soil.friction_angle_rad);
+        println!("seed {seed}: {:.3} ± {:.3} rad, in truth {truth:.3}", estimate.value, estimate.std);
+        assert_eq!(soil.changes, 0, "seed {seed}");
+        assert!((f64::from(estimate.value) - truth).abs() < 3.0 * f64::from(estimate.std), "seed {seed}");
     }
 }

@@ -93,7 +93,7 @@ fn frames_become_estimates_row_by_row() {
     let mut expected = Vec::new();
     let mut writer = EstimateWriter::new(&mut expected).expect("written");
     for frame in FrameReader::open(&case.path("frames.csv")).expect("frames") {
-        writer.write(&pipeline.tick(&frame.expect("a frame"))).expect("written");
+        writer.write(pipeline.tick(&frame.expect("a frame"))).expect("written");
     }
     let written = fs::read(case.path("out.csv")).expect("written");
     assert!(written == expected, "the link changes no bit");

@@ -15,7 +15,7 @@ fn main() -> ! {
         let mut time_us = 0;
         bench.kernel("tick", -1.0, 1.0, |wobble| {
             time_us += 100_000;
-            pipeline.tick(&frame(time_us, wobble))
+            *pipeline.tick(&frame(time_us, wobble))
         });
     }
     exit(0)

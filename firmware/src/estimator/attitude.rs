@@ -17,12 +17,19 @@ pub(super) struct Attitude<S> {
     /// The pitch that the accelerometer alone felt in the last frame, rad, and its standard deviation.
     felt_rad: Option<S>,
     felt_std_rad: S,
+    /// The last speed forward that was measured, m/s, and the time since, s.
+    speed_m_s: Option<S>,
+    since_s: S,
 }
 
 /// How far the accelerometer may be from what the gyro says, in variances, before it is thought to feel something else
 /// than gravity; and for how many frames.
 const GATE: f64 = 16.0;
 const PATIENCE: u8 = 8;
+/// What the rover may accelerate at as it is first seen, m/s²: it may have just started.
+const UNSEEN_ACCELERATION: f64 = 0.5;
+/// A change of the measured speed up to this many of its standard deviations is taken for noise.
+const SPEED_NOISE: f64 = 4.0;
 /// What the rover may turn at without a gyro to tell, rad/s.
 const UNSEEN_TURN: f64 = 0.05;
 
@@ -37,6 +44,8 @@ impl<S: Scalar> Attitude<S> {
             rate_rad_s: (S::zero(), S::one()),
             felt_rad: None,
             felt_std_rad: S::one(),
+            speed_m_s: None,
+            since_s: S::zero(),
         }
     }
 
@@ -70,17 +79,25 @@ impl<S: Scalar> Attitude<S> {
         &self.specific_force
     }
 
-    /// Takes the inertial sensors' readings. Gives whether the accelerometer was surprising.
-    pub fn tick(&mut self, accel: Axes<Option<S>>, gyro: Axes<Option<S>>, step_s: S, noise: &SensorNoise<S>) -> bool {
+    /// Takes the inertial sensors' readings and the speed forward. Gives whether the accelerometer was surprising.
+    pub fn tick(
+        &mut self,
+        accel: Axes<Option<S>>,
+        gyro: Axes<Option<S>>,
+        speed_m_s: Option<S>,
+        step_s: S,
+        noise: &SensorNoise<S>,
+    ) -> bool {
         self.felt_rad = None;
         self.turn(gyro, step_s, noise.gyro_rad_s);
+        let accelerates = self.accelerates(speed_m_s, step_s, noise.velocity_m_s);
         let Some(force) = accel.all() else { return false };
         let in_plane = (force.x * force.x + force.z * force.z).sqrt();
         if in_plane < S::constant(0.1) || force.z < S::zero() {
             return true;
         }
         let angle = S::constant(core::f64::consts::FRAC_PI_2) - (force.x / in_plane).acos();
-        let noise = noise.accel_m_s2 / in_plane;
+        let noise = (noise.accel_m_s2 * noise.accel_m_s2 + accelerates * accelerates).sqrt() / in_plane;
         let innovation = angle - self.pitch.mean;
         let variance = self.pitch.variance + noise * noise;
         let surprising = innovation * innovation > S::constant(GATE) * variance;
@@ -98,6 +115,23 @@ impl<S: Scalar> Attitude<S> {
         surprising
     }
 
+    /// How fast the rover speeds up or slows down, m/s², beyond what noise of the velocimeter may be: the accelerometer feels that as well,
+    /// and it is no tilt.
+    fn accelerates(&mut self, speed_m_s: Option<S>, step_s: S, noise_m_s: S) -> S {
+        self.since_s += step_s;
+        let (before, since) = (self.speed_m_s, self.since_s);
+        if speed_m_s.is_some() {
+            (self.speed_m_s, self.since_s) = (speed_m_s, S::zero());
+        }
+        match before.zip(speed_m_s) {
+            Some((before, now)) if since > S::zero() => {
+                ((now - before).abs() - S::constant(SPEED_NOISE) * noise_m_s).max(S::zero()) / since
+            }
+            _ if self.pitch.variance >= S::one() => S::constant(UNSEEN_ACCELERATION),
+            _ => S::zero(),
+        }
+    }
+
     /// Carries the pitch along: the rate at which gravity turns in the plane, of a body that turns about all axes.
     fn turn(&mut self, gyro: Axes<Option<S>>, step_s: S, noise_rad_s: S) {
         let known = gyro.y.is_some();
@@ -111,5 +145,40 @@ impl<S: Scalar> Attitude<S> {
         self.pitch.mean += step_s * self.rate_rad_s.0;
         let drift = step_s * rate_std;
         self.pitch.variance = (self.pitch.variance + drift * drift).min(S::one());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Attitude;
+    use crate::rover::{Axes, Rover};
+
+    /// On level ground, ten frames a second: the pitch after each frame of a rover that moves at these speeds, m/s.
+    fn pitches<const N: usize>(speeds: [f64; N]) -> [f64; N] {
+        let noise = Rover::<f64>::assumed().noise;
+        let mut attitude = Attitude::new(9.81);
+        let mut before = 0.0;
+        speeds.map(|speed| {
+            let accel = Axes { x: Some((speed - before) / 0.1), y: Some(0.0), z: Some(9.81) };
+            before = speed;
+            let gyro = Axes { x: Some(0.0), y: Some(0.0), z: Some(0.0) };
+            let surprised = attitude.tick(accel, gyro, Some(speed), 0.1, &noise);
+            assert!(!surprised, "at {speed} m/s");
+            attitude.pitch_rad()
+        })
+    }
+
+    /// A record that begins as the rover starts: what the accelerometer feels then is no slope.
+    #[test]
+    fn a_start_is_no_slope() {
+        let [first, .., last] = pitches([0.05, 0.05, 0.05]);
+        assert!(first > 0.01, "felt as a slope at first: {first}");
+        assert!(last.abs() < 0.001, "and for long: {last}");
+    }
+
+    #[test]
+    fn what_speeds_up_on_the_way_does_not_tilt() {
+        let [.., before, during, after] = pitches([0.02, 0.02, 0.02, 0.05, 0.05]);
+        assert!([before, during, after].iter().all(|pitch| pitch.abs() < 0.001), "{before} {during} {after}");
     }
 }

@@ -117,7 +117,7 @@ pub(super) struct ContactAngleFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
     model: ContactAngleModel<S>,
     roughness: Roughness<S>,
-    watch: Watch,
+    watch: Watch<MEASUREMENTS>,
     begun: bool,
     runs: Runs<S, RUNS>,
     trends: Trends<S, 3>,
@@ -148,7 +148,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             filter: SigmaPointFilter::unknowing([one, zero, zero, zero, zero, zero, zero], Self::unknown_std()),
             model,
             roughness: Roughness::new(phase),
-            watch: Watch::default(),
+            watch: Watch::new(),
             begun: false,
             runs: Runs::new(),
             trends: Trends::new(),
@@ -302,7 +302,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let [_, front, middle, rear, ..] = self.filter.estimate().variances();
         let variances = PerAxle { front, middle, rear };
         if loosened.is_none() {
-            self.follow_trends(step_s, &before, &variances);
+            let told = measured.iter().take(MEASUREMENTS - 1).any(Option::is_some);
+            self.follow_trends(step_s, &before, &variances, told);
         }
         self.variances = variances;
         self.turned_back = S::zero();
@@ -316,13 +317,13 @@ impl<S: Scalar> ContactAngleFilter<S> {
         PerAxle { front, middle, rear }
     }
 
-    fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>) {
+    fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>, told: bool) {
         // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
         let [_, drift] = self.drift_variances;
         let learned = S::constant(LEARNED) * drift;
         let moved = self.angles().zip(*before).zip(*variances);
         let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
-        self.trends.follow(self.travel_m(step_s), &moved.into_array());
+        self.trends.follow(self.travel_m(step_s), &moved.into_array(), [told; 3]);
     }
 
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift of a contact angle, as a

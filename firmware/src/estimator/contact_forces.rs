@@ -145,7 +145,7 @@ mod tests {
         let hub = |at: usize| {
             let angle = angles[at].sin_cos();
             let (load_n, drawbar_pull_n) = along_contact(Planar { x: along[at], z: cells[at] }, angle);
-            let wheel = BogieWheel { load_n, rim_force_n: 0.0, slip: 0.0 };
+            let wheel = BogieWheel { load_n, rim_force_n: 0.0, slip: 0.0, direction: 1.0 };
             HubOnGround { wheel, drawbar_pull_n, contact_angle_rad: angles[at], angle }
         };
         let ([_, middle_load, middle_pull], [_, rear_load, rear_pull]) = share_along_bogie(&hub(0), &hub(1));

@@ -54,10 +54,16 @@ pub(super) struct Rolled<S> {
 }
 
 impl<S: Scalar> DiggingIn<S> {
-    /// They have dug in.
+    /// Nothing was seen of them: they may just have started.
     pub fn new(scale: &Scale<S>) -> Self {
         let zero = S::zero();
-        Self { variance: zero, told_by_links: zero, way_m: zero, deep: false, length: scale.length }
+        Self {
+            variance: S::constant(DIGS_IN * DIGS_IN),
+            told_by_links: zero,
+            way_m: zero,
+            deep: false,
+            length: scale.length,
+        }
     }
 
     /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
@@ -129,6 +135,8 @@ mod tests {
         let mut digging = DiggingIn::new(&Scale::of(&rover));
         let rolled = Rolled { stands: false, speed_m_s: 0.01, rim_speed_m_s: 0.01, step_s: 0.001 };
         digging.follow(&rolled, &mut angles);
+        assert!(digging.told_by_links() > 0.1, "they may have stood before");
+        (0..6000).for_each(|_| digging.follow(&rolled, &mut angles));
         assert_eq!(digging.told_by_links(), 0.0);
         digging.follow(&Rolled { stands: true, ..rolled }, &mut angles);
         (0..1300).for_each(|_| digging.follow(&rolled, &mut angles));

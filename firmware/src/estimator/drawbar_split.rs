@@ -32,6 +32,8 @@ pub struct BogieWheel<S> {
     pub rim_force_n: S,
     /// Slip.
     pub slip: S,
+    /// 1 where it rolls forward, −1 where it rolls back: then pull and torque are those of its mirror image, and slip is not.
+    pub direction: S,
 }
 
 /// How the drawbar pulls of a bogie's wheels differ.
@@ -50,7 +52,7 @@ impl<S: Scalar> DrawbarSplit<S> {
         let torques = middle.rim_force_n + rear.rim_force_n;
         let unequal_load = middle.load_n - rear.load_n;
         let mean_load = loads * S::constant(0.5);
-        let unequal_slip = (middle.slip - rear.slip) * mean_load;
+        let unequal_slip = (middle.slip - rear.slip) * mean_load * middle.direction;
         let per_load = if loads > S::one() {
             (S::constant(OF_PULL) * sum_n - S::constant(OF_TORQUES) * torques) / loads
         } else {

@@ -154,7 +154,7 @@ pub(super) struct HubForceFilter<S> {
     cell_rates: PerAxle<WalkRate<S>>,
     rocker_rate: WalkRate<S>,
     bogie_rate: WalkRate<S>,
-    watch: Watch,
+    watch: Watch<MEASUREMENTS>,
     runs: Runs<S, MEASUREMENTS>,
     /// Of the cells' forces. The moments have none that would be worth following.
     trends: Trends<S, 3>,
@@ -178,7 +178,7 @@ impl<S: Scalar> HubForceFilter<S> {
             cell_rates: PerAxle::from_array([phase, phase + 1, phase + 2]).map(WalkRate::new),
             rocker_rate: WalkRate::new(phase + 3),
             bogie_rate: WalkRate::new(phase + 4),
-            watch: Watch::default(),
+            watch: Watch::new(),
             runs: Runs::new(),
             trends: Trends::new(),
         }
@@ -236,11 +236,11 @@ impl<S: Scalar> HubForceFilter<S> {
         rates.for_each(WalkRate::restart);
     }
 
-    /// Lets the forces drift over so much travel, and takes what was measured with the bogie at an angle to the rocker and such a
+    /// Lets the forces drift over a step of so much time and travel, and takes what was measured with the bogie at an angle to the rocker and such a
     /// difference between its wheels, as the torques tell it, N.
     pub fn tick(
         &mut self,
-        travel_m: S,
+        (step_s, travel_m): (S, S),
         bogie_angle_rad: S,
         difference_n: S,
         readings: &ForceReadings<S>,
@@ -254,7 +254,7 @@ impl<S: Scalar> HubForceFilter<S> {
         if held {
             self.give_up_moments();
         }
-        self.learn_rates(travel_m, readings, held);
+        self.learn_rates((step_s, travel_m), readings, held);
         let drifts = self.drift(&before, before_nm, travel_m, held);
         let expected = self.beyond_rest_n();
         let model = self.model;
@@ -279,7 +279,7 @@ impl<S: Scalar> HubForceFilter<S> {
             self.watch.gate(),
         );
         self.runs.take(&told, 0);
-        self.follow_trends(travel_m, &expected, &drifts, readings.cell_std_n);
+        self.follow_trends(travel_m, &expected, &drifts, readings);
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
             Contradiction::Moved => self.unsettle(),
@@ -308,13 +308,20 @@ impl<S: Scalar> HubForceFilter<S> {
         drifts
     }
 
-    fn follow_trends(&mut self, travel_m: S, expected: &PerAxle<S>, drifts: &[S; MEASUREMENTS], cell_std_n: S) {
+    fn follow_trends(
+        &mut self,
+        travel_m: S,
+        expected: &PerAxle<S>,
+        drifts: &[S; MEASUREMENTS],
+        readings: &ForceReadings<S>,
+    ) {
         let [front, middle, rear, ..] = *drifts;
         // With a steady gain well below one, the drift's standard deviation is to that of the noise as that gain is to one.
-        let learned = S::constant(LEARNED) / cell_std_n;
+        let learned = S::constant(LEARNED) / readings.cell_std_n;
         let moved = self.beyond_rest_n().zip(*expected).zip(PerAxle { front, middle, rear });
         let moved = moved.map(|((now, before), drift)| (now - before, learned * drift));
-        self.trends.follow(travel_m, &moved.into_array());
+        let told = readings.cells_n.map(|cell| cell.is_some());
+        self.trends.follow(travel_m, &moved.into_array(), told.into_array());
     }
 
     /// One standard deviation of how far each cell's force, N, and the moments on bogie and rocker, N·m, drift over some travel.
@@ -352,19 +359,19 @@ impl<S: Scalar> HubForceFilter<S> {
     }
 
     /// Learns how fast the cells' forces and the moments wander. Where a stop holds the bogie the moments are not the soil's.
-    fn learn_rates(&mut self, travel_m: S, readings: &ForceReadings<S>, held: bool) {
+    fn learn_rates(&mut self, (step_s, travel_m): (S, S), readings: &ForceReadings<S>, held: bool) {
         let nominal = |drift: f64, travel_m: S| S::constant(drift * drift) * travel_m;
         let [of_cells, of_moments] = self.scale.travels_m(travel_m);
         let of_cell = nominal(CELL_DRIFT_N, of_cells);
         for (rate, cell) in self.cell_rates.as_array_mut().into_iter().zip(readings.cells_n.as_array()) {
-            rate.take(*cell, Noise::white(readings.cell_std_n), of_cell);
+            rate.take(*cell, Noise::white(readings.cell_std_n), of_cell, step_s);
         }
         let moments = [
             (&mut self.bogie_rate, readings.bogie_moment_nm, nominal(BOGIE_DRIFT_NM, of_moments)),
             (&mut self.rocker_rate, readings.rocker_moment_nm, nominal(ROCKER_DRIFT_NM, of_moments)),
         ];
         for (rate, (moment, std), nominal) in moments {
-            rate.take(Some(moment).filter(|_| !held), Noise::white(std), nominal);
+            rate.take(Some(moment).filter(|_| !held), Noise::white(std), nominal, step_s);
         }
     }
 }

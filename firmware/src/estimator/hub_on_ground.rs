@@ -35,8 +35,9 @@ impl<S: Scalar> SideEstimator<S> {
             let steeper = told_by_paths * (path + correction.steeper - link);
             let angle = steeper.sin_cos();
             let (load_n, drawbar_pull_n) = along_contact(force, angle);
-            let [_, torque, slip] = *filter.estimate().mean();
-            let wheel = BogieWheel { load_n, rim_force_n: torque / self.rover.wheel.radius_m, slip };
+            let [rate, torque, slip] = *filter.estimate().mean();
+            let direction = if rate < S::zero() { -S::one() } else { S::one() };
+            let wheel = BogieWheel { load_n, rim_force_n: torque / self.rover.wheel.radius_m, slip, direction };
             HubOnGround { wheel, drawbar_pull_n, contact_angle_rad: link + steeper, angle }
         })
     }

@@ -141,14 +141,14 @@ impl<S: Scalar> Roughness<S> {
         // The body's pitch wanders by its gyro's noise, and by as much again where the accelerometer draws it back.
         let turned = noise.gyro_rad_s * step_s;
         let moved = S::constant(2.0) * turned * turned;
-        self.rocker.take(pitch, Noise { variance, moved }, nominal(LINK_DRIFT));
+        self.rocker.take(pitch, Noise { variance, moved }, nominal(LINK_DRIFT), step_s);
         let bogie = pitch.zip(readings.bogie_angle_rad).map(|(pitch, bogie)| pitch + bogie);
-        self.bogie.take(bogie, Noise { variance: variance + variance, moved }, nominal(LINK_DRIFT));
+        self.bogie.take(bogie, Noise { variance: variance + variance, moved }, nominal(LINK_DRIFT), step_s);
         let Planar { x, z } = readings.axis_velocity_m_s;
         let velocity = x.zip(z).map(|(x, z)| Planar { x, z }.turned(body_pitch));
         let noise = Noise::white(readings.velocity_std_m_s.z / speed);
-        self.ratio.take(velocity.map(|velocity| velocity.x / speed), noise, nominal(RATIO_DRIFT));
-        self.direction.take(velocity.map(|velocity| velocity.z / speed), noise, nominal(ANGLE_DRIFT));
+        self.ratio.take(velocity.map(|velocity| velocity.x / speed), noise, nominal(RATIO_DRIFT), step_s);
+        self.direction.take(velocity.map(|velocity| velocity.z / speed), noise, nominal(ANGLE_DRIFT), step_s);
     }
 }
 

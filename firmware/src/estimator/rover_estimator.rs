@@ -104,12 +104,14 @@ impl<S: Scalar> RoverEstimator<S> {
         self.common.health.frames = self.common.health.frames.saturating_add(1);
         let readings = self.common.gates.admit(frame.readings(), &mut self.common.health.sensors);
         let readings = readings.map(|reading| reading.map(S::from_f32));
-        if self.common.attitude.tick(readings.accel, readings.gyro, step_s, &self.common.rover.noise) {
+        let speed = readings.velocity.x;
+        if self.common.attitude.tick(readings.accel, readings.gyro, speed, step_s, &self.common.rover.noise) {
             let accel = &mut self.common.health.sensors.accel;
             [&mut accel.x, &mut accel.z].into_iter().for_each(|sensor| count(&mut sensor.surprising));
         }
-        let left = left_side.tick(step_s, &side_frame(&readings, Side::Left), &self.common.attitude);
-        let right = right_side.tick(step_s, &side_frame(&readings, Side::Right), &self.common.attitude);
+        let repeating = self.common.gates.repeating_rates();
+        let left = left_side.tick(step_s, &side_frame(&readings, &repeating, Side::Left), &self.common.attitude);
+        let right = right_side.tick(step_s, &side_frame(&readings, &repeating, Side::Right), &self.common.attitude);
         let travel_m = S::constant(0.5) * (left_side.speed_m_s() + right_side.speed_m_s()) * step_s;
         note_surprises(&mut self.common.health.sensors, &PerSide { left, right });
         self.note_troubles();
@@ -163,6 +165,11 @@ impl<S: Scalar> RoverEstimator<S> {
     /// One standard deviation of that, rad.
     pub fn pitch_std_rad(&self) -> S {
         self.common.attitude.pitch_variance().sqrt()
+    }
+
+    /// Which sides roll back.
+    pub fn rolls_back(&self) -> PerSide<bool> {
+        self.sides.as_ref().map(|side| side.as_ref().is_some_and(SideEstimator::rolls_back))
     }
 
     /// How sensors and filters do.
@@ -224,9 +231,10 @@ fn start_side<S: Scalar>(place: &mut Option<SideEstimator<S>>, rover: &Rover<S>,
     *place = Some(SideEstimator::new(rover, side, *PHASES.of(side)));
 }
 
-fn side_frame<S: Scalar>(readings: &PerSensor<Option<S>>, side: Side) -> SideFrame<S> {
+fn side_frame<S: Scalar>(readings: &PerSensor<Option<S>>, repeating: &PerWheel<bool>, side: Side) -> SideFrame<S> {
     SideFrame {
         wheel_rate_rad_s: *readings.wheel_rate.of(side),
+        wheel_rate_repeats: *repeating.of(side),
         motor_torque_nm: *readings.motor_torque.of(side),
         load_cell_n: *readings.load_cell.of(side),
         bogie_angle_rad: *readings.bogie_angle.of(side),

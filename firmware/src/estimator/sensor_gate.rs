@@ -1,11 +1,13 @@
 //! What is believed of a sensor before any filter sees it.
 
 use super::health::{PerSensor, SensorHealth};
-use crate::rover::{Axes, PerAxle, PerSide, Rover};
+use crate::rover::{Axes, PerAxle, PerSide, PerWheel, Rover};
 
-/// The same bits again for so many frames: no noisy sensor says that. A coarse one that does loses little with a reading that
-/// tells nothing new; one that is stuck and believed leads the filters astray.
+/// The same bits again for so many frames: no noisy sensor says that. One that is stuck and believed leads the filters astray.
 const STUCK_FRAMES: u8 = 3;
+/// A coarse sensor does say that. A repetition that ended by itself before it was thrice as long as any that was allowed so far is allowed
+/// from then on, up to so many frames.
+const MOST_STUCK_FRAMES: u8 = 12;
 /// Bad readings in a row after which a sensor is out of use.
 const DROPPED_AFTER: u8 = 10;
 /// Good readings in a row that bring it back.
@@ -18,13 +20,17 @@ pub(super) struct SensorGate {
     limit: f32,
     last_bits: u32,
     repeats: u8,
+    /// Repetitions that are allowed.
+    allowed: u8,
+    /// Whether it may be what a drive holds constant: then it is used, as [repeating](SensorGates::repeating_rates), though counted.
+    regulated: bool,
     bad: u8,
     good: u8,
 }
 
 impl SensorGate {
     const fn new(limit: f32) -> Self {
-        Self { limit, last_bits: 0, repeats: 0, bad: 0, good: 0 }
+        Self { limit, last_bits: 0, repeats: 0, allowed: STUCK_FRAMES, regulated: false, bad: 0, good: 0 }
     }
 
     /// The reading, if it can be used.
@@ -35,24 +41,22 @@ impl SensorGate {
         };
         let stuck = self.is_stuck(value);
         let reason = if !value.is_finite() {
-            Some(&mut health.not_finite)
+            &mut health.not_finite
         } else if value > self.limit || value < -self.limit {
-            Some(&mut health.out_of_range)
+            &mut health.out_of_range
         } else if stuck {
-            Some(&mut health.stuck)
+            &mut health.stuck
         } else {
-            None
+            return self.admit_good(value, health);
         };
-        match reason {
-            Some(counter) => {
-                count(counter);
-                self.good = 0;
-                self.bad = self.bad.saturating_add(1);
-                health.dropped |= self.bad >= DROPPED_AFTER;
-                None
-            }
-            None => self.admit_good(value, health),
+        count(reason);
+        if self.regulated && value.is_finite() && value.abs() <= self.limit {
+            return self.admit_good(value, health);
         }
+        self.good = 0;
+        self.bad = self.bad.saturating_add(1);
+        health.dropped |= self.bad >= DROPPED_AFTER;
+        None
     }
 
     fn admit_good(&mut self, value: f32, health: &mut SensorHealth) -> Option<f32> {
@@ -72,9 +76,16 @@ impl SensorGate {
     /// An exact zero is excepted: what stands still may well say so for long.
     fn is_stuck(&mut self, value: f32) -> bool {
         let same = value.to_bits() == self.last_bits && value != 0.0;
-        self.repeats = if same { self.repeats.saturating_add(1) } else { 0 };
+        if same {
+            self.repeats = self.repeats.saturating_add(1);
+        } else {
+            if self.repeats > self.allowed && self.repeats < self.allowed.saturating_mul(3) {
+                self.allowed = self.repeats.min(MOST_STUCK_FRAMES);
+            }
+            self.repeats = 0;
+        }
         self.last_bits = value.to_bits();
-        self.repeats >= STUCK_FRAMES
+        self.repeats >= self.allowed
     }
 }
 
@@ -95,6 +106,7 @@ impl SensorGates {
     pub fn new(rover: &Rover<f32>) -> Self {
         let weight_n = rover.mass_kg * rover.gravity_m_s2;
         let wheels = |limit: f32| PerSide::both(PerAxle::all(SensorGate::new(limit)));
+        let rate = SensorGate { regulated: true, ..SensorGate::new(2.0 / rover.wheel.radius_m) };
         let axes = |limit: f32| {
             let gate = SensorGate::new(limit);
             Axes { x: gate, y: gate, z: gate }
@@ -102,7 +114,7 @@ impl SensorGates {
         let angle = SensorGate::new(1.6);
         Self {
             gates: PerSensor {
-                wheel_rate: wheels(2.0 / rover.wheel.radius_m),
+                wheel_rate: PerSide::both(PerAxle::all(rate)),
                 motor_torque: wheels(3.0 * weight_n * rover.wheel.radius_m),
                 load_cell: wheels(3.0 * weight_n),
                 bogie_angle: PerSide::both(angle),
@@ -112,6 +124,13 @@ impl SensorGates {
                 velocity: axes(2.0),
             },
         }
+    }
+
+    /// Which encoders say the same bits over and over. That of a drive that holds its rate may well, if it is coarse; one that is stuck
+    /// does, too, and nothing in it tells the two apart. To do without would be worse: it says nearly what the rate is while the drive
+    /// goes on.
+    pub fn repeating_rates(&self) -> PerWheel<bool> {
+        self.gates.wheel_rate.map_wheels(|gate| gate.repeats >= gate.allowed)
     }
 
     /// The readings that can be used.
@@ -152,5 +171,33 @@ mod tests {
             assert_eq!(admitted.is_some(), good + 1 == PROBATION);
         }
         assert!(!health.dropped);
+    }
+
+    /// A coarse sensor says the same for some frames now and then; the longest of these is not taken for a failure the next time.
+    #[test]
+    fn a_coarse_sensor_is_not_taken_for_a_stuck_one_for_ever() {
+        let (mut gate, mut health) = (SensorGate::new(10.0), SensorHealth::default());
+        let stuck = |gate: &mut SensorGate, health: &mut SensorHealth, value: f32, frames: usize| {
+            let before = health.stuck;
+            (0..frames).for_each(|_| {
+                gate.admit(Some(value), health);
+            });
+            health.stuck - before
+        };
+        assert_eq!(stuck(&mut gate, &mut health, 1.0, 6), 3);
+        assert_eq!(stuck(&mut gate, &mut health, 1.1, 6), 1, "five repetitions are allowed, not a sixth reading's");
+        assert_eq!(stuck(&mut gate, &mut health, 1.2, 5), 0);
+        assert_eq!(stuck(&mut gate, &mut health, 1.3, 40), 35, "for so long it is stuck");
+        assert_eq!(stuck(&mut gate, &mut health, 1.4, 6), 1, "and that does not make it a coarse one");
+    }
+
+    /// An encoder that says the same is used, and counted; not one that says NaN or absurd numbers over and over.
+    #[test]
+    fn a_drive_that_holds_its_rate_is_believed() {
+        let (mut gate, mut health) = (SensorGate { regulated: true, ..SensorGate::new(10.0) }, SensorHealth::default());
+        for (value, used) in [(0.3, true), (f32::NAN, false), (1.0e6, false)] {
+            assert!((0..20).all(|_| gate.admit(Some(value), &mut health).is_some() == used), "{value}");
+        }
+        assert_eq!((health.stuck, health.not_finite, health.out_of_range), (17, 20, 20));
     }
 }

@@ -22,6 +22,8 @@ use crate::scalar::Scalar;
 pub(super) struct SideFrame<S> {
     /// Encoders, rad/s.
     pub wheel_rate_rad_s: PerAxle<Option<S>>,
+    /// Which of them say the same over and over.
+    pub wheel_rate_repeats: PerAxle<bool>,
     /// Drive torques, N·m.
     pub motor_torque_nm: PerAxle<Option<S>>,
     /// Load cells, N.
@@ -47,13 +49,16 @@ pub(super) const BLOCKED: f64 = 0.08;
 /// Below this force on its cell a wheel is lifted, N, of set K0; or below three standard deviations, but not above the other.
 const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
-/// Frames that a wheel takes to start.
-const SETTLING: u8 = 8;
-/// Frames after which its wandering is learned afresh.
-const SETTLED: u8 = 20;
+/// A wheel has started after so long, s.
+const SETTLING_S: f64 = 0.75;
+/// After so long its wandering is learned afresh, s; and it has settled a tenth of a second later, give or take half of that.
+const SETTLED_S: f64 = 1.85;
+const STEADY_S: f64 = 1.95;
 /// Where torques swing, wheels go up and down with the grousers, and links with them, which no sensor follows: one standard deviation of what
 /// that adds to the speed of a hub, over the speed of its rim.
 const SWINGS_HUB: f64 = 0.08;
+/// An encoder that says the same over and over is off by so many times its noise.
+const REPEATING: f64 = 10.0;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// What the body may turn at while its gyro is silent, rad/s.
@@ -69,8 +74,8 @@ pub(super) struct SideEstimator<S> {
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
     pub(super) forces: HubForceFilter<S>,
     pub(super) activity: PerAxle<WheelActivity>,
-    /// Frames for which each wheel is still taken to be starting.
-    pub(super) unsettled: PerAxle<u8>,
+    /// How long each wheel has not stood, s, up to when it has settled.
+    rolling_s: PerAxle<S>,
     motion: RollingMotion<S>,
     rim_speed_m_s: S,
     /// Which wheels bear no load that their cells can tell from none.
@@ -126,7 +131,7 @@ impl<S: Scalar> SideEstimator<S> {
             wheels: PerAxle { front: wheel(0), middle: wheel(1), rear: wheel(2) },
             forces: HubForceFilter::new(rover, phase),
             activity: PerAxle::default(),
-            unsettled: PerAxle::default(),
+            rolling_s: PerAxle::all(S::zero()),
             rim_speed_m_s: S::zero(),
             lifted: PerAxle::all(false),
             swings: false,
@@ -159,7 +164,12 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// Whether its wheels roll as they will: none starts, stops or stands.
     pub fn is_steady(&self) -> bool {
-        self.unsettled.as_array().into_iter().all(|frames| *frames == 0)
+        self.settled().into_array().into_iter().all(|settled| settled)
+    }
+
+    /// Which wheels do.
+    pub(super) fn settled(&self) -> PerAxle<bool> {
+        self.rolling_s.map(|rolling| rolling >= S::constant(STEADY_S))
     }
 
     /// How fast this side travels, m/s, forward or back.
@@ -167,10 +177,15 @@ impl<S: Scalar> SideEstimator<S> {
         self.motion.axis_velocity_m_s.length()
     }
 
+    /// Whether its rims turn back.
+    pub fn rolls_back(&self) -> bool {
+        self.rim_speed_m_s < S::zero()
+    }
+
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();
-        self.doubt.take_turns();
+        self.doubt.take_turns(step_s.to_f32());
         self.silent = frame.silent();
         let readings = self.side_readings(frame);
         self.follow_rims(&frame.wheel_rate_rad_s);
@@ -260,28 +275,30 @@ impl<S: Scalar> SideEstimator<S> {
     ) {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
+        let steady = S::constant(STEADY_S);
         let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
         let [mut unsettles, mut settles, mut stands, mut swings] = [false; 4];
-        let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.unsettled.as_mut()));
+        let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.rolling_s.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
-        let inputs = wheels.as_ref().zip(frame.wheel_rate_rad_s.zip(frame.motor_torque_nm));
-        for (((filter, (activity, unsettled)), (told, surprise)), (wheel, (rate, torque))) in
+        let rates = frame.wheel_rate_rad_s.zip(frame.wheel_rate_repeats);
+        let inputs = wheels.as_ref().zip(rates.zip(frame.motor_torque_nm));
+        for (((filter, (activity, rolling)), (told, surprise)), (wheel, ((rate, repeats), torque))) in
             filters.zip(told).zip(inputs).into_array()
         {
-            let [before, _, _] = *filter.estimate().mean();
-            let rim = self.rover.wheel.radius_m * before;
+            let rim = self.rover.wheel.radius_m * filter.rate_before(rate.map(|rate| rate - wheel.link_rate_rad_s));
             let now = what_it_does(rim, wheel.hub_speed_m_s);
             if now != *activity {
                 filter.start();
             }
             *activity = now;
             stands |= now == WheelActivity::Standing;
-            *unsettled = if now == WheelActivity::Standing { SETTLED } else { unsettled.saturating_sub(1) };
-            if *unsettled > SETTLED - SETTLING {
+            let before = *rolling;
+            *rolling = if now == WheelActivity::Standing { S::zero() } else { (before + step_s).min(steady) };
+            if *rolling < S::constant(SETTLING_S) {
                 filter.unsettle();
                 unsettles = true;
             }
-            if *unsettled == 1 {
+            if before < S::constant(SETTLED_S) && *rolling >= S::constant(SETTLED_S) {
                 filter.settle();
                 settles = true;
             }
@@ -289,7 +306,7 @@ impl<S: Scalar> SideEstimator<S> {
             let rolls = now == WheelActivity::Rolling;
             let readings = WheelReadings {
                 rate_rad_s: rate.map(|rate| rate - wheel.link_rate_rad_s),
-                rate_std_rad_s: noise.wheel_rate_rad_s,
+                rate_std_rad_s: if repeats { S::constant(REPEATING) } else { S::one() } * noise.wheel_rate_rad_s,
                 hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| rolls),
                 hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
                 side_swings: self.swings,
@@ -342,7 +359,7 @@ impl<S: Scalar> SideEstimator<S> {
         let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         let split = self.split_along_bogie_n();
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
-        self.told.forces = self.forces.tick(travel, bogie_pitch - rocker_pitch, split, &readings);
+        self.told.forces = self.forces.tick((step_s, travel), bogie_pitch - rocker_pitch, split, &readings);
         surprises.of_cells(&self.told.forces);
         self.lifted = self.lifted();
     }

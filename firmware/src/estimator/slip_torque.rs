@@ -79,9 +79,9 @@ const UNKNOWN: [f64; STATES] = [1.0, 3.0, 0.3];
 /// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
 pub(super) const TORQUE_DRIFT_NM: f64 = 1.1;
 const SLIP_DRIFT: f64 = 0.37;
-/// What the torque did is remembered over the length of a contact, three centimetres: its sensor tells it well, and where a rock
-/// was passed it is calm at once.
-const TORQUE_MEMORY: f64 = 0.93;
+/// What the torque did is remembered over the length of a contact, three centimetres at two a second: its sensor tells it well, and where
+/// a rock was passed it is calm at once.
+const TORQUE_FORGOTTEN: f64 = 0.7;
 /// How much of the ground's roughness the slip feels: rough ground drives it steadily one way for long, which a single
 /// measurement of speed hardly shows.
 const SLIP_FROM_ROUGHNESS: f64 = 0.1;
@@ -124,7 +124,7 @@ pub(super) struct SlipTorqueFilter<S> {
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
     shared_slip_variance: S,
-    watch: Watch,
+    watch: Watch<MEASUREMENTS>,
     /// Of torque and slip.
     trends: Trends<S, 2>,
     /// Variances of what these drift by in a step.
@@ -147,10 +147,10 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             slip_per_torque: S::constant(6.0) / (rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m),
             scale,
             swing: Swing::new(),
-            torque_rate: WalkRate::new(phase).remembering(TORQUE_MEMORY),
+            torque_rate: WalkRate::new(phase).forgetting(TORQUE_FORGOTTEN),
             slip_rate: WalkRate::new(phase + 2),
             shared_slip_variance: S::zero(),
-            watch: Watch::default(),
+            watch: Watch::new(),
             trends: Trends::new(),
             drift_variances: [S::zero(); 2],
         }
@@ -159,6 +159,13 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     /// What is known of the state.
     pub fn estimate(&self) -> &Gaussian<S, STATES> {
         self.filter.estimate()
+    }
+
+    /// The rate before a frame whose encoder says `measured`, rad/s: where nothing is known of it yet, that.
+    pub fn rate_before(&self, measured: Option<S>) -> S {
+        let ([rate, ..], [variance, ..]) = (*self.filter.estimate().mean(), self.filter.estimate().variances());
+        let [unknown, ..] = UNKNOWN;
+        if variance > S::constant(0.25 * unknown * unknown) { measured.unwrap_or(rate) } else { rate }
     }
 
     /// Variance of the part of the slip's error that comes from the camera, and so is common to all wheels.
@@ -204,7 +211,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     /// Carries the state a step further, over so much travel, and takes what was measured.
     pub fn tick(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
-        self.learn_rates(travel_m, readings);
+        self.learn_rates(step_s, travel_m, readings);
         self.swing.take(readings.motor_torque_nm, readings.motor_torque_std_nm * self.scale.torque);
         let swinging = readings.motor_torque_nm.filter(|_| readings.side_swings || self.swings());
         match swinging {
@@ -221,7 +228,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         );
         self.share_camera_error(readings);
         if swinging.is_none() {
-            self.follow_trends(travel_m, [torque, slip]);
+            self.follow_trends(travel_m, [torque, slip], readings);
         }
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
@@ -307,26 +314,26 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         [square(TORQUE_DRIFT_NM) * of_torque, square(SLIP_DRIFT) * travel_m]
     }
 
-    fn follow_trends(&mut self, travel_m: S, before: [S; 2]) {
+    fn follow_trends(&mut self, travel_m: S, before: [S; 2], readings: &WheelReadings<S>) {
         let [_, torque, slip] = *self.filter.estimate().mean();
         let [_, torque_variance, slip_variance] = self.filter.estimate().variances();
         let [of_torque, of_slip] = self.drift_variances.map(|variance| S::constant(LEARNED) * variance);
         let [torque_before, slip_before] = before;
         let moved =
             [(torque - torque_before, of_torque / torque_variance), (slip - slip_before, of_slip / slip_variance)];
-        self.trends.follow(travel_m, &moved);
+        self.trends.follow(travel_m, &moved, [readings.rate_rad_s.is_some(), readings.hub_speed_m_s.is_some()]);
     }
 
     /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds.
-    fn learn_rates(&mut self, travel_m: S, readings: &WheelReadings<S>) {
+    fn learn_rates(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) {
         let [of_torque, of_slip] = self.nominal_variances(travel_m);
         let noise = Noise::white(readings.motor_torque_std_nm);
-        self.torque_rate.take(readings.motor_torque_nm, noise, of_torque);
+        self.torque_rate.take(readings.motor_torque_nm, noise, of_torque, step_s);
         let [rate, _, _] = *self.filter.estimate().mean();
         let rim = self.model.radius_m * rate;
         if rim.abs() > S::constant(2.0e-3) || readings.hub_speed_m_s.is_none() {
             let slip = readings.hub_speed_m_s.map(|hub| S::one() - hub / rim);
-            self.slip_rate.take(slip, Noise::white(readings.hub_speed_std_m_s / rim), of_slip);
+            self.slip_rate.take(slip, Noise::white(readings.hub_speed_std_m_s / rim), of_slip, step_s);
         }
     }
 

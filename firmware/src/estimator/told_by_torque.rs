@@ -27,9 +27,11 @@ impl<S: Scalar> SideEstimator<S> {
     pub(super) fn follow_compaction(&mut self, travel_m: S) {
         let hubs = self.on_ground(&self.forces.forces_n(), &PerAxle::all(Correction::none()));
         let settled = !self.swings && self.digging_in.told_by_links() == S::zero();
-        let rolls = self.activity.zip(self.unsettled).zip(self.lifted).map(|((activity, unsettled), lifted)| {
-            activity == WheelActivity::Rolling && unsettled == 0 && !lifted && settled
-        });
+        let rolls = self
+            .activity
+            .zip(self.settled())
+            .zip(self.lifted)
+            .map(|((activity, steady), lifted)| activity == WheelActivity::Rolling && steady && !lifted && settled);
         let [of_front, of_bogie] = &mut self.compaction;
         follow(of_front, travel_m, rolls.front, &[&hubs.front]);
         follow(of_bogie, travel_m, rolls.middle && rolls.rear, &[&hubs.middle, &hubs.rear]);

@@ -33,17 +33,20 @@ pub(super) fn beside_trend<S: Scalar>(left: f64, restless: S) -> S {
 pub(super) struct Trends<S, const N: usize> {
     per_m: [S; N],
     restless: [S; N],
+    /// Travel since each quantity was told of last, m.
+    untold_m: [S; N],
 }
 
 impl<S: Scalar, const N: usize> Trends<S, N> {
     /// None is known.
     pub fn new() -> Self {
-        Self { per_m: [S::zero(); N], restless: [S::zero(); N] }
+        Self { per_m: [S::zero(); N], restless: [S::zero(); N], untold_m: [S::zero(); N] }
     }
 
     /// Forgets them: what was seen last was not the ground's doing.
     pub fn forget(&mut self) {
         self.per_m = [S::zero(); N];
+        self.untold_m = [S::zero(); N];
     }
 
     /// Takes how restless each quantity is.
@@ -63,18 +66,24 @@ impl<S: Scalar, const N: usize> Trends<S, N> {
         expected
     }
 
-    /// Takes what an update has moved each quantity by after so much travel, and the share of it that counts as the trend's. With a
-    /// steady gain α, that share is best a quarter of α or so: a trend is to be learned several times slower than what it is a trend of.
+    /// Takes what an update has moved each quantity by after so much travel, and the share of it that counts as the trend's; `told` of
+    /// those that something was measured of. With a steady gain α, that share is best a quarter of α or so: a trend is to be learned
+    /// several times slower than what it is a trend of. What a measurement makes good after others were missing happened since the last
+    /// one.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn follow(&mut self, travel_m: S, moved: &[(S, S); N]) {
+    pub fn follow(&mut self, travel_m: S, moved: &[(S, S); N], told: [bool; N]) {
         if travel_m < S::constant(LEAST_TRAVEL) {
             return self.forget();
         }
         let kept = S::one() - (travel_m * S::constant(1.0 / LENGTH)).min(S::one());
-        let per_travel = S::one() / travel_m;
-        let told = self.restless.iter().zip(moved);
-        for (trend, (restless, (moved, share))) in self.per_m.iter_mut().zip(told) {
-            *trend = kept * *trend + (*restless * *share).min(S::constant(MOST)) * per_travel * *moved;
+        let quantities = self.per_m.iter_mut().zip(self.untold_m.iter_mut().zip(told));
+        for ((trend, (untold_m, told)), (restless, (moved, share))) in quantities.zip(self.restless.iter().zip(moved)) {
+            *trend = kept * *trend;
+            *untold_m += travel_m;
+            if told {
+                *trend += (*restless * *share).min(S::constant(MOST)) / *untold_m * *moved;
+                *untold_m = S::zero();
+            }
         }
     }
 }
@@ -98,7 +107,7 @@ mod tests {
                 angle += travel * expected;
                 let moved = gain * (truth - angle);
                 angle += moved;
-                trends.follow(travel, &[(moved, gain)]);
+                trends.follow(travel, &[(moved, gain)], [true]);
             }
             truth - angle
         };
@@ -110,9 +119,21 @@ mod tests {
     fn where_nothing_rolls_there_is_no_trend() {
         let mut trends = Trends::<f64, 1>::new();
         trends.expect([1.0]);
-        trends.follow(0.002, &[(0.01, 0.1)]);
+        trends.follow(0.002, &[(0.01, 0.1)], [true]);
         assert!(trends.per_m() > [0.1]);
-        trends.follow(0.0, &[(0.01, 0.1)]);
+        trends.follow(0.0, &[(0.01, 0.1)], [true]);
         assert_eq!(trends.per_m(), [0.0]);
+    }
+
+    /// What one measurement of five makes good is the way of five frames.
+    #[test]
+    fn what_is_told_late_is_no_steeper() {
+        let mut trends = Trends::<f64, 2>::new();
+        trends.expect([1.0; 2]);
+        trends.follow(0.002, &[(0.01, 0.1), (0.0, 0.1)], [true, false]);
+        (0..3).for_each(|_| trends.follow(0.002, &[(0.0, 0.1); 2], [false; 2]));
+        trends.follow(0.002, &[(0.0, 0.1), (0.05, 0.1)], [false, true]);
+        let [at_once, late] = trends.per_m();
+        assert!((late - 0.5).abs() < 1.0e-12 && at_once < 0.5, "{late} {at_once}");
     }
 }

@@ -12,12 +12,15 @@ const CANDIDATES: usize = 5;
 const LEAST: f64 = 1.0e-4;
 const STEP: f64 = 16.0;
 
-/// Of what the candidates explained badly, the share that is still held against them a frame later: over a tenth of a metre at two
-/// centimetres a second.
-const MEMORY: f64 = 0.98;
+/// Of what the candidates explained badly, the share that is forgotten in a second: remembered over a tenth of a metre at two centimetres
+/// a second. And the most that is forgotten in a frame, however long.
+const FORGOTTEN: f64 = 0.2;
+const MOST_FORGOTTEN: f64 = 0.5;
 /// What smooth ground can hold against a faster rate, in twice the logarithm of likelihoods: the chance that the next frame is rough is
 /// never below e⁻⁵. Ground gets rough from one frame to the next; that it has become smooth, only a length of it tells.
 const HELD_AGAINST_FASTER: f64 = 10.0;
+/// Of the way from the rate that was learned to the nominal one, what goes by in a second without a measurement.
+const UNSEEN: f64 = 1.0;
 /// The geometric mean of the candidates: the rate of which nothing is known.
 const UNKNOWN: f64 = LEAST * STEP * STEP;
 
@@ -27,8 +30,10 @@ pub(super) struct WalkRate<S> {
     trials: [Trial<S>; CANDIDATES],
     last: S,
     factor: S,
-    memory: S,
+    forgotten_per_s: S,
     frame: usize,
+    /// Whether there was no measurement in the frame before.
+    missed: bool,
 }
 
 /// Noise of a measurement, as variances.
@@ -69,31 +74,33 @@ impl<S: Scalar> WalkRate<S> {
             trials: [trial; CANDIDATES],
             last: S::zero(),
             factor: S::constant(UNKNOWN),
-            memory: S::constant(MEMORY),
+            forgotten_per_s: S::constant(FORGOTTEN),
             frame: phase,
+            missed: false,
         }
     }
 
-    /// The same with another memory: the share of a misfit that is still held against a candidate a frame later.
-    pub fn remembering(self, memory: f64) -> Self {
-        Self { memory: S::constant(memory), ..self }
+    /// The same with another memory: the share of a misfit that is no more held against a candidate a second later.
+    pub fn forgetting(self, per_s: f64) -> Self {
+        Self { forgotten_per_s: S::constant(per_s), ..self }
     }
 
-    /// Takes a measurement, or that there is none, where the nominal walk since the one before has `nominal_variance`.
+    /// Takes a measurement, or that there is none, where the nominal walk in the step since the frame before has `nominal_variance`.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn take(&mut self, measured: Option<S>, noise: Noise<S>, nominal_variance: S) {
+    pub fn take(&mut self, measured: Option<S>, noise: Noise<S>, nominal_variance: S, step_s: S) {
         match measured {
-            Some(measured) => self.see(measured, noise, nominal_variance),
-            None => self.miss(nominal_variance),
+            Some(measured) => self.see(measured, noise, nominal_variance, step_s),
+            None => self.miss(nominal_variance, step_s),
         }
     }
 
-    fn see(&mut self, measured: S, noise: Noise<S>, nominal_variance: S) {
+    fn see(&mut self, measured: S, noise: Noise<S>, nominal_variance: S, step_s: S) {
         self.frame = self.frame.wrapping_add(1);
-        let renew = self.frame.is_multiple_of(CANDIDATES);
+        let renew = core::mem::take(&mut self.missed) || self.frame.is_multiple_of(CANDIDATES);
         let mut factor = S::constant(LEAST);
         let mut slower = S::constant(1.0e30);
         let mut first_log = None;
+        let remembered = S::one() - (self.forgotten_per_s * step_s).min(S::constant(MOST_FORGOTTEN));
         let moved = measured - self.last;
         self.last = measured;
         for trial in &mut self.trials {
@@ -105,7 +112,7 @@ impl<S: Scalar> WalkRate<S> {
                 trial.log_variance = log - *first_log.get_or_insert(log);
             }
             // One wild measurement says that something is wrong with it, and little about the rate.
-            let misfit = self.memory * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
+            let misfit = remembered * trial.misfit + misfit.min(S::constant(16.0)) + trial.log_variance;
             trial.misfit = misfit.min(slower + S::constant(HELD_AGAINST_FASTER));
             slower = slower.min(trial.misfit);
             factor = factor * S::constant(STEP);
@@ -115,14 +122,16 @@ impl<S: Scalar> WalkRate<S> {
         }
     }
 
-    /// Lets the quantity wander unseen: nothing tells then that it wanders less than nominally.
-    fn miss(&mut self, nominal_variance: S) {
+    /// Lets the quantity wander unseen: the longer, the less tells that it wanders less than nominally.
+    fn miss(&mut self, nominal_variance: S, step_s: S) {
         let mut factor = S::constant(LEAST);
         for trial in &mut self.trials {
             trial.filter.variance += factor * nominal_variance;
             factor = factor * S::constant(STEP);
         }
-        self.factor = self.factor.max(S::one());
+        let unseen = (S::constant(UNSEEN) * step_s).min(S::one());
+        self.factor += unseen * (S::one() - self.factor).max(S::zero());
+        self.missed = true;
     }
 
     /// The rate over the nominal one, as a variance.
@@ -133,8 +142,8 @@ impl<S: Scalar> WalkRate<S> {
     /// Forgets what was explained so far, and where the quantity is: it jumped.
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn restart(&mut self) {
-        let (frame, memory) = (self.frame, self.memory);
-        *self = Self { frame, memory, ..Self::new(0) };
+        let (frame, forgotten_per_s) = (self.frame, self.forgotten_per_s);
+        *self = Self { frame, forgotten_per_s, ..Self::new(0) };
     }
 
     /// The geometric mean of the candidates, weighed by their likelihood.
@@ -163,7 +172,7 @@ mod tests {
             for frame in 0..200_u32 {
                 let error = if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
                 let place = wander * f64::from(frame / 10 % 2);
-                rate.take(Some(place + error), Noise::white(0.1), 0.01);
+                rate.take(Some(place + error), Noise::white(0.1), 0.01, 0.1);
             }
             rate.factor()
         };
@@ -177,9 +186,9 @@ mod tests {
     fn smooth_ground_does_not_argue_for_long() {
         let mut rate = WalkRate::<f64>::new(0);
         let noise = |frame: u32| if frame.is_multiple_of(2) { 0.1 } else { -0.1 };
-        (0..400).for_each(|frame| rate.take(Some(noise(frame)), Noise::white(0.1), 0.01));
+        (0..400).for_each(|frame| rate.take(Some(noise(frame)), Noise::white(0.1), 0.01, 0.1));
         assert!(rate.factor() < 1.0e-2, "{}", rate.factor());
-        (0..10).for_each(|frame| rate.take(Some(0.3 * f64::from(frame) + noise(frame)), Noise::white(0.1), 0.01));
+        (0..10).for_each(|frame| rate.take(Some(0.3 * f64::from(frame) + noise(frame)), Noise::white(0.1), 0.01, 0.1));
         assert!(rate.factor() > 0.5, "{}", rate.factor());
     }
 }

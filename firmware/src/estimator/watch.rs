@@ -21,25 +21,49 @@ pub(super) enum Contradiction {
     Wrong,
 }
 
-/// The count of contradictions of one filter.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Watch {
-    in_a_row: u8,
+/// The count of contradictions of one filter with `M` measurements.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Watch<const M: usize> {
+    /// Of each measurement; one that is missing contradicts nothing and confirms nothing.
+    in_a_row: [u8; M],
+    /// Whether any of these is above zero.
+    contradicted: bool,
     rest: u8,
     relearned: u32,
 }
 
-impl Watch {
+impl<const M: usize> Watch<M> {
+    /// Nothing was contradicted yet.
+    pub fn new() -> Self {
+        Self { in_a_row: [0; M], contradicted: false, rest: 0, relearned: 0 }
+    }
+
     /// Takes what an update told.
-    pub fn judge<S, const M: usize>(&mut self, told: &Innovation<S, M>) -> Contradiction {
+    pub fn judge<S>(&mut self, told: &Innovation<S, M>) -> Contradiction {
         self.rest = self.rest.saturating_sub(1);
-        let rejected = told.residuals.iter().any(|residual| residual.fate == Fate::Rejected);
-        self.in_a_row = if rejected { self.in_a_row.saturating_add(1) } else { 0 };
-        if self.in_a_row >= WRONG && self.rest == 0 {
-            (self.in_a_row, self.rest) = (0, REST);
+        if !self.contradicted && told.residuals.iter().all(|residual| residual.fate != Fate::Rejected) {
+            return Contradiction::Passing;
+        }
+        let (mut rejected, mut longest) = (false, 0);
+        for (in_a_row, residual) in self.in_a_row.iter_mut().zip(&told.residuals) {
+            match residual.fate {
+                Fate::Rejected => {
+                    *in_a_row = in_a_row.saturating_add(1);
+                    rejected = true;
+                    longest = longest.max(*in_a_row);
+                }
+                Fate::Used => *in_a_row = 0,
+                Fate::Missing | Fate::NotFinite => {}
+            }
+        }
+        self.contradicted = self.in_a_row.iter().any(|in_a_row| *in_a_row > 0);
+        if !rejected {
+            Contradiction::Passing
+        } else if longest >= WRONG && self.rest == 0 {
+            (self.in_a_row, self.rest) = ([0; M], REST);
             self.relearned = self.relearned.saturating_add(1);
             Contradiction::Wrong
-        } else if self.in_a_row >= MOVED {
+        } else if longest >= MOVED {
             Contradiction::Moved
         } else {
             Contradiction::Passing
@@ -68,7 +92,7 @@ mod tests {
     fn what_is_refused_for_long_is_let_in_once() {
         let refused = Residual { fate: Fate::Rejected, innovation: 9.0, std: 0.5 };
         let told = Innovation { residuals: [refused], ..Innovation::<f64, 1>::nothing() };
-        let mut watch = Watch::default();
+        let mut watch = Watch::new();
         let opened: Vec<u8> = (1..=WRONG + REST)
             .filter(|_| {
                 let wrong = watch.judge(&told) == Contradiction::Wrong;
@@ -77,5 +101,21 @@ mod tests {
             })
             .collect();
         assert_eq!(opened, [WRONG, WRONG + REST]);
+    }
+
+    /// A sensor that speaks in one frame of five is heard as well.
+    #[test]
+    fn missing_measurements_confirm_nothing() {
+        let of = |fate: Fate| Innovation {
+            residuals: [Residual { fate, innovation: 9.0, std: 0.5 }],
+            ..Innovation::<f64, 1>::nothing()
+        };
+        let mut watch = Watch::new();
+        let mut judged = |fate: Fate| watch.judge(&of(fate));
+        assert_eq!(judged(Fate::Rejected), Contradiction::Passing);
+        (0..4).for_each(|_| assert_eq!(judged(Fate::Missing), Contradiction::Passing));
+        assert_eq!(judged(Fate::Rejected), Contradiction::Moved);
+        assert_eq!(judged(Fate::Used), Contradiction::Passing);
+        assert_eq!(judged(Fate::Rejected), Contradiction::Passing);
     }
 }

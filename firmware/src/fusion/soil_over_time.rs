@@ -8,8 +8,8 @@ use super::soil_change::SoilChangeDetector;
 use crate::estimator::{Estimate, WheelActivity, WheelEstimate};
 use crate::frozen;
 use crate::math;
-use crate::rover::{PerWheel, Rover};
-use crate::soil::{Refusal, SoilEstimate, rover_outputs, wheel_soil};
+use crate::rover::{PerSide, PerWheel, Rover};
+use crate::soil::{Refusal, SoilEstimate, is_known_slip, rover_outputs, wheel_soil};
 use crate::terramechanics::Wheel;
 use crate::wheel_state::{Slope, SoilQuery, WHEELS, WheelNoise, WheelState};
 
@@ -43,16 +43,27 @@ impl SoilOverTime {
         }
     }
 
-    /// Takes the wheels after some travel, m. Gives the soil under each and under the rover.
+    /// Takes the wheels after some travel, m, and which side rolls back. Gives the soil under each and under the rover.
     pub fn tick(
         &mut self,
         wheels: &PerWheel<WheelEstimate>,
+        backward: PerSide<bool>,
         slope: Estimate,
         travel_m: f32,
     ) -> (PerWheel<Result<SoilEstimate, Refusal>>, Result<RoverSoil, Refusal>) {
         let variance = slope.std * slope.std + SLOPE_STD_RAD * SLOPE_STD_RAD;
         let slope = Slope { angle_rad: slope.value, std_rad: math::sqrt(variance) };
-        let wheel_soils = wheels.map_wheels(|wheel| self.under_wheel(&wheel, slope));
+        let mirrored;
+        let wheels = if backward.left || backward.right {
+            mirrored = in_direction_of_travel(wheels, backward);
+            &mirrored
+        } else {
+            wheels
+        };
+        let slopes =
+            backward.map(|back| Slope { angle_rad: if back { -slope.angle_rad } else { slope.angle_rad }, ..slope });
+        let wheel_soils =
+            wheels.as_ref().zip(slopes).map(|(side, slope)| side.as_ref().map(|wheel| self.under_wheel(wheel, slope)));
         if self.changes.tick(wheels, travel_m).is_some() {
             self.average = SoilAverage::new();
         }
@@ -70,7 +81,7 @@ impl SoilOverTime {
 
     fn under_rover(&mut self, wheels: &PerWheel<WheelEstimate>, travel_m: f32) -> Result<RoverSoil, Refusal> {
         let newest = self.changes.on_newest_soil();
-        let taking_part = wheels.zip_wheels(newest).map_wheels(|(wheel, newest)| newest && state_of(&wheel).is_some());
+        let taking_part = wheels.zip_wheels(newest).map_wheels(|(wheel, newest)| newest && is_known(&wheel));
         let mut states = Vec::<WheelState, WHEELS>::new();
         let mut squares = [0.0_f32; 4];
         let mut shared = 0.0;
@@ -124,6 +135,24 @@ impl SoilOverTime {
             changes: self.changes.changes(),
         })
     }
+}
+
+/// The wheels as if those that roll back rolled forward, seen in a mirror: their pulls and torques change signs.
+fn in_direction_of_travel(wheels: &PerWheel<WheelEstimate>, backward: PerSide<bool>) -> PerWheel<WheelEstimate> {
+    let mut wheels = *wheels;
+    let PerSide { left, right } = wheels.as_mut().zip(backward);
+    for (side, _) in [left, right].into_iter().filter(|(_, backward)| *backward) {
+        for wheel in side.as_array_mut() {
+            wheel.resistive_torque_nm.value = -wheel.resistive_torque_nm.value;
+            wheel.drawbar_pull_n.value = -wheel.drawbar_pull_n.value;
+        }
+    }
+    wheels
+}
+
+/// Whether the rover network knows such wheels: under load, rolling, and not braked.
+fn is_known(wheel: &WheelEstimate) -> bool {
+    state_of(wheel).is_some() && wheel.slip.is_some_and(|slip| is_known_slip(slip.value, slip.std))
 }
 
 /// The state that a network takes; none of a wheel that does not roll under load.

@@ -49,16 +49,18 @@ impl Pipeline {
 
     /// Takes a frame. Every number that comes out is finite, whatever comes in. A frame that repeats the time of the one
     /// before, or comes from before it, changes nothing: the estimate is that of the one before.
-    pub fn tick(&mut self, frame: &SensorFrame) -> FrameEstimate {
+    pub fn tick(&mut self, frame: &SensorFrame) -> &FrameEstimate {
+        let last = &mut self.last;
         if let Taken::Used(travel_m) = self.estimator.tick(frame) {
             let sides = self.estimator.estimate();
-            let wheels = sides.as_ref().map(|side| side.wheels);
-            let bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
+            last.time_us = frame.time_us;
+            last.wheels = sides.as_ref().map(|side| side.wheels);
+            last.bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
             let pitch = Estimate { value: self.estimator.pitch_rad(), std: self.estimator.pitch_std_rad() };
-            let (wheel_soils, soil) = self.soil.tick(&wheels, pitch, travel_m);
-            self.last = FrameEstimate { time_us: frame.time_us, wheels, bogie_drawbar_pull_n, wheel_soils, soil };
+            let backward = self.estimator.rolls_back();
+            (last.wheel_soils, last.soil) = self.soil.tick(&last.wheels, backward, pitch, travel_m);
         }
-        self.last
+        last
     }
 
     /// What was said of the last frame; before the first, that nothing is known.

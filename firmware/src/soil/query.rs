@@ -24,13 +24,23 @@ pub(crate) fn wheel_soil(query: &SoilQuery, state: &WheelState) -> Result<SoilEs
     let input = query.wheel_inputs(state, fifth);
     let table = &frozen::WHEEL;
     let posterior = table.posterior.read(&table.outputs(&input));
-    Ok(SoilEstimate::new(&posterior, table.normalisation.contains(&input)))
+    let inside = table.normalisation.contains(&input) && is_known_slip(state.slip, query.noise.slip);
+    Ok(SoilEstimate::new(&posterior, inside))
 }
 
 /// The soil under all wheels of the query.
 fn rover_soil(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
     let (outputs, inside) = rover_outputs(query)?;
     Ok(SoilEstimate::new(&frozen::ROVER.posterior.read(&outputs), inside))
+}
+
+/// The least slip in the scenes that the networks are trained with.
+pub const LEAST_SLIP: f64 = 0.02;
+
+/// Whether the networks know wheels at such a slip, which is known to a standard deviation: below the least that they have seen curves are
+/// others, and hang on how soil is braked.
+pub(crate) fn is_known_slip(slip: f32, std: f32) -> bool {
+    slip + 3.0 * std >= LEAST_SLIP as f32
 }
 
 /// What the rover network says of a query, and whether all of its inputs lie in the training range.
@@ -47,6 +57,7 @@ pub(crate) fn rover_outputs(query: &SoilQuery) -> Result<([f32; OUTPUTS], bool),
     let table = &frozen::ROVER;
     let outputs = table.outputs(&context, wheels.iter().copied());
     let inside = table.context.contains(&context) && wheels.iter().all(|wheel| table.wheel.contains(wheel));
+    let inside = inside && query.wheels.iter().all(|state| is_known_slip(state.slip, query.noise.slip));
     Ok((outputs, inside))
 }
 
@@ -72,5 +83,32 @@ fn check(finite: bool, in_range: bool) -> Result<(), Refusal> {
         (false, _) => Err(Refusal::NotFinite),
         (true, false) => Err(Refusal::OutOfRange),
         (true, true) => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEAST_SLIP, is_known_slip, wheel_soil};
+    use crate::terramechanics::Wheel;
+    use crate::wheel_state::{SoilQuery, WheelNoise, WheelState};
+    use heapless::Vec;
+
+    #[test]
+    fn what_may_be_a_slip_of_the_training_is_known() {
+        assert!(is_known_slip(LEAST_SLIP as f32, 0.0) && is_known_slip(0.0, 0.01));
+        assert!(!is_known_slip(0.01, 0.003) && !is_known_slip(-0.03, 0.01) && !is_known_slip(f32::NAN, 0.01));
+    }
+
+    /// The networks have seen no wheel that is braked a little, and say so.
+    #[test]
+    fn a_braked_wheel_is_outside_of_what_the_networks_know() {
+        let noise = WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.003, sinkage_m: 1.0 };
+        let outside = |slip: f32| {
+            let state = WheelState { drawbar_pull_n: -4.0, load_n: 65.0, torque_nm: 1.0, slip, sinkage_m: None };
+            let wheel = Wheel { radius_m: 0.075, width_m: 0.07 };
+            let query = SoilQuery { wheel, noise, slope: None, wheels: Vec::new() };
+            wheel_soil(&query, &state).map(|soil| soil.outside_training_range)
+        };
+        assert_eq!((outside(0.05), outside(-0.01)), (Ok(false), Ok(true)));
     }
 }

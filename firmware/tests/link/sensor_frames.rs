@@ -76,7 +76,7 @@ fn frames_over_the_link_are_frames_through_the_pipeline() {
     let mut computer = Computer::greeted();
     let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover can be");
     for number in 1..=50 {
-        let reply = Reply::Frame(Ok(pipeline.tick(&sensors(number))));
+        let reply = Reply::Frame(Ok(*pipeline.tick(&sensors(number))));
         let sequence = 1 + number as u16;
         let mut buffer = FrameBuffer::new();
         let expected = buffer.encode(Header::new(sequence), &reply).expect("an estimate fits");

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, value_parser};
 
 use crate::data::atomic_write::write_text;
+use crate::data::outputs;
 use crate::doubt::drives::{Plan, drive_all};
 use crate::doubt::emit::{Provenance, source};
 use crate::doubt::held_out::{BeforeAfter, tables};
@@ -22,7 +23,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 20_000)]
     seed: u32,
     /// Drives of each of six scenarios; some more have other noise, sensors that fail or effects of the soil, and some are held out
-    #[arg(long, default_value_t = 160, value_parser = value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 200, value_parser = value_parser!(u32).range(1..=10_000))]
     drives: u32,
 }
 
@@ -31,6 +32,7 @@ pub struct Arguments {
 /// # Errors
 /// Where no drive gave anything, the network cannot fly, or the file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
+    outputs::check(&[Some(&arguments.output)], &[])?;
     let plan = Plan { seed: arguments.seed, drives: arguments.drives };
     let mut training = with_progress("drives", |bar| drive_all(&plan.training(), bar));
     let held_out = plan.held_out().map(|journeys| with_progress("held-out drives", |bar| drive_all(&journeys, bar)));

@@ -33,6 +33,10 @@ const NOISE_FACTORS: Range<f64> = 0.5..2.0;
 const FAILURES: [Failure; 4] = [Failure::Nan, Failure::Outlier, Failure::Stuck, Failure::Dropout];
 const FAILING_S: Range<f64> = 1.0..6.0;
 const WORKING_S: Range<f64> = 2.0..10.0;
+/// Kinds of sensors that speak seldom: in one of so many frames, or for good in no more.
+const KINDS: [&str; 6] = ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "gyro_*", "bogie_angle_*"];
+const SPEAKS_EVERY: Range<u32> = 2..11;
+const SILENT_FOR_GOOD: f64 = 0.2;
 /// No drive is longer, s.
 const LONGEST_S: f64 = 120.0;
 /// Other rovers, and radii of their wheels.
@@ -65,6 +69,8 @@ enum Deviation {
     Noise,
     /// One sensor after the other fails for seconds.
     Failures,
+    /// All sensors of one kind speak in one of several frames, or in none.
+    Seldom,
     /// The rover is lighter or heavier, on wheels of other sizes, and the flight side is told.
     Mass,
     /// Slip digs the wheels in.
@@ -103,7 +109,7 @@ impl Plan {
         let learned: u64 = self.training_sets().iter().map(|set| u64::from(set.drives)).sum();
         let mut seed = u64::from(self.seed) + learned;
         NOMINAL.map(|scenario| {
-            let journeys = numbered(seed, &[Set { scenario, deviation: Deviation::None, drives: self.share(4) }]);
+            let journeys = numbered(seed, &[Set { scenario, deviation: Deviation::None, drives: self.share(6) }]);
             seed += journeys.len() as u64;
             journeys
         })
@@ -112,17 +118,18 @@ impl Plan {
     fn training_sets(&self) -> Vec<Set> {
         let kinds = [
             (Deviation::None, self.drives),
-            (Deviation::Noise, self.share(4)),
-            (Deviation::Failures, self.share(4)),
-            (Deviation::Mass, self.share(4)),
-            (Deviation::SlipSinkage, self.share(8)),
-            (Deviation::GrouserRipple, self.share(8)),
+            (Deviation::Noise, self.share(6)),
+            (Deviation::Failures, self.share(6)),
+            (Deviation::Seldom, self.share(6)),
+            (Deviation::Mass, self.share(6)),
+            (Deviation::SlipSinkage, self.share(12)),
+            (Deviation::GrouserRipple, self.share(12)),
         ];
         let of_nominal = kinds.into_iter().flat_map(|(deviation, drives)| {
             NOMINAL.into_iter().map(move |scenario| Set { scenario, deviation, drives })
         });
         let others =
-            OTHER.into_iter().map(|scenario| Set { scenario, deviation: Deviation::None, drives: self.share(4) });
+            OTHER.into_iter().map(|scenario| Set { scenario, deviation: Deviation::None, drives: self.share(6) });
         of_nominal.chain(others).collect()
     }
 
@@ -203,6 +210,7 @@ impl Deviation {
             Self::None => {}
             Self::Noise => rover.noise = other_noise(&rover.noise, random),
             Self::Failures => faults = failures(random)?,
+            Self::Seldom => faults = silences(random)?,
             Self::Mass => {
                 rover.mass_kg = log_uniform(&MASSES_KG, random);
                 rover.wheel.radius_m = log_uniform(&RADII_M, random);
@@ -234,6 +242,16 @@ fn failures(random: &mut ChaCha8Rng) -> Result<Vec<Fault>, String> {
     Ok(failures)
 }
 
+/// All sensors of a kind are silent but in one of so many frames; or from some time on.
+fn silences(random: &mut ChaCha8Rng) -> Result<Vec<Fault>, String> {
+    let columns = KINDS[random.random_range(0..KINDS.len())];
+    if random.random::<f64>() < SILENT_FOR_GOOD {
+        let from_s = random.random_range(WARM_UP_S..LONGEST_S / 2.0);
+        return Ok(vec![Fault::new(Failure::Dropout, columns, (from_s, LONGEST_S))?]);
+    }
+    Fault::silent_but_one_in(random.random_range(SPEAKS_EVERY), columns, LONGEST_S)
+}
+
 /// Each noise by itself is better or worse.
 fn other_noise(noise: &SensorNoise<f64>, random: &mut ChaCha8Rng) -> SensorNoise<f64> {
     let mut other = |std: f64| std * log_uniform(&NOISE_FACTORS, random);
@@ -257,11 +275,11 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 6 * (16 + 4 + 4 + 4 + 2 + 2) + 2 * 4);
+        assert_eq!(training.len(), 6 * (16 + 3 + 3 + 3 + 3 + 2 + 2) + 2 * 3);
         let held_out = plan.held_out();
-        assert!(held_out.iter().all(|journeys| journeys.len() == 4));
+        assert!(held_out.iter().all(|journeys| journeys.len() == 3));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();
-        assert_eq!(seeds.len(), training.len() + 24);
+        assert_eq!(seeds.len(), training.len() + 18);
         assert_eq!(seeds.first(), Some(&20_000));
         assert!(Plan { seed: 0, drives: 1 }.held_out().iter().all(|journeys| journeys.len() == 1));
     }
@@ -272,6 +290,7 @@ mod tests {
             Deviation::None,
             Deviation::Noise,
             Deviation::Failures,
+            Deviation::Seldom,
             Deviation::Mass,
             Deviation::SlipSinkage,
             Deviation::GrouserRipple,

@@ -2,6 +2,7 @@
 
 use kapvik_firmware::estimator::doubt::{HIDDEN, INPUTS, OUTPUTS, SHARE_BITS, SLOW};
 use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
 
 use super::loss::loss;
 use super::rows::{Row, SideRows};
@@ -9,7 +10,7 @@ use super::weights::DoubtWeights;
 use crate::train::lanes::{
     LANES, Lane, ZERO, add_input_slope, add_layer_gradient, apply_layer, before_activation, run_layer,
 };
-use crate::train::trainable::in_lanes;
+use crate::train::trainable::{change_each, flatten, in_lanes};
 
 /// Inputs of a side whose drive has ended.
 const ENDED: [f32; INPUTS] = [0.0; INPUTS];
@@ -30,16 +31,29 @@ impl Slope {
     pub const NONE: Self = Self { loss: 0.0, rows: 0, gradient: DoubtWeights::ZERO };
 }
 
-/// The sum of the losses of the sides at these places, and its slope.
+/// The sum of the losses of the sides at these places, and its slope. Blocks are summed by themselves, so that the result does not
+/// depend on the number of cores.
 pub fn slope_of(weights: &DoubtWeights, sides: &[SideRows], places: &[u32]) -> Slope {
-    Arch::new().dispatch(Pass { weights, sides, places })
+    let blocks: Vec<Slope> = places
+        .par_chunks(LANES)
+        .map(|places| {
+            let block = places.iter().filter_map(|place| sides.get(*place as usize)).map(Vec::as_slice).collect();
+            Arch::new().dispatch(Pass { weights, block })
+        })
+        .collect();
+    let mut sum = Slope::NONE;
+    for block in &blocks {
+        change_each(&mut sum.gradient, flatten(&block.gradient), |sum, slope| *sum += slope);
+        sum.loss += block.loss;
+        sum.rows += block.rows;
+    }
+    sum
 }
 
-/// Sides to be run with registers as wide as the machine has.
+/// A block of sides, one a lane, to be run with registers as wide as the machine has.
 struct Pass<'a> {
     weights: &'a DoubtWeights,
-    sides: &'a [SideRows],
-    places: &'a [u32],
+    block: Vec<&'a [Row]>,
 }
 
 impl WithSimd for Pass<'_> {
@@ -47,17 +61,13 @@ impl WithSimd for Pass<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Slope {
-        let Self { weights, sides, places } = self;
+        let Self { weights, block } = self;
         let mut sum = Slope::NONE;
-        for places in places.chunks(LANES) {
-            let block: Vec<&[Row]> =
-                places.iter().filter_map(|place| sides.get(*place as usize)).map(Vec::as_slice).collect();
-            let frames = run(simd, weights, &block);
-            let mut later = [ZERO; SLOW];
-            for (place, frame) in frames.iter().enumerate().rev() {
-                let slopes = frame.loss(simd, weights, block.iter().map(|rows| rows.get(place)), &mut sum);
-                frame.backward(simd, weights, &slopes, &mut later, &mut sum.gradient);
-            }
+        let frames = run(simd, weights, &block);
+        let mut later = [ZERO; SLOW];
+        for (place, frame) in frames.iter().enumerate().rev() {
+            let slopes = frame.loss(simd, weights, block.iter().map(|rows| rows.get(place)), &mut sum);
+            frame.backward(simd, weights, &slopes, &mut later, &mut sum.gradient);
         }
         sum
     }
@@ -169,7 +179,6 @@ mod tests {
     use super::*;
     use crate::doubt::rows::Known;
     use crate::doubt::rows::tests::correlated;
-    use crate::train::trainable::{change_each, flatten};
 
     fn wave(seed: usize) -> f32 {
         libm::sinf(2.399 * seed as f32)
@@ -196,8 +205,10 @@ mod tests {
         let known = sides.iter().flatten().filter(|row| row.known.is_some()).count();
         assert_eq!(slope.rows as usize, known);
         let gradient = flatten(&slope.gradient);
-        let narrow = Pass { weights: &weights, sides: &sides, places: &places }.with_simd(pulp::Scalar::new());
-        assert_eq!(gradient, flatten(&narrow.gradient), "other registers, other bits");
+        let block = sides.iter().take(LANES).map(Vec::as_slice).collect();
+        let narrow = Pass { weights: &weights, block }.with_simd(pulp::Scalar::new());
+        let wide = slope_of(&weights, &sides, &places[..LANES]);
+        assert_eq!(flatten(&wide.gradient), flatten(&narrow.gradient), "other registers, other bits");
         let flat = flatten(&weights);
         for place in (0..flat.len()).step_by(23) {
             let mut at = |step: f32| {

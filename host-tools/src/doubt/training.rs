@@ -4,21 +4,22 @@ use indicatif::ProgressBar;
 use kapvik_firmware::estimator::doubt::DoubtNetwork;
 use rayon::prelude::*;
 
-use super::pass::{Slope, slope_of};
+use super::pass::slope_of;
 use super::rows::SideRows;
 use super::standardise::Standard;
 use super::weights::DoubtWeights;
+use crate::train::cosine_fall::cosine_fall;
 use crate::train::dataset::shuffle;
 use crate::train::lanes::LANES;
 use crate::train::moments::Moments;
 use crate::train::trainable::{change_each, flatten};
 
 /// Passes over all sides.
-const PASSES: u64 = 40;
+const PASSES: u64 = 50;
 /// Sides of a step.
 const BATCH: usize = 2 * LANES;
 /// Step size at the beginning; it falls to zero along a half-wave of the cosine.
-const RATE: f64 = 5.0e-3;
+const RATE: f32 = 5.0e-3;
 
 /// The network that makes the errors on these sides of drives most likely, as it flies. Their inputs are standardised where they are.
 pub fn train(sides: &mut [SideRows], seed: u32, progress: &ProgressBar) -> DoubtNetwork {
@@ -29,17 +30,17 @@ pub fn train(sides: &mut [SideRows], seed: u32, progress: &ProgressBar) -> Doubt
     let mut moments = Moments::new(&weights);
     let mut order: Vec<u32> = (0..sides.len() as u32).collect();
     let steps = PASSES * order.len().div_ceil(BATCH) as u64;
-    let mut done = 0_u64;
+    let mut done = 0;
     progress.set_length(PASSES);
     for pass in 1..=PASSES {
         shuffle(&mut order, seed + pass);
         let (mut loss, mut rows) = (0.0, 0);
         for batch in order.chunks(BATCH) {
-            let rate = RATE * 0.5 * (1.0 + libm::cos(std::f64::consts::PI * done as f64 / steps as f64));
-            let mut slope = slope_of_batch(&weights, sides, batch);
+            let rate = RATE * cosine_fall(done as f32 / steps as f32);
+            let mut slope = slope_of(&weights, sides, batch);
             let share = 1.0 / slope.rows.max(1) as f32;
             change_each(&mut slope.gradient, std::iter::repeat(share), |sum, share| *sum *= share);
-            moments.step(&mut weights, &flatten(&slope.gradient), rate as f32);
+            moments.step(&mut weights, &flatten(&slope.gradient), rate);
             loss += f64::from(slope.loss);
             rows += slope.rows;
             done += 1;
@@ -48,19 +49,6 @@ pub fn train(sides: &mut [SideRows], seed: u32, progress: &ProgressBar) -> Doubt
         progress.inc(1);
     }
     standard.folded_into(&weights).rounded(&standard.mean)
-}
-
-/// Loss of the sides at these places and its slope. Blocks are summed by themselves, so that the result does not depend on the number of
-/// cores.
-fn slope_of_batch(weights: &DoubtWeights, sides: &[SideRows], places: &[u32]) -> Slope {
-    let blocks: Vec<Slope> = places.par_chunks(LANES).map(|block| slope_of(weights, sides, block)).collect();
-    let mut sum = Slope::NONE;
-    for block in &blocks {
-        change_each(&mut sum.gradient, flatten(&block.gradient), |sum, slope| *sum += slope);
-        sum.loss += block.loss;
-        sum.rows += block.rows;
-    }
-    sum
 }
 
 #[cfg(test)]

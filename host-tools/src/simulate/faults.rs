@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
+use super::RATE_HZ;
 use crate::data::sensor_channels::{names, values, values_mut};
 
 /// How a sensor fails.
@@ -59,6 +60,21 @@ impl Fault {
             return Err(format!("{}-{}: expected two times in s, rising", between_s.0, between_s.1));
         }
         Ok(Self { failure, columns, between_s })
+    }
+
+    /// The silences of columns that say something in one of so many frames, of as many a second as there are by default, up to a time, s.
+    ///
+    /// # Errors
+    /// Says what was expected where no column fits.
+    pub fn silent_but_one_in(frames: u32, pattern: &str, until_s: f64) -> Result<Vec<Self>, String> {
+        let frame_s = 1.0 / RATE_HZ;
+        let period_s = f64::from(frames) * frame_s;
+        (0..)
+            .map(|time| f64::from(time) * period_s)
+            .take_while(|start_s| *start_s < until_s)
+            .map(|start_s| (start_s + 0.5 * frame_s, start_s + period_s - 0.5 * frame_s))
+            .map(|silent_s| Self::new(Failure::Dropout, pattern, silent_s))
+            .collect()
     }
 
     /// A fault as the command line writes it: SENSOR@T1-T2, or @T1-T2 for all sensors; T alone is one frame.

@@ -3,6 +3,7 @@
 //! The soil ranges and the noise are those of the experiment that the project compares itself with (φ 22–42°, K
 //! 5–35 mm, n 0.8–1.3, k_φ 0.8–5 MPa/mⁿ, 0.5 N, 1 N, 0.05 N·m, 2 mm and 0.01 per instant on the assumed Kapvik wheel).
 
+use kapvik_firmware::soil::LEAST_SLIP;
 use kapvik_firmware::terramechanics::effects::Grousers;
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 
@@ -96,7 +97,7 @@ pub const MANOEUVRE_LOADS_N: Range = Range::linear(50.0, 80.0);
 /// Half of the spread of load among the wheels there, as a share of the mean: great spreads tell most, and ask most.
 pub const MANOEUVRE_LOAD_SPREAD: Range = Range::linear(0.03, 0.6);
 /// Least slip there.
-pub const MANOEUVRE_SLIP_LOW: Range = Range::linear(0.02, 0.10);
+pub const MANOEUVRE_SLIP_LOW: Range = Range::linear(LEAST_SLIP, 0.10);
 /// Greatest slip there.
 pub const MANOEUVRE_SLIP_HIGH: Range = Range::linear(0.50, 0.70);
 
@@ -117,9 +118,9 @@ pub const PRESSURE_PA: Range = Range::logarithmic(2.2e3, 2.2e4);
 /// Half of the spread of load among the wheels of an instant, as a share of the mean.
 pub const LOAD_SPREAD: Range = Range::logarithmic(0.03, 0.6);
 /// Slip of a wheel.
-pub const SLIP: Range = Range::linear(0.02, 0.70);
+pub const SLIP: Range = Range::linear(LEAST_SLIP, 0.70);
 /// Least slip among wheels that are driven at deliberately different rim speeds.
-pub const SPREAD_SLIP_LOW: Range = Range::linear(0.02, 0.15);
+pub const SPREAD_SLIP_LOW: Range = Range::linear(LEAST_SLIP, 0.15);
 /// Greatest slip among wheels that are driven at deliberately different rim speeds.
 pub const SPREAD_SLIP_HIGH: Range = Range::linear(0.45, 0.70);
 /// Deepest sinkage over radius that is kept; deeper wheels are stuck.

@@ -105,7 +105,7 @@ impl Drive {
         for index in 0.. {
             let Some(step) = traverse.next() else { break };
             let (frame, truth) = step.map_err(|error| failed(error.to_string()))?;
-            let estimate = pipeline.tick(&frame);
+            let estimate = *pipeline.tick(&frame);
             let now = naive(rover, &frame);
             let second = trailing.push(frame.time_us, now);
             drive.soils.extend(estimate.soil.ok().map(|said| SoilPoint { said, truth }));

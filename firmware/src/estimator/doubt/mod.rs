@@ -58,21 +58,35 @@ impl DoubtNetwork {
 pub(super) struct Doubt {
     memory: Memory,
     times: [f32; OUTPUTS],
+    /// Whether this side has the turn, and whether it got it in this frame.
+    has_turn: bool,
     its_turn: bool,
+    /// Since the turn went from one side to the other, s.
+    since_s: f32,
 }
+
+/// Turns are not shorter than this, s: half of a frame less than the frames of the drives that the network learned from.
+const TURN_S: f32 = 0.075;
 
 impl Doubt {
     /// Of filters that have seen nothing, which are believed. The sides take turns, by `phase`: it is odd on one of them.
     pub fn new(phase: usize) -> Self {
-        Self { memory: Memory::EMPTY, times: [1.0; OUTPUTS], its_turn: phase.is_multiple_of(2) }
+        let has_turn = phase.is_multiple_of(2);
+        Self { memory: Memory::EMPTY, times: [1.0; OUTPUTS], has_turn, its_turn: false, since_s: 0.0 }
     }
 
-    /// To be called once a frame, before anything else.
-    pub fn take_turns(&mut self) {
-        self.its_turn = !self.its_turn;
+    /// To be called once a frame, before anything else, with the time since the one before, s.
+    pub fn take_turns(&mut self, step_s: f32) {
+        self.since_s += step_s;
+        self.its_turn = false;
+        if self.since_s >= TURN_S {
+            self.since_s = 0.0;
+            self.has_turn = !self.has_turn;
+            self.its_turn = self.has_turn;
+        }
     }
 
-    /// Whether the network is run in this frame: in every other one.
+    /// Whether the network is run in this frame: in every other one, of ten a second.
     pub fn its_turn(&self) -> bool {
         self.its_turn
     }
@@ -131,20 +145,19 @@ mod tests {
     #[test]
     fn sides_take_turns_and_doubt_holds_until_the_next() {
         let mut sides = [Doubt::new(0), Doubt::new(3)];
-        let mut before = sides.each_ref().map(Doubt::its_turn);
-        for _ in 0..4 {
-            sides.iter_mut().for_each(Doubt::take_turns);
-            let now = sides.each_ref().map(Doubt::its_turn);
-            assert_eq!(now, before.map(|turn| !turn));
-            assert!(now[0] != now[1]);
-            before = now;
-        }
+        let mut turns = |step_s: f32| {
+            sides.iter_mut().for_each(|side| side.take_turns(step_s));
+            sides.each_ref().map(Doubt::its_turn)
+        };
+        assert_eq!([0.1; 4].map(&mut turns), [[false, true], [true, false], [false, true], [true, false]]);
+        let neither = [false, false];
+        assert_eq!([0.05; 4].map(turns), [neither, [false, true], neither, [true, false]], "faster frames");
         let [side, _] = &mut sides;
         assert_eq!(side.times::<f64>(), [1.0; OUTPUTS]);
         side.take(&[1.0; INPUTS]);
         let taken = side.times::<f32>();
         assert_ne!(taken, [1.0; OUTPUTS]);
-        side.take_turns();
+        side.take_turns(0.1);
         assert_eq!(side.times::<f32>(), taken);
     }
 

@@ -73,7 +73,7 @@ impl FaultDrive {
         });
         let (last_frame, _) = before.pop().ok_or_else(|| failed("no frames before the fault".to_owned()))?;
         let mut copy = pipeline.clone();
-        let undisturbed = frames.iter().map(|(frame, truth)| Deviations::new(&copy.tick(frame), truth)).collect();
+        let undisturbed = frames.iter().map(|(frame, truth)| Deviations::new(copy.tick(frame), truth)).collect();
         Ok(Self { before: pipeline, last_frame, frames, faulty_frames, undisturbed })
     }
 
@@ -92,7 +92,7 @@ impl FaultDrive {
             let after = index.checked_sub(self.faulty_frames);
             let again = (case == Case::RepeatedFrames && after.is_none()).then_some(&frame);
             for frame in [Some(&frame), again].into_iter().flatten() {
-                let estimate = pipeline.tick(frame);
+                let estimate = *pipeline.tick(frame);
                 not_finite += usize::from(!is_finite(&estimate));
                 let deviations = Deviations::new(&estimate, truth);
                 frames_to_recover = frames_to_recover.or(after.filter(|_| deviations.within(LIMIT, undisturbed)));

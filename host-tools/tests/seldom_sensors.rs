@@ -1,0 +1,124 @@
+//! Sensors that speak in some frames only, encoders of drives that hold their rate, records that begin on the way: what is stated of the
+//! wheels must stay near the truth.
+
+use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
+use kapvik_firmware::rover::Rover;
+use kapvik_host::data::truth_file::Truth;
+use kapvik_host::simulate::faults::Fault;
+use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::trial::errors::Errors;
+use kapvik_host::trial::{Drive, Quantity};
+
+/// Seeds that development has not looked at.
+const SEEDS: std::ops::Range<u64> = 8300..8304;
+/// Drives are not longer, s.
+const LONGEST_S: f64 = 120.0;
+
+fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
+    let options = Options { faults: faults.to_vec(), ..Options::default() };
+    SEEDS.fold(Errors::default(), |mut sum, seed| {
+        sum.add(&Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors);
+        sum
+    })
+}
+
+/// Errors may grow to so many times those with all readings, and so many must be within two standard deviations.
+fn assert_honest(what: &str, with: &Errors, without: &Errors, times: f64, least: f64) {
+    for quantity in [Quantity::Slip, Quantity::Torque, Quantity::ContactAngle, Quantity::Load, Quantity::FrontPull] {
+        let (tally, whole) = (with.of(quantity), without.of(quantity));
+        let [one, two] = tally.coverage();
+        println!("{what}, {quantity:?}: {:.4}, {:.4} with all; {one:.3} {two:.3} within", tally.rmse(), whole.rmse());
+        assert!(two >= least, "{what}, {quantity:?}: {two} within two standard deviations");
+        assert!(tally.rmse() <= times * whole.rmse(), "{what}, {quantity:?}: {}", tally.rmse());
+    }
+}
+
+#[test]
+fn sensors_that_speak_in_one_frame_of_five_are_heard() {
+    for scenario in [Scenario::Level, Scenario::Hills] {
+        let whole = errors(scenario, &[]);
+        for columns in ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "bogie_angle_*", "gyro_*"] {
+            let faults = Fault::silent_but_one_in(5, columns, LONGEST_S).expect("faults");
+            let what = format!("{scenario:?}, {columns} in one frame of five");
+            assert_honest(&what, &errors(scenario, &faults), &whole, 8.0, 0.85);
+        }
+    }
+}
+
+/// The share of contact angles and drawbar pulls within two standard deviations, and the largest error in them.
+fn honesty(pairs: &[(FrameEstimate, Truth)]) -> (f64, f64) {
+    let errors: Vec<f64> = pairs
+        .iter()
+        .flat_map(|(estimate, truth)| {
+            let wheels = estimate.wheels.iter_wheels().zip(truth.wheels.iter_wheels());
+            wheels.flat_map(|(wheel, truth)| {
+                let of = |value: f32, std: f32, truth: f64| ((f64::from(value) - truth) / f64::from(std)).abs();
+                let (angle, pull) = (wheel.contact_angle_rad, wheel.drawbar_pull_n);
+                [of(angle.value, angle.std, truth.contact_angle_rad), of(pull.value, pull.std, truth.drawbar_pull_n)]
+            })
+        })
+        .collect();
+    let within = errors.iter().filter(|error| **error <= 2.0).count();
+    (within as f64 / errors.len() as f64, errors.iter().fold(0.0, |most, error| most.max(*error)))
+}
+
+/// Frames come five times as fast, and the record begins on hills, of which nothing is known then.
+#[test]
+fn a_record_of_fast_frames_that_begins_on_hills_is_stated_honestly() {
+    let options = Options { rate_hz: Some(50.0), duration_s: Some(40.0), ..Options::default() };
+    for seed in SEEDS {
+        let rover = Rover::<f64>::assumed();
+        let frames: Vec<_> = Traverse::new(Scenario::Hills, seed, &rover, &options)
+            .expect("there is such a drive")
+            .map(|step| step.expect("the rover drives on"))
+            .collect();
+        for begins_s in [8.0, 16.0] {
+            let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
+            let after = |time_s: f64| move |time_us: u64| time_us as f64 * 1e-6 >= time_s;
+            let (recorded, counts) = (after(begins_s), after(begins_s + 3.0));
+            let pairs: Vec<_> = frames
+                .iter()
+                .filter(|(frame, _)| recorded(frame.time_us))
+                .map(|(frame, truth)| (*pipeline.tick(frame), *truth))
+                .filter(|(estimate, _)| counts(estimate.time_us))
+                .collect();
+            let (within, most) = honesty(&pairs);
+            println!("seed {seed} from {begins_s} s on: {within:.3} within two standard deviations, at most {most:.1}");
+            assert!(within >= 0.8 && most < 10.0, "seed {seed} from {begins_s} s on: {within}, {most}");
+        }
+    }
+}
+
+/// A drive that holds its rate, behind an encoder too coarse to show how well, says the same for minutes. That is counted as stuck, and
+/// the rate is believed a little less.
+#[test]
+fn an_encoder_that_always_says_the_same_is_not_lost() {
+    const STEP_RAD_S: f32 = 0.01;
+    for scenario in [Scenario::Level, Scenario::Hills] {
+        let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
+        let traverse = Traverse::new(scenario, SEEDS.start, &Rover::assumed(), &Options::default());
+        let (mut squares, mut within, mut count) = (0.0, 0.0, 0.0);
+        for step in traverse.expect("there is such a drive") {
+            let (mut frame, truth) = step.expect("the rover drives on");
+            for wheel in frame.wheels.iter_wheels_mut() {
+                wheel.rate_rad_s = wheel.rate_rad_s.map(|rate| (rate / STEP_RAD_S).round() * STEP_RAD_S);
+            }
+            let estimate = pipeline.tick(&frame);
+            if frame.time_us < 5_000_000 {
+                continue;
+            }
+            for (wheel, truth) in estimate.wheels.iter_wheels().zip(truth.wheels.iter_wheels()) {
+                let (Some(slip), Some(truth)) = (wheel.slip, truth.slip) else { continue };
+                let error = f64::from(slip.value) - truth;
+                squares += error * error;
+                within += f64::from(u8::from(error.abs() <= 2.0 * f64::from(slip.std)));
+                count += 1.0;
+            }
+        }
+        let (rms, within) = (f64::sqrt(squares / count), within / count);
+        println!("{scenario:?}: slip errs by {rms:.4}, {within:.3} within two standard deviations");
+        assert!(rms < 0.03 && within >= 0.85, "{scenario:?}: {rms}, {within}");
+        let stuck = pipeline.health().sensors.wheel_rate.left.front.stuck;
+        assert!(stuck > 100, "{scenario:?}: {stuck} readings counted as stuck");
+    }
+}
