@@ -65,7 +65,7 @@ pub(super) struct Doubt {
     since_s: f32,
 }
 
-/// Turns are not shorter than this, s: half of a frame less than the frames of the drives that the network learned from.
+/// Turns are not shorter than this, s: a quarter less than the frames of the drives that the network learned from.
 const TURN_S: f32 = 0.075;
 
 impl Doubt {
