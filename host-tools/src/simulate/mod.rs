@@ -31,6 +31,7 @@ pub mod pose;
 pub mod programme;
 mod scenario;
 mod sensors;
+mod sliding;
 mod stepper;
 pub mod terrain;
 mod traverse;

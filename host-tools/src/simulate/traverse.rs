@@ -10,13 +10,14 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 
 use super::audit::imbalance;
-use super::balance::{Instant, WheelInstant, World};
+use super::balance::{Instant, Motion, WheelInstant, World};
 use super::effects::RoverEffects;
 use super::faults::{Fault, Faults};
 use super::ground_soils::{Change, SoilsAlongTheWay};
 use super::programme::Programme;
 use super::scenario::{Draw, Scenario};
 use super::sensors::{add_noise, readings, standard_deviations};
+use super::sliding::Sliding;
 use super::stepper::Stepper;
 use crate::data::rover_file::RoverFile;
 use crate::data::truth_file::{TrueSoil, Truth, WheelTruth};
@@ -66,6 +67,17 @@ pub enum SimulationError {
         /// Where, m.
         x_m: f64,
     },
+    /// The soil does not give the pull.
+    #[error(
+        "at {time_s:.2} s, {x_m:.2} m from the start, the rover slides back while its wheels drive on: the soil is too weak or \
+         the ground too steep for this rover"
+    )]
+    SlidesBack {
+        /// When, s.
+        time_s: f64,
+        /// Where, m.
+        x_m: f64,
+    },
     /// A frame failed the independent check of its balance.
     #[error("at {time_s} s a body is out of balance by {worst} N or N·m: expected at most {BALANCE}")]
     Unbalanced {
@@ -85,6 +97,7 @@ pub struct Traverse {
     faults: Faults,
     stepper: Stepper,
     instant: Instant,
+    sliding: Sliding,
     noise: SensorFrame,
     random: ChaCha8Rng,
     /// What the velocimeter would have said at the last instants, with their times in s.
@@ -128,6 +141,7 @@ impl Traverse {
             faults: Faults::new([course.faults, options.faults.clone()].concat()),
             stepper,
             instant,
+            sliding: Sliding::default(),
             noise: standard_deviations(&rover.noise),
             random,
             velocities: VecDeque::new(),
@@ -172,7 +186,11 @@ impl Traverse {
         let x_m = self.instant.motion.pose.x;
         let reached = reached.map_err(|time_s| SimulationError::Stuck { time_s, x_m })?;
         self.instant = reached.unwrap_or(self.instant);
-        Ok(())
+        let Motion { pose, rim_speed_m_s, .. } = &self.instant.motion;
+        match self.sliding.is_seen(rim_speed_m_s, pose.x) {
+            true => Err(SimulationError::SlidesBack { time_s: to_s, x_m: pose.x }),
+            false => Ok(()),
+        }
     }
 
     /// The frame of the present instant; `None` where a fault loses it.

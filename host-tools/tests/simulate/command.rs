@@ -120,6 +120,18 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
     }
 }
 
+/// On level ground, where other simulations stop; this soil answers each slip, but never with a pull.
+#[test]
+fn a_rover_that_slides_back_is_stuck() {
+    let folder = Folder::new();
+    let drive = ["--scenario", "level", "--duration", "15", "--soil", "dry-sand-iagnemma"];
+    let output = folder.run(&[&["--seed", "1", "-o", "a.csv"], drive.as_slice()].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && said.lines().count() == 1, "{said}");
+    assert!(said.starts_with("kapvik: at ") && said.contains(" m from the start, the rover slides back"), "{said}");
+    assert_eq!(folder.files(), 0, "something is left behind");
+}
+
 fn refused(folder: &Folder, arguments: &[&str], expected: &str, files: usize) {
     let output = folder.run(&[&["--seed", "1", "-o", "a.csv"], arguments].concat());
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
