@@ -8,7 +8,7 @@ use crate::data::atomic_write::write_json;
 use crate::data::outputs;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
-use crate::identify::{Document, Method, identify, identify_by};
+use crate::identify::{Document, Method, identify_by, identify_rehearsed};
 use crate::report::identified;
 
 use super::diagnose::campaign;
@@ -34,7 +34,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let document = match arguments.method {
         Method::Network => {
             let mut computer = FlightComputer::in_process()?;
-            Document::of(&campaign, &identify(&campaign, &mut |query| computer.query(query))?)
+            Document::of(&campaign, &identify_rehearsed(&campaign, &mut |query| computer.query(query))?)
         }
         method => identify_by(method, &campaign)?,
     };

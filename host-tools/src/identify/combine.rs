@@ -7,9 +7,14 @@
 //! The cut. Beginning with one group of all rows, the cut that most reduces the scatter within groups is made, until
 //! there are as many as there may be, or nothing is left to cut. Scatter is measured in the units of [`ALIKE_SLIP`] and [`ALIKE_LOAD`]: as
 //! far apart as two states can be before the curve between them bends noticeably. A group is left whole in a quantity
-//! in which it scatters no more than its noise explains: cutting there would sort the rows by their errors.
+//! in which it scatters no more than its noise explains: cutting there would sort the rows by their errors. Where a cut runs
+//! through rows all the same, what it sorts by errors is taken off: see [`super::selection`]. How the rows of a group scatter
+//! goes with its mean: see [`super::spread`].
 
 use kapvik_firmware::wheel_state::WheelState;
+
+use super::selection::{Bounds, mean_noise};
+use super::spread::Spread;
 
 /// Slips that differ by this belong together as much as loads that differ by [`ALIKE_LOAD`].
 pub const ALIKE_SLIP: f64 = 0.1;
@@ -56,57 +61,67 @@ pub struct MeanState {
     pub rows: usize,
     /// Rows in the mean of the sinkage.
     pub sinkage_rows: usize,
+    /// How their true slips and loads scatter about the mean.
+    pub spread: Spread,
 }
 
 /// At most `most` mean states: the samples as they are and in their order where they are no more than that, else means by
 /// slip. `slip_std` and `load_std_n` are the noise of one row.
 pub fn combine(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) -> Vec<MeanState> {
-    let mut states: Vec<MeanState> =
-        groups(samples, most, slip_std, load_std_n).iter().filter_map(|group| MeanState::of(group)).collect();
-    if samples.len() > most {
-        states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
-    }
-    states
-}
-
-/// The groups whose means are the states.
-pub fn groups(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) -> Vec<Vec<Sample>> {
     if samples.len() <= most {
-        return samples.iter().map(|sample| vec![*sample]).collect();
+        return samples.iter().map(MeanState::of_row).collect();
     }
     let mean_load = mean(samples.iter().map(|sample| sample.load_n));
     let axes = [
         Axis { of: |sample| sample.slip, unit: ALIKE_SLIP, noise: slip_std },
         Axis { of: |sample| sample.load_n, unit: ALIKE_LOAD * mean_load, noise: load_std_n },
     ];
-    let mut groups = vec![Group::new(samples.to_vec(), &axes)];
+    let groups = groups(samples, most, &axes);
+    let mut states: Vec<MeanState> =
+        groups.iter().map(|group| MeanState::of(group, samples, [slip_std, load_std_n])).collect();
+    states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
+    states
+}
+
+/// The groups whose means are the states; none is empty.
+fn groups(samples: &[Sample], most: usize, axes: &[Axis; 2]) -> Vec<Group> {
+    let mut groups = vec![Group::new(samples.to_vec(), Bounds::NONE, axes)];
     while groups.len() < most {
         let best = groups.iter_mut().filter(|group| group.cut.is_some()).max_by(|a, b| a.gain().total_cmp(&b.gain()));
         let Some((group, cut)) = best.and_then(|group| group.cut.take().map(|cut| (group, cut))) else { break };
+        let of = axes[cut.axis].of;
         let mut low = std::mem::take(&mut group.samples);
-        low.sort_by(|a, b| (cut.axis.of)(a).total_cmp(&(cut.axis.of)(b)));
+        low.sort_by(|a, b| of(a).total_cmp(&of(b)));
         let high = low.split_off(cut.place);
-        *group = Group::new(low, &axes);
-        groups.push(Group::new(high, &axes));
+        let [below, above] = group.bounds.cut(cut.axis, cut.at);
+        *group = Group::new(low, below, axes);
+        groups.push(Group::new(high, above, axes));
     }
-    groups.into_iter().map(|group| group.samples).collect()
+    groups
 }
 
 impl MeanState {
-    fn of(group: &[Sample]) -> Option<Self> {
-        let rows = group.len();
-        let sinkages: Vec<f64> = group.iter().filter_map(|sample| sample.sinkage_m).collect();
-        (rows > 0).then(|| Self {
+    fn of_row(sample: &Sample) -> Self {
+        Self { mean: *sample, rows: 1, sinkage_rows: usize::from(sample.sinkage_m.is_some()), spread: Spread::NONE }
+    }
+
+    /// The mean of a group of all the samples, `noise` being that of slip and load.
+    fn of(group: &Group, all: &[Sample], noise: [f64; 2]) -> Self {
+        let rows = &group.samples;
+        let sinkages: Vec<f64> = rows.iter().filter_map(|sample| sample.sinkage_m).collect();
+        let errors = mean_noise(&group.bounds, all, rows.len(), noise);
+        Self {
             mean: Sample {
-                slip: mean(group.iter().map(|sample| sample.slip)),
-                load_n: mean(group.iter().map(|sample| sample.load_n)),
-                drawbar_pull_n: mean(group.iter().map(|sample| sample.drawbar_pull_n)),
-                torque_nm: mean(group.iter().map(|sample| sample.torque_nm)),
+                slip: mean(rows.iter().map(|sample| sample.slip)) - errors[0],
+                load_n: mean(rows.iter().map(|sample| sample.load_n)) - errors[1],
+                drawbar_pull_n: mean(rows.iter().map(|sample| sample.drawbar_pull_n)),
+                torque_nm: mean(rows.iter().map(|sample| sample.torque_nm)),
                 sinkage_m: (!sinkages.is_empty()).then(|| mean(sinkages.iter().copied())),
             },
-            rows,
+            rows: rows.len(),
             sinkage_rows: sinkages.len(),
-        })
+            spread: Spread::of(rows, noise),
+        }
     }
 }
 
@@ -122,24 +137,29 @@ struct Axis {
 
 struct Group {
     samples: Vec<Sample>,
+    /// Where the cuts are that left it.
+    bounds: Bounds,
     /// The best cut, where there is one.
     cut: Option<Cut>,
 }
 
 #[derive(Clone, Copy)]
 struct Cut {
-    axis: Axis,
+    /// Place of the axis.
+    axis: usize,
     /// Samples below the cut, once sorted along the axis.
     place: usize,
+    /// In the middle between the samples on its two sides.
+    at: f64,
     /// By how much the cut reduces the sum of squares, in units of likeness.
     gain: f64,
 }
 
 impl Group {
-    fn new(samples: Vec<Sample>, axes: &[Axis; 2]) -> Self {
-        let cuts = axes.iter().filter_map(|axis| best_cut(&samples, axis));
+    fn new(samples: Vec<Sample>, bounds: Bounds, axes: &[Axis; 2]) -> Self {
+        let cuts = (0..axes.len()).filter_map(|axis| best_cut(&samples, axes, axis));
         let cut = cuts.max_by(|a, b| a.gain.total_cmp(&b.gain));
-        Self { samples, cut }
+        Self { samples, bounds, cut }
     }
 
     fn gain(&self) -> f64 {
@@ -148,7 +168,8 @@ impl Group {
 }
 
 /// The cut along an axis that leaves the least scatter on its two sides.
-fn best_cut(samples: &[Sample], axis: &Axis) -> Option<Cut> {
+fn best_cut(samples: &[Sample], axes: &[Axis; 2], place_of_axis: usize) -> Option<Cut> {
+    let axis = &axes[place_of_axis];
     let mut values: Vec<f64> = samples.iter().map(axis.of).collect();
     values.sort_by(f64::total_cmp);
     let count = values.len() as f64;
@@ -159,17 +180,17 @@ fn best_cut(samples: &[Sample], axis: &Axis) -> Option<Cut> {
         return None;
     }
     let mut below = 0.0;
-    let mut best: Option<(usize, f64)> = None;
+    let mut best: Option<Cut> = None;
     for (place, pair) in values.windows(2).enumerate() {
         below += pair[0] - centre;
         let low = (place + 1) as f64;
         // Between-group sum of squares; the sum above the cut is minus that below.
-        let gain = below * below * (1.0 / low + 1.0 / (count - low));
-        if pair[0] < pair[1] && best.is_none_or(|(_, most)| gain > most) {
-            best = Some((place + 1, gain));
+        let gain = below * below * (1.0 / low + 1.0 / (count - low)) / (axis.unit * axis.unit);
+        if pair[0] < pair[1] && best.is_none_or(|best| gain > best.gain) {
+            best = Some(Cut { axis: place_of_axis, place: place + 1, at: 0.5 * (pair[0] + pair[1]), gain });
         }
     }
-    best.map(|(place, gain)| Cut { axis: *axis, place, gain: gain / (axis.unit * axis.unit) })
+    best
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {

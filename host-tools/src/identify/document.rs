@@ -52,6 +52,9 @@ pub struct RunDocument {
     /// Why the estimate is none that a soil can be; then nothing in it is called identifiable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_soil: Option<String>,
+    /// Which intervals are wider than the networks state them, and why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub widened: Option<String>,
     /// How well the method's model explains the run, where the method says.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<FitDocument>,
@@ -202,6 +205,7 @@ impl RunDocument {
                 without_sinkage: question.and_then(|question| question.answer_without_sinkage.as_ref()).map(estimate),
                 wheels: question.map(|question| WheelDocument::all(&run.states, question)).unwrap_or_default(),
             }),
+            widened: question.and_then(|question| question.missing.as_ref()?.in_words()),
             ..Self::empty(&run.states)
         }
     }
@@ -229,6 +233,7 @@ impl RunDocument {
             rows_used: states.rows_used,
             rows_left_out: states.rows_left_out.iter().map(left_out).collect(),
             no_soil: None,
+            widened: None,
             fit: None,
             networks: None,
         }

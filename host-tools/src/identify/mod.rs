@@ -4,15 +4,21 @@
 //! Rows with the same run and time are the wheels of one instant, and each run is one soil. A query to the networks holds
 //! six wheels at most, so what a run holds more of is averaged: see [`combine`].
 
+mod bend;
 pub mod combine;
 pub mod condition;
 mod document;
 mod each_run;
+mod layout;
+mod logarithmic;
 pub mod method;
 mod network;
+mod rehearsal;
 mod run_states;
+mod selection;
 mod sensor_noise;
 pub mod soil_bank;
+mod spread;
 
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
@@ -22,7 +28,8 @@ use crate::error::HostError;
 pub use document::{Document, NoiseDocument, ParameterDocument, RunDocument, SoilDocument, WheelDocument};
 pub use each_run::identify_by;
 pub use method::{Method, network_refusal};
-pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify};
+pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify, identify_rehearsed};
+pub use rehearsal::Missing;
 pub use run_states::RunStates;
 pub use sensor_noise::{NoiseSource, SensorNoise};
 

@@ -1,16 +1,21 @@
 //! Identification by the networks that fly.
 
+use kapvik_firmware::pipeline;
 use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::wheel_state::{SoilQuery, WHEELS, WheelNoise};
+use kapvik_firmware::wheel_state::{SoilQuery, WHEELS, WheelNoise, WheelState};
 
 use crate::data::campaign::{Campaign, Ground};
 use crate::error::HostError;
 use crate::train::prior::{self, Range};
 
+use super::bend::Bends;
 use super::combine::MeanState;
 use super::condition::condition_number;
+use super::layout::Layout;
+use super::logarithmic::widened;
 use super::method::{Evidence, Method, network_refusal, networks};
+use super::rehearsal::{Missing, missing};
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Answer, SensorNoise};
 
@@ -43,6 +48,11 @@ pub struct Question {
     pub answer_without_sinkage: Option<QueryAnswer>,
     /// See [`condition_number`]; at the estimate of the rover network.
     pub condition_number: Option<f64>,
+    /// What the flight networks' intervals lack on runs of this layout, and what has been added to those of `answer`; none where
+    /// they have not been rehearsed.
+    pub missing: Option<Missing>,
+    /// What has brought means over different slips and loads onto the curve; none where there was none.
+    bends: Option<Bends>,
 }
 
 /// Identifies every run. `answer` is asked once for a run, twice where it has sinkage.
@@ -62,12 +72,32 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
     Ok(Identification { runs: runs.collect::<Result<_, HostError>>()?, noise })
 }
 
+/// As [`identify`], `answer` being what the flight networks say; and the intervals of all wheels together are widened where the
+/// networks are too sure of runs that are laid out as these: see [`super::rehearsal`]. Campaigns that declare effects are not
+/// rehearsed, for the soils that are drawn know none.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_rehearsed(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identification, HostError> {
+    let mut identification = identify(campaign, answer)?;
+    if campaign.declared.ids().is_empty() {
+        for run in &mut identification.runs {
+            let layout = Layout::new(&campaign.wheel, &run.states.states, &identification.noise);
+            run.question.iter_mut().for_each(|question| question.rehearse(&layout));
+        }
+    }
+    Ok(identification)
+}
+
 fn ask(
     campaign: &Campaign,
     states: &[MeanState],
     noise: &SensorNoise,
     answer: &mut Answer<'_>,
 ) -> Result<Question, HostError> {
+    let bends = Bends::of(&Layout::new(&campaign.wheel, states, noise));
+    let straight = bends.as_ref().map(|bends| bends.of_means(states));
+    let states = straight.as_deref().unwrap_or(states);
     let query = networks::query(&Evidence::of_run(campaign, noise, states));
     let said = answer(&query)?;
     let answer_without_sinkage = if has_sinkage(&query) {
@@ -81,7 +111,7 @@ fn ask(
         let soil = assumed_soil(&campaign.ground, campaign, estimate);
         condition_number(&campaign.wheel, &soil, states, &query.noise)
     });
-    Ok(Question { query, answer: said, answer_without_sinkage, condition_number })
+    Ok(Question { query, answer: said, answer_without_sinkage, condition_number, missing: None, bends })
 }
 
 /// Whether the rover network uses the sinkage: it does where every wheel has one.
@@ -113,6 +143,26 @@ pub fn at_edge(trained: Range, value: f64) -> bool {
 }
 
 impl Question {
+    fn rehearse(&mut self, layout: &Layout) {
+        let (query, bends) = (&self.query, &self.bends);
+        let ask = |states: &[WheelState<f64>], is_blind: bool| {
+            let straight = bends.as_ref().map(|bends| bends.straightened(states));
+            let seen = straight.as_deref().unwrap_or(states).iter().map(|state| state.map(|number| number as f32));
+            let blind = |state: WheelState| WheelState { sinkage_m: state.sinkage_m.filter(|_| !is_blind), ..state };
+            pipeline::answer(&SoilQuery { wheels: seen.map(blind).collect(), ..query.clone() }).rover.ok()
+        };
+        let widen = |answer: &mut QueryAnswer, is_blind: bool| {
+            let estimate = answer.rover.as_mut().ok()?;
+            let missing = missing(layout, estimate, |states| ask(states, is_blind))?;
+            *estimate = widened(estimate, &missing.errors);
+            Some(missing)
+        };
+        self.missing = widen(&mut self.answer, false);
+        self.answer_without_sinkage.iter_mut().for_each(|answer| {
+            widen(answer, true);
+        });
+    }
+
     /// The rover network's estimate, with sinkage where there is one.
     pub fn rover(&self) -> Result<&SoilEstimate, &'static str> {
         self.answer.rover.as_ref().map_err(|refusal| network_refusal(*refusal))

@@ -20,6 +20,7 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
         Some(provenance(&findings.campaign)),
         noise(findings),
         one_load(findings),
+        widened(findings),
         cannot_be_told(findings),
         doubtful(findings),
         missing_physics(findings),
@@ -71,6 +72,20 @@ fn one_load(findings: &Findings) -> Option<String> {
          of one and less of the other. One wheel at one load cannot tell cohesion; where several slips together seem to, \
          they lean on equations 1–11 being exact."
             .to_owned()
+    })
+}
+
+/// Where the networks are too sure of runs laid out as these.
+fn widened(findings: &Findings) -> Option<String> {
+    let runs = &findings.identification.runs;
+    let words: Vec<String> = runs
+        .iter()
+        .filter_map(|run| {
+            Some(format!("run {}: {}", run.states.run, run.question.as_ref()?.missing.as_ref()?.in_words()?))
+        })
+        .collect();
+    (!words.is_empty()).then(|| {
+        format!("Intervals of all states together are wider than the networks state them; {}.", words.join("; "))
     })
 }
 

@@ -21,10 +21,10 @@ pub fn identified(document: &Document) -> String {
     format!("{table}\n  {LEGEND}")
 }
 
-/// Why there is no estimate, or none that can be relied on.
+/// Why there is no estimate, or none that can be relied on as the method states it.
 pub fn remark(run: &RunDocument) -> String {
     let no_soil = run.no_soil.as_ref().map(|why| format!("no soil: {why}"));
-    run.refused.clone().or(no_soil).unwrap_or_default()
+    run.refused.clone().or(no_soil).or_else(|| run.widened.clone()).unwrap_or_default()
 }
 
 /// Cells of a soil: c (Pa), φ (°), K (mm).

@@ -1,0 +1,111 @@
+//! A network's estimate in what it estimates: ln c, φ and ln K; and back, with wider intervals.
+
+use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
+
+use crate::train::dataset::prior_scale;
+
+/// c, φ and K.
+pub const TARGETS: usize = 3;
+/// Standard deviations that a 68 % and a 95 % interval of an error reach.
+const WIDTHS: [f64; 2] = [1.0, 1.96];
+/// Share of the prior's variance that must be gone for a parameter to be told: as the networks have it.
+const TOLD: f64 = 0.5;
+
+/// Of ln c, φ or ln K.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// The estimate.
+    pub value: f64,
+    /// Its standard deviation.
+    pub std: f64,
+    /// The 68 % and the 95 % interval.
+    pub intervals: [[f64; 2]; 2],
+}
+
+impl Target {
+    /// The standard deviation of an error with which an interval would just hold a truth; zero where it does without.
+    pub fn excess(&self, truth: f64, interval: usize) -> f64 {
+        let error = truth - self.value;
+        let [low, high] = self.intervals[interval];
+        let reach = if error < 0.0 { self.value - low } else { high - self.value };
+        (error * error - reach * reach).max(0.0).sqrt() / WIDTHS[interval]
+    }
+
+    /// With errors added to the intervals, within the ends of the prior.
+    fn widened(&self, errors: [f64; 2], ends: [f64; 2]) -> Self {
+        let mut wide = *self;
+        for ((interval, error), width) in wide.intervals.iter_mut().zip(errors).zip(WIDTHS) {
+            if error > 0.0 {
+                let side = |reach: f64| reach.hypot(width * error);
+                let [low, high] = [side(self.value - interval[0]), side(interval[1] - self.value)];
+                *interval = [(self.value - low).max(ends[0]), (self.value + high).min(ends[1])];
+            }
+        }
+        wide.std = self.std.hypot(errors[0].max(errors[1]));
+        wide
+    }
+}
+
+/// The targets of an estimate.
+pub fn targets(estimate: &SoilEstimate) -> [Target; TARGETS] {
+    [
+        of_logarithm(&estimate.cohesion_pa),
+        of_number(&estimate.friction_angle_rad),
+        of_logarithm(&estimate.shear_modulus_m),
+    ]
+}
+
+/// The estimate with errors added to its 68 % and 95 % intervals; what then is not known better than to half of the prior's variance
+/// is not called identifiable.
+pub fn widened(estimate: &SoilEstimate, errors: &[[f64; 2]; TARGETS]) -> SoilEstimate {
+    let prior = prior_scale();
+    let stated = targets(estimate);
+    let wide = |target: usize, parameter: &ParameterEstimate| {
+        if errors[target] == [0.0; 2] {
+            return *parameter;
+        }
+        let ends = [prior.low[target], prior.high[target]].map(f64::from);
+        let found = stated[target].widened(errors[target], ends);
+        let is_told = found.std.powi(2) <= TOLD * f64::from(prior.std[target]).powi(2);
+        let identifiable = parameter.identifiable && is_told;
+        if target == 1 {
+            to_number(parameter, &found, identifiable)
+        } else {
+            to_logarithm(parameter, &found, identifiable)
+        }
+    };
+    SoilEstimate {
+        cohesion_pa: wide(0, &estimate.cohesion_pa),
+        friction_angle_rad: wide(1, &estimate.friction_angle_rad),
+        shear_modulus_m: wide(2, &estimate.shear_modulus_m),
+        ..*estimate
+    }
+}
+
+fn of_number(parameter: &ParameterEstimate) -> Target {
+    Target {
+        value: parameter.value.into(),
+        std: parameter.std.into(),
+        intervals: [parameter.interval_68, parameter.interval_95].map(|interval| interval.map(f64::from)),
+    }
+}
+
+/// The standard deviation of a log-normal over e to the mean of the logarithm is √(g (g − 1)), g being e to the variance.
+fn of_logarithm(parameter: &ParameterEstimate) -> Target {
+    let Target { value, std, intervals } = of_number(parameter);
+    let share = std / value;
+    let growth = 0.5 * (1.0 + (1.0 + 4.0 * share * share).sqrt());
+    Target { value: value.ln(), std: growth.ln().sqrt(), intervals: intervals.map(|interval| interval.map(f64::ln)) }
+}
+
+fn to_number(parameter: &ParameterEstimate, target: &Target, identifiable: bool) -> ParameterEstimate {
+    let [interval_68, interval_95] = target.intervals.map(|interval| interval.map(|end| end as f32));
+    ParameterEstimate { value: parameter.value, std: target.std as f32, interval_68, interval_95, identifiable }
+}
+
+fn to_logarithm(parameter: &ParameterEstimate, target: &Target, identifiable: bool) -> ParameterEstimate {
+    let growth = target.std.powi(2).exp();
+    let std = target.value.exp() * (growth * (growth - 1.0)).sqrt();
+    let intervals = target.intervals.map(|interval| interval.map(f64::exp));
+    to_number(parameter, &Target { std, intervals, ..*target }, identifiable)
+}

@@ -1,0 +1,181 @@
+//! How true what a network states is for runs of one layout: the run is rehearsed on soils near the answer.
+//!
+//! A network's intervals are true on the whole over what it was trained with. A campaign may be laid out as few of those scenes
+//! were (slips all small, loads in three steps, thousands of rows), and there what it states may be too narrow without any
+//! input being out of range. So soils are drawn about the answer, what the run's sensors would show of each is given to the
+//! network, and its answers are held against the soils. Where more of them than chance explains lie outside of the intervals, an
+//! error is added to those: the least with which they hold as many as they promise. Nothing is made narrower, and no
+//! value is changed.
+
+use kapvik_firmware::soil::SoilEstimate;
+use kapvik_firmware::terramechanics::Soil;
+use kapvik_firmware::wheel_state::WheelState;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use crate::statistics::{quantile, sorted};
+use crate::train::prior::{self, Range, SOIL_PARAMETERS};
+
+use super::layout::Layout;
+use super::logarithmic::{TARGETS, Target, targets};
+
+/// Soils about the answer: the share of a 95 % interval then has a standard error of 1.5 %.
+const SOILS: u64 = 200;
+/// Their first seed; those below are of soils that bends are learnt from.
+const FIRST_SEED: u64 = 1 << 32;
+/// Fewer of them that carry the wheels say nothing.
+const LEAST_SOILS: usize = 50;
+/// A uniform distribution reaches so many of its standard deviations to either side.
+const REACH: f64 = 1.732_050_807_568_877_2;
+/// Shares are below what is promised by chance by up to so many of their standard errors.
+const BY_CHANCE: f64 = 2.0;
+/// Soils are drawn anew where errors turn out greater than they were drawn for by this factor…
+const GROWN: f64 = 1.2;
+/// …and no more often.
+const ROUNDS: usize = 4;
+
+/// What is missing in the intervals of ln c, φ and ln K.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Missing {
+    /// Error to be added to the 68 % and the 95 % interval, as a standard deviation; zero where nothing is missing.
+    pub errors: [[f64; 2]; TARGETS],
+    /// Share of the rehearsed answers with the truth in the 95 % interval as the network states it.
+    pub held_95: [f64; TARGETS],
+}
+
+impl Missing {
+    /// What is widened and why, in words; none where nothing is.
+    pub fn in_words(&self) -> Option<String> {
+        let widened = || (0..TARGETS).filter(|target| self.errors[*target] != [0.0; 2]);
+        let names: Vec<&str> = widened().map(|target| ["c", "φ", "K"][target]).collect();
+        let held: Vec<String> = widened().map(|target| format!("{:.0}", 100.0 * self.held_95[target])).collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "{} widened: on simulated soils, runs laid out as this one have the truth in the networks' own 95 % \
+                 intervals in {} %",
+                names.join(", "),
+                held.join(", ")
+            )
+        })
+    }
+}
+
+/// What the intervals of `estimate` lack on runs of this layout; none where too few soils carry the wheels. `ask` is what makes of
+/// states an estimate.
+pub fn missing(
+    layout: &Layout,
+    estimate: &SoilEstimate,
+    ask: impl Fn(&[WheelState<f64>]) -> Option<SoilEstimate>,
+) -> Option<Missing> {
+    let stated = targets(estimate);
+    let mut missing = Missing::default();
+    let mut widths = stated.map(|target| target.std);
+    for _ in 0..ROUNDS {
+        let ranges = about(&stated, &widths);
+        let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| any_soil(&ranges, random));
+        let answers: Vec<([f64; TARGETS], [Target; TARGETS])> =
+            runs.iter().filter_map(|(soil, run)| Some((truths(soil), targets(&ask(&run.states)?)))).collect();
+        if answers.len() < LEAST_SOILS {
+            return None;
+        }
+        for target in 0..TARGETS {
+            let of_target: Vec<(f64, Target)> =
+                answers.iter().map(|(truth, answer)| (truth[target], answer[target])).collect();
+            missing.errors[target] = lacking(&of_target);
+            let held = of_target.iter().filter(|(truth, answer)| answer.excess(*truth, 1) <= 0.0);
+            missing.held_95[target] = held.count() as f64 / of_target.len() as f64;
+        }
+        let found: [f64; TARGETS] = std::array::from_fn(|target| {
+            stated[target].std.hypot(missing.errors[target][1].max(missing.errors[target][0]))
+        });
+        let has_grown = found.iter().zip(&widths).any(|(found, width)| *found > GROWN * width);
+        if !has_grown {
+            break;
+        }
+        widths = found;
+    }
+    Some(missing)
+}
+
+/// A soil of the ranges.
+pub fn any_soil(ranges: &[Range; SOIL_PARAMETERS], random: &mut ChaCha8Rng) -> Soil<f64> {
+    prior::soil(ranges.map(|range| range.at(random.random())))
+}
+
+/// Where soils are drawn: c, φ and K about the answer, all else from the prior.
+fn about(stated: &[Target; TARGETS], widths: &[f64; TARGETS]) -> [Range; SOIL_PARAMETERS] {
+    let mut ranges = prior::SOIL_RANGES;
+    for (range, (target, width)) in ranges.iter_mut().zip(stated.iter().zip(widths)) {
+        let end = |side: f64| {
+            let end = target.value + side * REACH * width;
+            if range.logarithmic { end.exp() } else { end }
+        };
+        let (low, high) = (end(-1.0).max(range.low), end(1.0).min(range.high));
+        *range = Range { low: low.min(range.high), high: high.max(range.low), ..*range };
+    }
+    ranges
+}
+
+fn truths(soil: &Soil<f64>) -> [f64; TARGETS] {
+    [soil.cohesion_pa.ln(), soil.friction_angle_rad, soil.shear_modulus_m.ln()]
+}
+
+/// The error that is missing in the 68 % and in the 95 % interval of one target.
+fn lacking(answers: &[(f64, Target)]) -> [f64; 2] {
+    [(0, 0.68), (1, 0.95)].map(|(interval, share)| {
+        let excesses = sorted(answers.iter().map(|(truth, answer)| answer.excess(*truth, interval)));
+        let chance = (share * (1.0 - share) / answers.len() as f64).sqrt();
+        if quantile(&excesses, share - BY_CHANCE * chance) > 0.0 { quantile(&excesses, share) } else { 0.0 }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kapvik_firmware::soil::ParameterEstimate;
+
+    /// Six hundred errors of a standard deviation of one, stated to be of another.
+    fn stated(std: f64) -> Vec<(f64, Target)> {
+        let normal = |place: u32| {
+            let share = (f64::from(place) + 0.5) / 600.0;
+            std::f64::consts::SQRT_2 * statrs::function::erf::erf_inv(2.0 * share - 1.0)
+        };
+        let intervals = [1.0, 1.96].map(|width| [-width * std, width * std]);
+        (0..600).map(|place| (normal(place), Target { value: 0.0, std, intervals })).collect()
+    }
+
+    #[test]
+    fn what_is_missing_is_what_a_narrow_statement_leaves_out() {
+        assert_eq!(lacking(&stated(1.0)), [0.0; 2], "nothing is missing");
+        assert_eq!(lacking(&stated(1.5)), [0.0; 2], "nothing is made narrower");
+        // √(1 − 0.5²) besides 0.5.
+        for missing in lacking(&stated(0.5)) {
+            assert!((missing - 0.866).abs() < 0.02, "{missing}");
+        }
+    }
+
+    #[test]
+    fn soils_are_drawn_about_the_answer_and_within_the_prior() {
+        let parameter = |value, std| ParameterEstimate {
+            value,
+            std,
+            interval_68: [value - std, value + std],
+            interval_95: [value - 2.0 * std, value + 2.0 * std],
+            identifiable: true,
+        };
+        let estimate = SoilEstimate {
+            cohesion_pa: parameter(200.0, 20.0),
+            friction_angle_rad: parameter(0.7, 0.05),
+            shear_modulus_m: parameter(0.01, 0.001),
+            outside_training_range: false,
+        };
+        let stated = targets(&estimate);
+        let ranges = about(&stated, &stated.map(|target| target.std));
+        for (range, prior) in ranges.iter().zip(&prior::SOIL_RANGES) {
+            assert!(prior.low <= range.low && range.low < range.high && range.high <= prior.high, "{range:?}");
+        }
+        assert!(ranges[0].low > 150.0 && ranges[0].high < 260.0, "{:?}", ranges[0]);
+        assert_eq!(ranges[1].high, prior::FRICTION_ANGLE_RAD.high);
+        assert_eq!(ranges[3], prior::SOIL_RANGES[3]);
+    }
+}
