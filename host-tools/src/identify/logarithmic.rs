@@ -31,8 +31,9 @@ impl Target {
         (error * error - reach * reach).max(0.0).sqrt() / WIDTHS[interval]
     }
 
-    /// With errors added to the intervals, within the ends of the prior.
-    fn widened(&self, errors: [f64; 2], ends: [f64; 2]) -> Self {
+    /// With errors added to the intervals, within the ends of the prior; the standard deviation grows to at most that of the prior,
+    /// as the networks have it.
+    fn widened(&self, errors: [f64; 2], ends: [f64; 2], prior_std: f64) -> Self {
         let mut wide = *self;
         for ((interval, error), width) in wide.intervals.iter_mut().zip(errors).zip(WIDTHS) {
             if error > 0.0 {
@@ -41,7 +42,7 @@ impl Target {
                 *interval = [(self.value - low).max(ends[0]), (self.value + high).min(ends[1])];
             }
         }
-        wide.std = self.std.hypot(errors[0].max(errors[1]));
+        wide.std = self.std.hypot(errors[0].max(errors[1])).min(prior_std.max(self.std));
         wide
     }
 }
@@ -65,8 +66,9 @@ pub fn widened(estimate: &SoilEstimate, errors: &[[f64; 2]; TARGETS]) -> SoilEst
             return *parameter;
         }
         let ends = [prior.low[target], prior.high[target]].map(f64::from);
-        let found = stated[target].widened(errors[target], ends);
-        let is_told = found.std.powi(2) <= TOLD * f64::from(prior.std[target]).powi(2);
+        let prior_std = f64::from(prior.std[target]);
+        let found = stated[target].widened(errors[target], ends, prior_std);
+        let is_told = found.std * found.std <= TOLD * prior_std * prior_std;
         let identifiable = parameter.identifiable && is_told;
         if target == 1 {
             to_number(parameter, &found, identifiable)

@@ -152,7 +152,8 @@ impl Question {
             pipeline::answer(&SoilQuery { wheels: seen.map(blind).collect(), ..query.clone() }).rover.ok()
         };
         let widen = |answer: &mut QueryAnswer, is_blind: bool| {
-            let estimate = answer.rover.as_mut().ok()?;
+            // Of what is outside, the networks say themselves that nothing can be relied on.
+            let estimate = answer.rover.as_mut().ok().filter(|estimate| !estimate.outside_training_range)?;
             let missing = missing(layout, estimate, |states| ask(states, is_blind))?;
             *estimate = widened(estimate, &missing.errors);
             Some(missing)

@@ -70,7 +70,8 @@ mod tests {
     fn the_noise_that_a_cut_sorts_out_is_known() {
         let mut random = ChaCha8Rng::seed_from_u64(3);
         let truths: Vec<f64> = (0..4000).map(|row| 0.1 * f64::from(row) / 4000.0).collect();
-        let noises: Vec<f64> = truths.iter().map(|_| STD * StandardNormal.sample(&mut random)).collect();
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        let noises: Vec<f64> = truths.iter().map(|_| STD * normal()).collect();
         let samples: Vec<Sample> = truths.iter().zip(&noises).map(|(truth, noise)| sample(truth + noise)).collect();
         for (bounds, sign) in Bounds::NONE.cut(0, 0.05).into_iter().zip([-1.0, 1.0]) {
             let inside: Vec<f64> = samples
