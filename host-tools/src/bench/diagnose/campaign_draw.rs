@@ -7,6 +7,7 @@ use super::instruments::Instruments;
 use super::knowledge::Knowledge;
 use super::layout::Layout;
 use super::refit::Refit;
+use super::shared_errors::SharedErrors;
 use super::site::Site;
 use super::state::State;
 use super::undeclared::{Listed, SIZES, Sized, put_overlay, sized};
@@ -75,13 +76,13 @@ const LEFT_BESIDE: f64 = 0.7;
 
 /// The campaign of a number for a subject; every second one has its n, k, c₁ and c₂ known by other means. None where all
 /// attempts failed.
-pub fn draw(subject: Subject, seed: u64, number: u64) -> Option<Drawn> {
+pub fn draw(subject: Subject, errors: SharedErrors, seed: u64, number: u64) -> Option<Drawn> {
     let stream = subject.to_string();
     let mut chance = Chance::new(seed, &stream, number);
     let known_soil = number.is_multiple_of(2);
     let drawn = (0..LAWS).find_map(|_| {
         let cause = Cause::draw(&mut chance, subject)?;
-        (0..ATTEMPTS).find_map(|_| attempt(&mut chance, subject, &cause, known_soil))
+        (0..ATTEMPTS).find_map(|_| attempt(&mut chance, subject, &cause, errors, known_soil))
     })?;
     Some(Drawn { name: format!("{}-{number:03}", stream.replace(|c: char| !c.is_ascii_alphanumeric(), "-")), ..drawn })
 }
@@ -116,12 +117,19 @@ impl Cause {
     }
 }
 
-fn attempt(chance: &mut Chance, subject: Subject, cause: &Cause, known_soil: bool) -> Option<Drawn> {
-    let wants = cause.wants();
+fn attempt(
+    chance: &mut Chance,
+    subject: Subject,
+    cause: &Cause,
+    errors: SharedErrors,
+    known_soil: bool,
+) -> Option<Drawn> {
+    let of_runs = errors != SharedErrors::Usual;
+    let wants = cause.wants().and(&Wants { long_runs: of_runs, few_runs: of_runs, ..Wants::default() });
     let site = Site::draw(chance, wants.grousers);
     let layout = Layout::draw(chance, &site, &wants);
     let columns = Columns::draw(chance, &layout, &wants, cause.unlisted.and_then(Unlisted::extra_column))?;
-    let instruments = Instruments::draw(chance, &site, &layout, &wants);
+    let instruments = Instruments::draw(chance, &site, &layout, &wants, errors);
     let knowledge = if known_soil || wants.known_soil { Knowledge::draw(chance, &site) } else { Knowledge::none() };
     let (readings, size) = if matches!(subject, Subject::Clean) {
         (Undeclared::nothing().readings(&site, &layout.rows)?, 0.0)
@@ -175,8 +183,9 @@ mod tests {
     use super::*;
 
     fn check(subject: Subject, number: u64) {
-        let drawn = draw(subject, 7, number).unwrap_or_else(|| panic!("{subject} cannot be drawn"));
-        let again = draw(subject, 7, number).expect("the same again");
+        let drawn =
+            draw(subject, SharedErrors::Usual, 7, number).unwrap_or_else(|| panic!("{subject} cannot be drawn"));
+        let again = draw(subject, SharedErrors::Usual, 7, number).expect("the same again");
         assert_eq!(drawn.written, again.written, "{subject}: the same seed gives the same files");
         let campaign = drawn.written.campaign(&drawn.name).unwrap_or_else(|error| panic!("{subject}: {error}"));
         assert!((12..=60).contains(&campaign.runs().len()), "{subject}");

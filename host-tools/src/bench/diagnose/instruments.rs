@@ -2,6 +2,7 @@
 
 use super::chance::Chance;
 use super::layout::Layout;
+use super::shared_errors::{Shared, SharedErrors};
 use super::site::Site;
 use super::state::{LOAD, MEASURED, SLIP, State};
 use super::wants::Wants;
@@ -30,6 +31,8 @@ pub struct Instruments {
     resolution: [f64; 6],
     /// One standard deviation of a channel's offset from run to run.
     pub offset_std: [f64; 6],
+    /// What else the rows of a run share.
+    shared: Shared,
     /// Share of fields with an outlier.
     pub outliers: f64,
     /// Share of fields that are empty.
@@ -38,7 +41,7 @@ pub struct Instruments {
 
 impl Instruments {
     /// Draws the instruments of a campaign.
-    pub fn draw(chance: &mut Chance, site: &Site, layout: &Layout, wants: &Wants) -> Self {
+    pub fn draw(chance: &mut Chance, site: &Site, layout: &Layout, wants: &Wants, errors: SharedErrors) -> Self {
         let noise = draw_noise(chance, site, layout, wants);
         let resolution = noise.map(|std| std.map_or(1.0, |std| decimal_step(std * chance.of(RESOLUTION))));
         let mut stated = noise.map(|std| std.is_some());
@@ -46,14 +49,15 @@ impl Instruments {
             stated[chance.pick(&[0, 1, 2])] = false;
         }
         // With one row a run an offset would be nothing but more noise than is stated.
-        let offsets = layout.rows_per_run >= 4 && chance.happens(0.25);
+        let offsets = errors == SharedErrors::Usual && layout.rows_per_run >= 4 && chance.happens(0.25);
         let offset_std = std::array::from_fn(|place| {
             let std = noise[place].filter(|_| offsets && place < 3);
             std.map_or(0.0, |std| std * chance.between(0.3, 1.0))
         });
         let outliers = if chance.happens(0.25) { chance.between(0.005, 0.02) } else { 0.0 };
         let missing = if chance.happens(0.25) { chance.between(0.01, 0.06) } else { 0.0 };
-        Self { noise, stated, resolution, offset_std, outliers, missing }
+        let shared = Shared::draw(chance, errors);
+        Self { noise, stated, resolution, offset_std, shared, outliers, missing }
     }
 
     /// Whether a channel of [`MEASURED`] is measured.
@@ -69,18 +73,25 @@ impl Instruments {
     /// What stands in the file for each row of a campaign, from the readings that sensors without noise would give.
     pub fn measure(&self, chance: &mut Chance, layout: &Layout, readings: &[State]) -> Vec<[Option<f64>; 6]> {
         let offsets: Vec<[f64; 6]> = (0..layout.runs).map(|_| self.offset_std.map(|std| chance.normal(std))).collect();
-        let rows = layout.rows.iter().zip(readings);
-        rows.map(|(row, reading)| self.measure_row(chance, &offsets[row.run], reading)).collect()
+        let shared = self.shared.errors(chance, layout);
+        let rows = layout.rows.iter().zip(readings).zip(&shared);
+        rows.map(|((row, reading), shared)| self.measure_row(chance, &offsets[row.run], shared, reading)).collect()
     }
 
-    fn measure_row(&self, chance: &mut Chance, offset: &[f64; 6], reading: &State) -> [Option<f64>; 6] {
+    fn measure_row(
+        &self,
+        chance: &mut Chance,
+        offset: &[f64; 6],
+        shared: &[f64; 6],
+        reading: &State,
+    ) -> [Option<f64>; 6] {
         let values = reading.channels();
         std::array::from_fn(|place| {
             let std = self.noise[place]?;
             let gone = place < 4 && chance.happens(self.missing);
             let astray =
                 if place < 4 && chance.happens(self.outliers) { chance.sign() * chance.of(OUTLIER) } else { 0.0 };
-            let value = values[place] + offset[place] + chance.normal(std) + astray * std;
+            let value = values[place] + offset[place] + chance.normal(std) + (shared[place] + astray) * std;
             let bounded = if place == SLIP { value.clamp(-1.0, 1.0) } else { value };
             (!gone).then_some((bounded / self.resolution[place]).round() * self.resolution[place])
         })

@@ -8,8 +8,12 @@ use crate::data::campaign::Channel;
 
 /// Runs of a campaign.
 const RUNS: (usize, usize) = (12, 60);
+/// The same where few are wanted.
+const FEW_RUNS: (usize, usize) = (4, 24);
 /// Rows of a run that has more than one.
 const ROWS: (usize, usize) = (3, 20);
+/// The same where runs are few.
+const ROWS_OF_FEW: (usize, usize) = (3, 60);
 /// Most rows of a campaign.
 const MOST_ROWS: usize = 600;
 /// Share of campaigns of averaged windows: one row a run.
@@ -62,9 +66,10 @@ enum Slips {
 impl Layout {
     /// Draws a layout in which what is wanted can show.
     pub fn draw(chance: &mut Chance, site: &Site, wants: &Wants) -> Self {
-        let runs = chance.count(RUNS.0, RUNS.1);
+        let (of_runs, of_rows) = if wants.few_runs { (FEW_RUNS, ROWS_OF_FEW) } else { (RUNS, ROWS) };
+        let runs = chance.count(of_runs.0, of_runs.1);
         let single = !wants.long_runs && chance.happens(WINDOWS_SHARE);
-        let rows_per_run = if single { 1 } else { chance.count(ROWS.0, ROWS.1).min(MOST_ROWS / runs) };
+        let rows_per_run = if single { 1 } else { chance.count(of_rows.0, of_rows.1).min(MOST_ROWS / runs) };
         let programme = Programme::draw(chance, site, wants, rows_per_run);
         let rows = (0..runs).flat_map(|run| programme.run(chance, site, run, rows_per_run)).collect();
         let levels = matches!(programme.slips, Slips::Levels(_));

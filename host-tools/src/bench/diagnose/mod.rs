@@ -12,6 +12,7 @@ mod overlay;
 mod refit;
 mod score;
 mod share;
+mod shared_errors;
 mod site;
 mod state;
 mod stress;
@@ -33,6 +34,7 @@ pub use answer::{Answer, Named, Structure};
 pub use trial::Diagnoser;
 
 use crate::error::HostError;
+pub use shared_errors::SharedErrors;
 use trial::{Counts, Plan, diagnose_all, draw_all, plan, save_all};
 
 /// Options of `kapvik bench diagnose`.
@@ -53,6 +55,9 @@ pub struct DiagnoseArguments {
     /// Campaigns with an effect that is in no list
     #[arg(long, default_value_t = 40)]
     pub unlisted: u64,
+    /// What the errors of a run's rows have in common
+    #[arg(long, value_enum, default_value_t)]
+    pub errors: SharedErrors,
     /// Only campaigns in which this effect is
     #[arg(long, value_name = "ID", value_parser = clap::builder::PossibleValuesParser::new(undeclared::effect_ids()))]
     pub only: Option<String>,
@@ -78,7 +83,7 @@ pub fn run(arguments: &DiagnoseArguments, diagnose: Option<&Diagnoser<'_>>) -> R
     };
     let plan: Plan = plan(&counts, arguments.seed, arguments.only.as_deref());
     let (mut drawn, mut undrawn) = (Vec::new(), Vec::new());
-    for draw in draw_all(&plan, arguments.seed) {
+    for draw in draw_all(&plan, arguments.errors, arguments.seed) {
         match draw {
             Ok(campaign) => drawn.push(campaign),
             Err(subject) => undrawn.push(format!("{subject}")),

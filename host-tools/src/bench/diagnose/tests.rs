@@ -3,12 +3,13 @@
 
 use super::answer::Answer;
 use super::campaign_draw::{Subject, Truth, draw};
+use super::shared_errors::SharedErrors;
 use super::unlisted::UNLISTED;
 use crate::diagnose::document::Verdict;
 use crate::diagnose::{DiagnoseOptions, diagnose};
 
 fn answer(subject: Subject, seed: u64, number: u64) -> (Truth, Answer) {
-    let drawn = draw(subject, seed, number).expect("a campaign in which it shows");
+    let drawn = draw(subject, SharedErrors::Usual, seed, number).expect("a campaign in which it shows");
     let campaign = drawn.written.campaign(&drawn.name).expect("what was written");
     let found = diagnose(&campaign, &DiagnoseOptions::default(), &|_| ()).expect("a diagnosis");
     (drawn.truth, Answer::from(&found.document))

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::answer::Answer;
 use super::campaign_draw::{Drawn, Subject, Truth, draw};
 use super::chance::Chance;
+use super::shared_errors::SharedErrors;
 use super::undeclared::effect_ids;
 use super::unlisted::UNLISTED;
 use crate::data::campaign::Campaign;
@@ -75,8 +76,8 @@ fn pair(seed: u64, number: u64) -> Subject {
 }
 
 /// Draws the campaigns of a plan; in place of one that cannot be drawn, its subject.
-pub fn draw_all(plan: &Plan, seed: u64) -> Vec<Result<Drawn, Subject>> {
-    let drawn = |(subject, number): &(Subject, u64)| draw(*subject, seed, *number).ok_or(*subject);
+pub fn draw_all(plan: &Plan, errors: SharedErrors, seed: u64) -> Vec<Result<Drawn, Subject>> {
+    let drawn = |(subject, number): &(Subject, u64)| draw(*subject, errors, seed, *number).ok_or(*subject);
     plan.par_iter().progress_with(bar("drawing", plan.len())).map(drawn).collect()
 }
 

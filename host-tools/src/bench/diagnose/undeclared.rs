@@ -230,6 +230,7 @@ mod tests {
     use super::super::instruments::Instruments;
     use super::super::layout::Layout;
     use super::super::refit::PRIOR_STD;
+    use super::super::shared_errors::SharedErrors;
     use super::super::unlisted::UNLISTED;
     use super::*;
 
@@ -242,7 +243,7 @@ mod tests {
         let (site, layout, refit, noise) = std::iter::repeat_with(|| {
             let site = Site::draw(&mut chance, false);
             let layout = Layout::draw(&mut chance, &site, &wants);
-            let instruments = Instruments::draw(&mut chance, &site, &layout, &wants);
+            let instruments = Instruments::draw(&mut chance, &site, &layout, &wants, SharedErrors::Usual);
             let refit = Refit::new(&site, &layout, &instruments, &PRIOR_STD)?;
             Some((site, layout, refit, instruments.noise[3]?.hypot(instruments.offset_std[3])))
         })

@@ -19,6 +19,8 @@ pub struct Wants {
     pub slip_angles: bool,
     /// Several rows in a run.
     pub long_runs: bool,
+    /// Fewer runs than usual.
+    pub few_runs: bool,
     /// Slip that changes within a run.
     pub changing_slip: bool,
     /// Rows that follow each other faster than the grousers.
@@ -46,6 +48,7 @@ impl Wants {
             pitches: self.pitches || other.pitches,
             slip_angles: self.slip_angles || other.slip_angles,
             long_runs: self.long_runs || other.long_runs,
+            few_runs: self.few_runs || other.few_runs,
             changing_slip: self.changing_slip || other.changing_slip,
             fast_rows: self.fast_rows || other.fast_rows,
             grousers: self.grousers || other.grousers,
