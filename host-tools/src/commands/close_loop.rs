@@ -8,7 +8,7 @@ use kapvik_firmware::terramechanics::Soil;
 
 use crate::close_loop::{Options, close};
 use crate::data::atomic_write::{write_json, write_text};
-use crate::data::campaign::{Campaign, Provenance};
+use crate::data::campaign::{Campaign, Fingerprint, Provenance};
 use crate::data::outputs;
 use crate::data::soil_file::SoilTable;
 use crate::data::text::TextFile;
@@ -152,6 +152,14 @@ fn read(path: &Path, campaign: &Campaign) -> Result<Diagnosis, HostError> {
         let (found, expected) = (&diagnosis.campaign, &campaign.name);
         return refuse("campaign", format!("a diagnosis of `{found}`: expected one of `{expected}`"));
     }
+    let data = Fingerprint::of(campaign);
+    if let Some(found) = diagnosis.data.as_ref().filter(|found| **found != data) {
+        let name = &campaign.name;
+        return refuse(
+            "data",
+            format!("a diagnosis of other data by the name `{name}`, {found}: expected one of {data}"),
+        );
+    }
     if diagnosis.declared != campaign.declared.ids() {
         let [found, expected] =
             [&diagnosis.declared, &campaign.declared.ids()].map(|ids| format!("[{}]", ids.join(", ")));
@@ -164,13 +172,14 @@ fn read(path: &Path, campaign: &Campaign) -> Result<Diagnosis, HostError> {
 mod tests {
     use super::*;
 
-    /// What is said of a diagnosis of the campaign `name` with some effects declared, beside one named `sand` that declares none.
-    fn refusal(name: &str, declared: &str) -> Option<String> {
+    /// What is said of a diagnosis of the campaign `name`, of some data, with some effects declared, beside one named `sand` that
+    /// declares none.
+    fn refusal(name: &str, data: &str, declared: &str) -> Option<String> {
         let csv = "run,t_s,slip,load_n,torque_nm\na,0,0.1,65,1.2\n";
         let toml = "name = \"sand\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.075\nwidth_m = 0.07\n";
         let campaign = Campaign::parse(Path::new("sand.csv"), csv, toml).expect("a campaign");
         let json = format!(
-            "{{\n  \"campaign\": \"{name}\",\n  \"declared\": [{declared}], \"verdict\": \"none\", \"effects\": [],\n  \
+            "{{\n  \"campaign\": \"{name}\",{data}\n  \"declared\": [{declared}], \"verdict\": \"none\", \"effects\": [],\n  \
              \"runner_up\": null, \"ambiguous_with\": [], \"unexplained\": [], \"channels\": {{}},\n  \
              \"soil_before\": {{}}, \"soil_after\": {{}}, \"held_out_runs\": []\n}}\n"
         );
@@ -181,10 +190,19 @@ mod tests {
 
     #[test]
     fn a_diagnosis_of_another_campaign_is_refused() {
-        assert_eq!(refusal("sand", ""), None);
-        let other = refusal("gravel", "").expect("refused");
+        assert_eq!(refusal("sand", "", ""), None);
+        let other = refusal("gravel", "", "").expect("refused");
         assert!(other.ends_with(":2:3: a diagnosis of `gravel`: expected one of `sand`"), "{other}");
-        let other = refusal("sand", "\"rate\"").expect("refused");
+        let other = refusal("sand", "", "\"rate\"").expect("refused");
         assert!(other.ends_with(":3:3: a diagnosis with [rate] declared: expected one with []"), "{other}");
+    }
+
+    #[test]
+    fn a_diagnosis_of_other_data_by_the_same_name_is_refused() {
+        let data = |hash: &str| format!("\n  \"data\": {{\"runs\": 1, \"rows\": 1, \"hash\": \"{hash}\"}},");
+        let other = refusal("sand", &data("0"), "").expect("refused");
+        assert!(other.contains(":3:3: a diagnosis of other data by the name `sand`, 1 rows in 1 runs"), "{other}");
+        let own = other.rsplit(' ').next().expect("the fingerprint that was expected");
+        assert_eq!(refusal("sand", &data(own), ""), None);
     }
 }

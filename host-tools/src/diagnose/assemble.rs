@@ -34,6 +34,7 @@ pub fn assemble(
 ) -> Diagnosis {
     let mut document = Diagnosis {
         campaign: campaign.name.clone(),
+        data: None,
         declared: campaign.declared.ids(),
         verdict: verdict(selected),
         sentence: String::new(),

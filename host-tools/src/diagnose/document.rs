@@ -5,6 +5,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::data::campaign::Fingerprint;
+
 /// A campaign, diagnosed. All quantities are in SI units, angles in rad.
 ///
 /// "Before" is the declared model with its soil parameters refitted, "after" the same with the effects that were found.
@@ -12,6 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct Diagnosis {
     /// The name of the campaign.
     pub campaign: String,
+    /// What tells its measurements from others by that name; none in documents from before there was one.
+    #[serde(default)]
+    pub data: Option<Fingerprint>,
     /// The ids of the effects that the model was told of.
     pub declared: Vec<String>,
     /// What came of it.

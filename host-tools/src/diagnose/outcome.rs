@@ -13,7 +13,7 @@ use super::levels::levels_left_out;
 use super::measurements::{COLUMNS, Measurements};
 use super::specification::Specification;
 use super::trial::{Bench, Trial};
-use crate::data::campaign::Campaign;
+use crate::data::campaign::{Campaign, Fingerprint};
 use crate::error::HostError;
 use crate::report::diagnosis::{Trace, Traced};
 
@@ -84,6 +84,7 @@ pub fn diagnose(
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Outcome, HostError> {
     let single = campaign.runs().len() == 1;
+    let data = Some(Fingerprint::of(campaign));
     // Rows of one run may share what the force channels would take for an effect: these judge by runs as they are.
     let by_themselves = force_channels::examine(campaign);
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
@@ -96,6 +97,7 @@ pub fn diagnose(
     let errors = held_out_errors(&bench, &selected.base, &shortlists(&selected), progress);
     let levels = levels_left_out(&measurements, &selected);
     let mut document = assemble(campaign, &measurements, &selected, &errors, levels, &by_themselves);
+    document.data = data;
     if let Some(structure) = selected.left.first() {
         progress("a law of no list");
         let dispersion = selected.last.as_ref().map_or(1.0, |step| step.dispersion);

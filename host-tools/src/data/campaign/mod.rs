@@ -5,6 +5,7 @@ mod about;
 mod carried;
 mod channel;
 mod declared;
+mod fingerprint;
 mod gross_error;
 mod ground;
 mod noise;
@@ -26,6 +27,7 @@ pub use about::Provenance;
 pub use carried::Carried;
 pub use channel::Channel;
 pub use declared::{Declared, DeclaredEffect};
+pub use fingerprint::Fingerprint;
 pub use ground::{Ground, Knowledge};
 pub use noise::ChannelNoise;
 

@@ -44,6 +44,7 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
     let channels = |z, pull| BTreeMap::from([("sinkage_m".to_owned(), z), ("drawbar_pull_n".to_owned(), pull)]);
     Diagnosis {
         campaign: campaign.name.clone(),
+        data: None,
         declared: Vec::new(),
         verdict: Verdict::Effect,
         sentence:
