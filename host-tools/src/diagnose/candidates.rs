@@ -13,17 +13,32 @@ const ONE_LOAD: f64 = 0.1;
 /// The same of speed and wheel rate.
 const ONE_SPEED: f64 = 0.1;
 
+/// Effects of the sensors of forces.
+const SENSOR_EFFECTS: [&str; 3] = ["force-bias", "force-drift", "crosstalk"];
+
 /// Every form of every effect that a model does not have yet, and that the measurements could show.
 pub fn candidates(campaign: &Campaign, measurements: &Measurements, model: &Specification) -> Vec<EffectForm> {
     let others = CATALOGUE.iter().filter(|info| !model.has(info.id));
     let others = others.filter(|info| !is_by_load(info) || loads_differ(measurements));
     let forms = others.flat_map(|info| info.forms.iter().map(move |form| EffectForm::new(info, form)));
+    let forms = forms.filter(|candidate| !is_of_load_sensor(candidate) || !is_load_set(measurements));
     forms.filter(|candidate| is_measured(campaign, measurements, candidate.form)).collect()
 }
 
 /// Whether an effect is what a load makes of the soil against another load.
 fn is_by_load(info: &EffectInfo) -> bool {
     info.parameters.iter().any(|parameter| parameter.name == "reference_load_n")
+}
+
+/// Whether an effect is an error of the load's sensor, or of another that the load leaks into.
+fn is_of_load_sensor(candidate: &EffectForm) -> bool {
+    SENSOR_EFFECTS.contains(&candidate.info.id) && candidate.form.needs.contains(&Column::Load)
+}
+
+/// Whether the load is the same number in every row: what was put on the wheel, and no reading of a sensor.
+pub fn is_load_set(measurements: &Measurements) -> bool {
+    measurements.has(Reading::Load)
+        && !varies(measurements.rows.iter().filter_map(|row| row.readings[Reading::Load.index()]))
 }
 
 /// Whether the loads are more than one level, about which they scatter.

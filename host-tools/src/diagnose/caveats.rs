@@ -2,10 +2,11 @@
 
 use crate::data::campaign::Campaign;
 
-use super::candidates::loads_differ;
+use super::candidates::{is_load_set, loads_differ};
 use super::fit::Reading;
 use super::forward::Selected;
 use super::measurements::Measurements;
+use super::selection::Judged;
 use super::soil_coordinates::SoilParameter;
 
 /// Spread of slip below which it counts as constant.
@@ -14,6 +15,15 @@ const ONE_SLIP: f64 = 0.03;
 const TOLD: f64 = 0.7;
 /// Dispersion beyond which stated noise and model do not agree.
 const MISFIT: f64 = 1.5;
+
+/// Said where the load is one number throughout.
+const SET_LOAD: &str = "The load is the same number in every row: it is what was put on the wheel, and not what a sensor read. Errors \
+                        of a load sensor cannot be told and are not looked for; where the wheel did not feel that load, as by \
+                        friction in a guide, the difference may stand under another effect.";
+/// Said where it is not there.
+const NO_LOAD: &str = "No load: the sinkage stands in for it, so that the sinkage is not judged itself. What makes a wheel sink deeper \
+                       under the same load cannot be told from more load but through the forces, and load-stiffening, \
+                       guide-friction and errors of the load are not looked for: what they do may stand under another effect.";
 
 /// The caveats, sentence by sentence: those of the campaign's own notes, then what the data cannot decide.
 pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
@@ -27,6 +37,12 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
          offset of the drawbar pull, a tilt and a share of the load look alike."
             .to_owned()
     }));
+    if is_load_set(measurements) {
+        said.push(SET_LOAD.to_owned());
+    }
+    if !measurements.has(Reading::Load) {
+        said.push(NO_LOAD.to_owned());
+    }
     said.extend(
         spread(measurements, Reading::Slip)
             .filter(|(low, high)| high - low < ONE_SLIP)
@@ -56,8 +72,33 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
             dispersion.sqrt()
         ));
     }
+    said.extend(selected.found.iter().flat_map(|found| at_an_end(&found.winner)));
     said.extend(untold(selected));
     said
+}
+
+/// What is said of parameters of an effect that was found which lie on an end of their range, or no further from it than they
+/// are uncertain: how large they are the range says, and not the data. The end at which a parameter does nothing is none.
+fn at_an_end(winner: &Judged<'_>) -> Vec<String> {
+    let trial = &winner.trial;
+    let Some(effect) = trial.specification.effects.last() else { return Vec::new() };
+    let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
+    let said = own.filter_map(|(place, (id, name))| {
+        let place = trial.model.soil_count() + place;
+        let coordinate = &super::fit::Model::coordinates(&trial.model)[place];
+        let info = effect.info.parameters.iter().find(|info| info.name == *name)?;
+        let (value, (low, high)) = (trial.fit.parameters[place], (coordinate.low, coordinate.high));
+        let std = trial.fit.covariance[(place, place)].max(0.0).sqrt();
+        let is_near = |end: f64| (value - end).abs() <= std || value == end;
+        let end = [low, high].into_iter().find(|end| *end != info.neutral && is_near(*end))?;
+        let unit = if info.unit == "-" { String::new() } else { format!(" {}", info.unit) };
+        Some(format!(
+            "{id}: {name} = {value:.3}{unit} is at the end of its range, {low:.3} to {high:.3}{unit}, or no further from it \
+             than it is uncertain. What lies at {end:.3} is where the search ended, not what the data tell: another law may \
+             stand behind it."
+        ))
+    });
+    said.collect()
 }
 
 /// The soil's parameters about which the data say next to nothing.

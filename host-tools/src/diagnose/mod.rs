@@ -32,6 +32,7 @@ mod mimicry;
 mod noise;
 mod outcome;
 mod pairs;
+mod plausible_range;
 mod rates;
 mod regressors;
 mod residual_search;

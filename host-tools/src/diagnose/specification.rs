@@ -8,6 +8,7 @@ use crate::data::campaign::{Campaign, DeclaredEffect, Knowledge};
 
 use super::fit::{Coordinate, Reading};
 use super::measurements::{Measurements, median};
+use super::plausible_range::plausible_range;
 
 /// Combinations of forms that are tried at most: each is a fit from several starts.
 const MOST_COMBINATIONS: usize = 256;
@@ -126,7 +127,8 @@ impl EffectForm {
         if self.form.free.contains(&parameter.name) {
             let start = set.or(reference).unwrap_or_else(|| self.start(parameter));
             let expected = (parameter.role == Role::Shape).then_some((parameter.neutral, parameter.typical));
-            return Err(coordinate(parameter.low, parameter.high, start, expected));
+            let (low, high) = plausible_range(self.info, parameter, measurements);
+            return Err(coordinate(low, high, start.clamp(low, high), expected));
         }
         Ok(set.or(reference).unwrap_or(parameter.neutral))
     }
