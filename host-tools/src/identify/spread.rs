@@ -5,6 +5,9 @@ use super::combine::Sample;
 /// Variances exceed that of the noise by chance by as many of their standard errors, and no more.
 const BY_CHANCE: f64 = 2.0;
 
+/// No corner is under less than this share of the least load of the rows: under nothing no wheel rolls.
+const LEAST_SHARE: f64 = 0.5;
+
 /// Scatter of slip and load about their means, what noise explains taken off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
@@ -56,7 +59,7 @@ impl Spread {
         let sides = |is_spread: bool| if is_spread { [-1.0, 1.0].as_slice() } else { &[0.0] };
         let corner = |along: f64, across: f64| {
             let load_n = load_n + along * self.load_by_slip_n + across * self.load_n;
-            ((slip + along * self.slip).clamp(-1.0, 1.0), load_n.max(self.least_load_n))
+            ((slip + along * self.slip).clamp(-1.0, 1.0), load_n.max(LEAST_SHARE * self.least_load_n))
         };
         let along = sides(self.slip > 0.0).iter();
         along.flat_map(|along| sides(self.load_n > 0.0).iter().map(move |across| corner(*along, *across))).collect()

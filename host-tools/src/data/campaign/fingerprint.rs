@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use kapvik_firmware::checksum::Checksum;
 use serde::{Deserialize, Serialize};
 
 use super::Campaign;
@@ -14,26 +15,26 @@ pub struct Fingerprint {
     pub runs: usize,
     /// Rows.
     pub rows: usize,
-    /// FNV-1a of all of it, 64 bits in hexadecimal digits.
+    /// CRC-32 of all of it, in hexadecimal digits.
     pub hash: String,
 }
 
 impl Fingerprint {
     /// That of a campaign.
     pub fn of(campaign: &Campaign) -> Self {
-        let mut hash = Fnv::new();
+        let mut hash = Checksum::new();
         for row in &campaign.rows {
-            hash.text(&row.run);
-            hash.number(row.t_s);
+            add_text(&mut hash, &row.run);
+            add_number(&mut hash, row.t_s);
         }
         let mut columns: Vec<_> = campaign.columns.iter().collect();
         columns.sort_by(|a, b| a.name.cmp(&b.name));
         for column in columns {
-            hash.text(&column.name);
+            add_text(&mut hash, &column.name);
             // No column holds a number that is not finite.
-            column.values.iter().for_each(|value| hash.number(value.unwrap_or(f64::NAN)));
+            column.values.iter().for_each(|value| add_number(&mut hash, value.unwrap_or(f64::NAN)));
         }
-        Self { runs: campaign.runs().len(), rows: campaign.rows.len(), hash: format!("{:016x}", hash.0) }
+        Self { runs: campaign.runs().len(), rows: campaign.rows.len(), hash: format!("{:08x}", hash.finish()) }
     }
 }
 
@@ -44,29 +45,15 @@ impl fmt::Display for Fingerprint {
     }
 }
 
-/// Fowler, Noll and Vo's hash: no secret, but equal by chance once in 10¹⁹.
-struct Fnv(u64);
+/// A text and its end, so that two are not the same as one.
+fn add_text(hash: &mut Checksum, text: &str) {
+    hash.add(text.as_bytes());
+    hash.add(&[0]);
+}
 
-impl Fnv {
-    fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    fn bytes(&mut self, bytes: impl IntoIterator<Item = u8>) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
-
-    /// A text and its end, so that two are not the same as one.
-    fn text(&mut self, text: &str) {
-        self.bytes(text.bytes().chain([0]));
-    }
-
-    /// A number by its value: zero has one, of whichever sign.
-    fn number(&mut self, number: f64) {
-        self.bytes((number + 0.0).to_bits().to_le_bytes());
-    }
+/// A number by its value: zero has one, of whichever sign.
+fn add_number(hash: &mut Checksum, number: f64) {
+    hash.add(&(number + 0.0).to_bits().to_le_bytes());
 }
 
 #[cfg(test)]
