@@ -5,19 +5,16 @@ use heapless::Vec;
 use super::rover_soil::RoverSoil;
 use super::soil_average::SoilAverage;
 use super::soil_change::SoilChangeDetector;
-use crate::estimator::{Estimate, WheelActivity, WheelEstimate};
+use crate::estimator::{WheelActivity, WheelEstimate};
 use crate::frozen;
 use crate::math;
 use crate::rover::{PerSide, PerWheel, Rover};
 use crate::soil::{Refusal, SoilEstimate, is_known_slip, rover_outputs, wheel_soil};
 use crate::terramechanics::Wheel;
-use crate::wheel_state::{Slope, SoilQuery, WHEELS, WheelNoise, WheelState};
+use crate::wheel_state::{SoilQuery, WHEELS, WheelNoise, WheelState};
 
 /// What is left of a standard deviation that averages away, when the network is asked what lasts.
 const HARDLY_ANY: f32 = 0.2;
-/// One standard deviation of the slope that the soil sees, beyond that of the pitch, rad: the wheels' mean contact angle
-/// is not quite the body's pitch.
-const SLOPE_STD_RAD: f32 = 0.01;
 
 /// The networks' users in flight.
 #[derive(Debug, Clone)]
@@ -48,11 +45,8 @@ impl SoilOverTime {
         &mut self,
         wheels: &PerWheel<WheelEstimate>,
         backward: PerSide<bool>,
-        slope: Estimate,
         travel_m: f32,
     ) -> (PerWheel<Result<SoilEstimate, Refusal>>, Result<RoverSoil, Refusal>) {
-        let variance = slope.std * slope.std + SLOPE_STD_RAD * SLOPE_STD_RAD;
-        let slope = Slope { angle_rad: slope.value, std_rad: math::sqrt(variance) };
         let mirrored;
         let wheels = if backward.left || backward.right {
             mirrored = in_direction_of_travel(wheels, backward);
@@ -60,10 +54,7 @@ impl SoilOverTime {
         } else {
             wheels
         };
-        let slopes =
-            backward.map(|back| Slope { angle_rad: if back { -slope.angle_rad } else { slope.angle_rad }, ..slope });
-        let wheel_soils =
-            wheels.as_ref().zip(slopes).map(|(side, slope)| side.as_ref().map(|wheel| self.under_wheel(wheel, slope)));
+        let wheel_soils = wheels.as_ref().map(|side| side.as_ref().map(|wheel| self.under_wheel(wheel)));
         if self.changes.tick(wheels, travel_m).is_some() {
             self.average = SoilAverage::new();
         }
@@ -71,9 +62,11 @@ impl SoilOverTime {
         (wheel_soils, rover)
     }
 
-    fn under_wheel(&self, wheel: &WheelEstimate, slope: Slope) -> Result<SoilEstimate, Refusal> {
+    /// The per-wheel network is not told the slope, which would tell it what all wheels pull together: it has learned that from rovers whose
+    /// slips were drawn one by one, while those of a rover that drives hang on each other and on the soil.
+    fn under_wheel(&self, wheel: &WheelEstimate) -> Result<SoilEstimate, Refusal> {
         let state = state_of(wheel).ok_or(Refusal::NotRolling)?;
-        let mut query = SoilQuery { wheel: self.wheel, noise: noise_of(wheel), slope: Some(slope), wheels: Vec::new() };
+        let mut query = SoilQuery { wheel: self.wheel, noise: noise_of(wheel), slope: None, wheels: Vec::new() };
         // One wheel always fits.
         let _ = query.wheels.push(state);
         wheel_soil(&query, &state)

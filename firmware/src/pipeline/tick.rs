@@ -1,7 +1,7 @@
 //! One frame after the other.
 
 use super::FrameEstimate;
-use crate::estimator::{Estimate, EstimatorHealth, RoverEstimator, Taken};
+use crate::estimator::{EstimatorHealth, RoverEstimator, Taken};
 use crate::fusion::SoilOverTime;
 use crate::rover::{GeometryError, Rover};
 use crate::sensor_frame::SensorFrame;
@@ -56,9 +56,8 @@ impl Pipeline {
             last.time_us = frame.time_us;
             last.wheels = sides.as_ref().map(|side| side.wheels);
             last.bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
-            let pitch = Estimate { value: self.estimator.pitch_rad(), std: self.estimator.pitch_std_rad() };
             let backward = self.estimator.rolls_back();
-            (last.wheel_soils, last.soil) = self.soil.tick(&last.wheels, backward, pitch, travel_m);
+            (last.wheel_soils, last.soil) = self.soil.tick(&last.wheels, backward, travel_m);
         }
         last
     }

@@ -31,6 +31,7 @@ pub(crate) fn wheel_soil(query: &SoilQuery, state: &WheelState) -> Result<SoilEs
 /// The soil under all wheels of the query.
 fn rover_soil(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
     let (outputs, inside) = rover_outputs(query)?;
+    let inside = inside && query.wheels.iter().all(|state| is_known_slip(state.slip, query.noise.slip));
     Ok(SoilEstimate::new(&frozen::ROVER.posterior.read(&outputs), inside))
 }
 
@@ -43,7 +44,8 @@ pub(crate) fn is_known_slip(slip: f32, std: f32) -> bool {
     slip + 3.0 * std >= LEAST_SLIP as f32
 }
 
-/// What the rover network says of a query, and whether all of its inputs lie in the training range.
+/// What the rover network says of a query of wheels whose slips are [known](is_known_slip), and whether all of its inputs lie in the training
+/// range.
 pub(crate) fn rover_outputs(query: &SoilQuery) -> Result<([f32; OUTPUTS], bool), Refusal> {
     check_shared(query)?;
     if query.wheels.is_empty() {
@@ -57,7 +59,6 @@ pub(crate) fn rover_outputs(query: &SoilQuery) -> Result<([f32; OUTPUTS], bool),
     let table = &frozen::ROVER;
     let outputs = table.outputs(&context, wheels.iter().copied());
     let inside = table.context.contains(&context) && wheels.iter().all(|wheel| table.wheel.contains(wheel));
-    let inside = inside && query.wheels.iter().all(|state| is_known_slip(state.slip, query.noise.slip));
     Ok((outputs, inside))
 }
 
