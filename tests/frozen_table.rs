@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Output;
 
+use kapvik_firmware::estimator::doubt::{self, DoubtNetwork};
 use kapvik_firmware::frozen;
 use kapvik_firmware::network::{FLOWN_PAIRS, Words, checksum};
 use kapvik_firmware::self_test;
@@ -67,14 +68,16 @@ fn flip_all<T: Words + Clone + Sync>(table: &T) -> (usize, usize) {
 
 #[test]
 fn every_flipped_bit_in_memory_is_noticed() {
-    let (wheel, rover) = (flip_all(&frozen::WHEEL), flip_all(&frozen::ROVER));
-    println!("{} bits in memory flipped, {} not noticed", wheel.0 + rover.0, wheel.1 + rover.1);
-    assert_eq!((wheel.1, rover.1), (0, 0));
+    let flipped = [flip_all(&frozen::WHEEL), flip_all(&frozen::ROVER), flip_all(doubt::frozen())];
+    let (bits, unseen) = flipped.into_iter().fold((0, 0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+    println!("{bits} bits in memory flipped, {unseen} not noticed");
+    assert_eq!(unseen, 0);
 }
 
 #[test]
 fn the_self_test_fails_on_a_flipped_bit_and_passes_without() {
     assert!(self_test::run().passed());
+    assert!(doubt::is_as_trained(doubt::frozen()) && !doubt::is_as_trained(&DoubtNetwork::ZERO));
     let mut rover = frozen::ROVER.clone();
     rover.network.output.bias[0][0] ^= 1 << 16;
     let report = self_test::examine(&frozen::WHEEL, &rover);

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::estimator::doubt;
 use crate::frozen;
 use crate::network::{FLOWN_PAIRS, RoverTable, WheelTable, checksum};
 
@@ -11,7 +12,8 @@ use crate::network::{FLOWN_PAIRS, RoverTable, WheelTable, checksum};
 pub struct SelfTestReport {
     /// A trained table is there; a build for training the first table of a new shape has none.
     pub trained: bool,
-    /// The tables in memory are, bit for bit, those that were built in.
+    /// The tables in memory, and the weights of the network that tells how true standard deviations are, are bit for bit those that were
+    /// built in.
     pub tables_intact: bool,
     /// Golden pairs of the per-wheel network reproduced bit for bit, of [`FLOWN_PAIRS`].
     pub wheel_pairs: u8,
@@ -27,12 +29,13 @@ impl SelfTestReport {
     }
 }
 
-/// Tests the frozen tables.
+/// Tests what is frozen.
 pub fn run() -> SelfTestReport {
-    examine(&frozen::WHEEL, &frozen::ROVER)
+    let report = examine(&frozen::WHEEL, &frozen::ROVER);
+    SelfTestReport { tables_intact: report.tables_intact && doubt::is_as_trained(doubt::frozen()), ..report }
 }
 
-/// Tests tables against the checksums of the frozen ones.
+/// Tests tables of the soil networks against the checksums of the frozen ones.
 pub fn examine(wheel: &WheelTable<FLOWN_PAIRS>, rover: &RoverTable<FLOWN_PAIRS>) -> SelfTestReport {
     SelfTestReport {
         trained: frozen::FILE_CRC.is_some(),

@@ -18,14 +18,14 @@ fn heavy_rovers() -> [Rover<f64>; 4] {
 /// What is driven, and the errors over drives of a scenario; some heavy rovers get stuck.
 fn errors(scenario: Scenario, rover: &Rover<f64>) -> (String, Errors) {
     let what = format!("{} kg on {} m, {scenario:?}", rover.mass_kg, rover.wheel.radius_m);
-    let trial = trial(scenario, 50..58, rover);
+    let trial = trial(scenario, 50..82, rover);
     assert!(trial.drives.len() >= 4, "{what}: {:?}", trial.failures);
     (what, trial.errors())
 }
 
 /// What the project wants of every rover: slip and load no worse than the raw sensors, and what is stated no narrower than what is true.
 /// A drive's sensor that is this precise against what it measures is hard to beat: torque may err by twice its noise. Drives of a heavy
-/// rover differ more than those of Kapvik: eight give shares to some 5 %.
+/// rover differ more than those of Kapvik: eight give shares to some 5 % only, thirty-two to half of that.
 #[test]
 fn a_heavy_rover_beats_its_raw_sensors_and_says_how_well() {
     for rover in heavy_rovers() {

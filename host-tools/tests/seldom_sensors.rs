@@ -4,7 +4,7 @@
 use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
 use kapvik_firmware::rover::Rover;
 use kapvik_host::data::truth_file::Truth;
-use kapvik_host::simulate::faults::Fault;
+use kapvik_host::simulate::faults::{Failure, Fault};
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 use kapvik_host::trial::errors::Errors;
 use kapvik_host::trial::{Drive, Quantity};
@@ -26,16 +26,22 @@ fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
 const TIMES: f64 = 5.0;
 const LEAST: f64 = 0.85;
 
-/// Prints errors with some readings and with all; the claimed ones must be honest.
-fn compare(what: &str, with: &Errors, without: &Errors, is_claimed: bool) {
+/// Without a sensor for good errors are what they are, but so many must be within two standard deviations; of loads without the rocker's angle,
+/// which hang on it and are stated too narrow, nothing is claimed.
+const LEAST_WITHOUT: f64 = 0.6;
+
+/// Prints errors with some readings and with all. So many must be within two standard deviations, and they may grow to so many times those
+/// with all.
+fn compare(what: &str, with: &Errors, without: &Errors, least: f64, times: f64) {
     for quantity in [Quantity::Slip, Quantity::Torque, Quantity::ContactAngle, Quantity::Load, Quantity::FrontPull] {
         let (tally, whole) = (with.of(quantity), without.of(quantity));
         let [one, two] = tally.coverage();
         println!("{what}, {quantity:?}: {:.4}, {:.4} with all; {one:.3} {two:.3} within", tally.rmse(), whole.rmse());
-        if is_claimed {
-            assert!(two >= LEAST, "{what}, {quantity:?}: {two} within two standard deviations");
-            assert!(tally.rmse() <= TIMES * whole.rmse(), "{what}, {quantity:?}: {}", tally.rmse());
+        if quantity == Quantity::Load && what.ends_with("never rocker_angle_rad") {
+            continue;
         }
+        assert!(two >= least, "{what}, {quantity:?}: {two} within two standard deviations");
+        assert!(tally.rmse() <= times * whole.rmse(), "{what}, {quantity:?}: {}", tally.rmse());
     }
 }
 
@@ -43,13 +49,24 @@ fn compare(what: &str, with: &Errors, without: &Errors, is_claimed: bool) {
 fn sensors_that_speak_in_one_frame_of_five_are_heard() {
     for scenario in [Scenario::Level, Scenario::Hills] {
         let whole = errors(scenario, &[]);
-        let heard = ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "bogie_angle_*"];
-        // Of the gyro nothing is claimed: slips are lost where it is silent for most of the time.
-        let columns = heard.map(|columns| (columns, true)).into_iter().chain([("gyro_*", false)]);
-        for (columns, is_claimed) in columns {
+        for columns in ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "bogie_angle_*", "gyro_*"] {
             let faults = Fault::silent_but_one_in(5, columns, LONGEST_S).expect("faults");
             let what = format!("{scenario:?}, {columns} in one frame of five");
-            compare(&what, &errors(scenario, &faults), &whole, is_claimed);
+            compare(&what, &errors(scenario, &faults), &whole, LEAST, TIMES);
+        }
+    }
+}
+
+/// What is lost with a sensor that never says anything is lost, and must be stated.
+#[test]
+fn sensors_that_are_silent_for_good_are_missed_honestly() {
+    for scenario in [Scenario::Level, Scenario::Hills] {
+        let whole = errors(scenario, &[]);
+        for columns in ["rocker_angle_rad", "bogie_angle_*", "velocity_*", "gyro_*", "motor_torque_*", "load_cell_ml_n"]
+        {
+            let fault = Fault::new(Failure::Dropout, columns, (0.0, LONGEST_S)).expect("a fault");
+            let what = format!("{scenario:?}, never {columns}");
+            compare(&what, &errors(scenario, &[fault]), &whole, LEAST_WITHOUT, f64::INFINITY);
         }
     }
 }

@@ -8,6 +8,7 @@
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
 use super::attitude::Attitude;
+use super::joints::Joints;
 use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_front_alone, of_unlike};
 use super::runs::Runs;
 use super::trend::{Trends, beside_trend, restlessness};
@@ -116,6 +117,7 @@ const STANDING: f64 = 1.5e-3;
 pub(super) struct ContactAngleFilter<S> {
     filter: SigmaPointFilter<S, STATES>,
     model: ContactAngleModel<S>,
+    joints: Joints<S>,
     roughness: Roughness<S>,
     watch: Watch<MEASUREMENTS>,
     begun: bool,
@@ -147,6 +149,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         Self {
             filter: SigmaPointFilter::unknowing([one, zero, zero, zero, zero, zero, zero], Self::unknown_std()),
             model,
+            joints: Joints::new(),
             roughness: Roughness::new(phase),
             watch: Watch::new(),
             begun: false,
@@ -166,8 +169,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
     }
 
     /// Starts from the pitches that the first joint angles tell: the terrain is about as steep as the links.
-    fn begin(&mut self, body_pitch_rad: S, readings: &SideReadings<S>) {
-        let (Some(rocker), Some(bogie)) = (readings.rocker_angle_rad, readings.bogie_angle_rad) else { return };
+    fn begin(&mut self, body_pitch_rad: S, [rocker, bogie]: [Option<S>; 2]) {
+        let (Some(rocker), Some(bogie)) = (rocker, bogie) else { return };
         let rocker = body_pitch_rad + rocker;
         let bogie = rocker + bogie;
         if let Ok(start) =
@@ -267,8 +270,10 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.model.sinking_rad = *sinking_rad;
         let stands = rim_speed_m_s.abs() < S::constant(STANDING);
         self.model.rim_speed_m_s = if stands { S::zero() } else { rim_speed_m_s };
+        let joints = [readings.rocker_angle_rad, readings.bogie_angle_rad];
+        let [rocker, bogie] = self.joints.tick(joints, noise.angle_rad, self.travel_m(step_s), step_s);
         if !self.begun {
-            self.begin(body_pitch_rad, readings);
+            self.begin(body_pitch_rad, [rocker.0, bogie.0]);
         }
         self.predict(step_s, rate_std, readings.runs_of_forces);
         let before = self.angles();
@@ -278,16 +283,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
             let motion = Motion { speed_m_s, step_s, body_pitch_rad, body_pitch };
             self.roughness.learn(&motion, readings, noise);
         }
-        let angle = noise.angle_rad;
-        let noise_std =
-            [readings.velocity_std_m_s.x, readings.velocity_std_m_s.z, angle, angle, attitude.felt_std_rad()];
-        let measured = [
-            readings.axis_velocity_m_s.x,
-            readings.axis_velocity_m_s.z,
-            readings.rocker_angle_rad,
-            readings.bogie_angle_rad,
-            attitude.felt_rad(),
-        ];
+        let (velocity, velocity_std) = (&readings.axis_velocity_m_s, &readings.velocity_std_m_s);
+        let noise_std = [velocity_std.x, velocity_std.z, rocker.1, bogie.1, attitude.felt_std_rad()];
+        let measured = [velocity.x, velocity.z, rocker.0, bogie.0, attitude.felt_rad()];
         let model = self.model;
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
         let loosened = match self.watch.judge(&told) {

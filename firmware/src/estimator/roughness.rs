@@ -146,9 +146,11 @@ impl<S: Scalar> Roughness<S> {
         self.bogie.take(bogie, Noise { variance: variance + variance, moved }, nominal(LINK_DRIFT), step_s);
         let Planar { x, z } = readings.axis_velocity_m_s;
         let velocity = x.zip(z).map(|(x, z)| Planar { x, z }.turned(body_pitch));
-        let noise = Noise::white(readings.velocity_std_m_s.z / speed);
-        self.ratio.take(velocity.map(|velocity| velocity.x / speed), noise, nominal(RATIO_DRIFT), step_s);
-        self.direction.take(velocity.map(|velocity| velocity.z / speed), noise, nominal(ANGLE_DRIFT), step_s);
+        let Planar { x: std_x, z: std_z } = readings.velocity_std_m_s;
+        let ratio = velocity.map(|velocity| velocity.x / speed);
+        let direction = velocity.map(|velocity| velocity.z / speed);
+        self.ratio.take(ratio, Noise::white(std_x / speed), nominal(RATIO_DRIFT), step_s);
+        self.direction.take(direction, Noise::white(std_z / speed), nominal(ANGLE_DRIFT), step_s);
     }
 }
 

@@ -13,6 +13,7 @@ use super::scale::Scale;
 use super::sinking::Sinking;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
+use super::turn::Turn;
 use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
@@ -61,9 +62,6 @@ const SWINGS_HUB: f64 = 0.08;
 const REPEATING: f64 = 10.0;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
-/// What the body may turn at while its gyro is silent, rad/s.
-const UNSEEN_TURN: f64 = 0.03;
-
 /// The estimators of one side.
 #[derive(Debug, Clone)]
 pub(super) struct SideEstimator<S> {
@@ -91,6 +89,8 @@ pub(super) struct SideEstimator<S> {
     pub(super) doubt: Doubt,
     /// One for a sensor that cannot be used in this frame.
     pub(super) silent: [S; SENSORS],
+    /// Of the body, in yaw and in roll.
+    turns: [Turn<S>; 2],
     told: SideInnovations<S>,
 }
 
@@ -141,6 +141,7 @@ impl<S: Scalar> SideEstimator<S> {
             corrections: PerAxle::all(Correction::none()),
             doubt: Doubt::new(phase),
             silent: [S::zero(); SENSORS],
+            turns: [Turn::new(); 2],
             told: SideInnovations {
                 wheels: PerAxle::all(Innovation::nothing()),
                 angles: Innovation::nothing(),
@@ -186,8 +187,8 @@ impl<S: Scalar> SideEstimator<S> {
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();
         self.doubt.take_turns(step_s.to_f32());
-        self.silent = frame.silent();
-        let readings = self.side_readings(frame);
+        let readings = self.side_readings(step_s, frame);
+        self.silent = frame.silent(&readings.axis_velocity_m_s);
         self.follow_rims(&frame.wheel_rate_rad_s);
         let slopes = *self.sinking.slopes();
         let told = self.angles.tick(step_s, self.rim_speed_m_s, &slopes, attitude, &readings, &self.rover.noise);
@@ -204,20 +205,14 @@ impl<S: Scalar> SideEstimator<S> {
         surprises
     }
 
-    fn side_readings(&self, frame: &SideFrame<S>) -> SideReadings<S> {
-        let noise = &self.rover.noise;
-        let Axes { x, z, .. } = frame.velocity_m_s;
-        // A gyro axis that is silent is taken to be still, and to be off by what the rover may turn at.
-        let turn = |rate: Option<S>| match rate {
-            Some(rate) => (rate * self.y_m, noise.gyro_rad_s * self.y_m),
-            None => (S::zero(), S::constant(UNSEEN_TURN) * self.y_m),
-        };
-        let (by_yaw, yaw_std) = turn(frame.gyro_rad_s.z);
-        let (by_roll, roll_std) = turn(frame.gyro_rad_s.x);
-        let joint = |std: S| (noise.velocity_m_s * noise.velocity_m_s + std * std).sqrt();
+    fn side_readings(&mut self, step_s: S, frame: &SideFrame<S>) -> SideReadings<S> {
+        let (Axes { x, z, .. }, turning) = (frame.velocity_m_s, frame.gyro_rad_s);
+        let [yaw, roll] = &mut self.turns;
+        let (x, std_x) = yaw.at_end(x, turning.z, -self.y_m, step_s, &self.rover.noise);
+        let (z, std_z) = roll.at_end(z, turning.x, self.y_m, step_s, &self.rover.noise);
         SideReadings {
-            axis_velocity_m_s: Planar { x: x.map(|x| x - by_yaw), z: z.map(|z| z + by_roll) },
-            velocity_std_m_s: Planar { x: joint(yaw_std), z: joint(roll_std) },
+            axis_velocity_m_s: Planar { x, z },
+            velocity_std_m_s: Planar { x: std_x, z: std_z },
             rocker_angle_rad: frame.rocker_angle_rad,
             bogie_angle_rad: frame.bogie_angle_rad,
             runs_of_forces: self.forces.runs().above(contact_angle::RUN_OF_FORCES),
@@ -383,13 +378,11 @@ impl<S: Scalar> SideEstimator<S> {
 }
 
 impl<S: Scalar> SideFrame<S> {
-    /// One for each sensor that cannot be used, in the order of [`SENSORS`].
-    fn silent(&self) -> [S; SENSORS] {
-        let Self {
-            wheel_rate_rad_s: rates, motor_torque_nm: torques, load_cell_n: cells, velocity_m_s: velocity, ..
-        } = self;
+    /// One for each sensor that cannot be used, in the order of [`SENSORS`]; with what of the velocity can be.
+    fn silent(&self, velocity_m_s: &Planar<Option<S>>) -> [S; SENSORS] {
+        let Self { wheel_rate_rad_s: rates, motor_torque_nm: torques, load_cell_n: cells, .. } = self;
         let of_wheels = [rates, torques, cells].map(|sensors| [sensors.front, sensors.middle, sensors.rear]);
-        let of_side = [self.bogie_angle_rad, self.rocker_angle_rad, velocity.x.and(velocity.z)];
+        let of_side = [self.bogie_angle_rad, self.rocker_angle_rad, velocity_m_s.x.and(velocity_m_s.z)];
         let mut silent = [S::zero(); SENSORS];
         let readings = of_wheels.as_flattened().iter().chain(&of_side);
         for (silent, _) in silent.iter_mut().zip(readings).filter(|(_, reading)| reading.is_none()) {

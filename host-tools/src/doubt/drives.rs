@@ -33,10 +33,16 @@ const NOISE_FACTORS: Range<f64> = 0.5..2.0;
 const FAILURES: [Failure; 4] = [Failure::Nan, Failure::Outlier, Failure::Stuck, Failure::Dropout];
 const FAILING_S: Range<f64> = 1.0..6.0;
 const WORKING_S: Range<f64> = 2.0..10.0;
-/// Kinds of sensors that speak seldom: in one of so many frames, or for good in no more.
-const KINDS: [&str; 6] = ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "gyro_*", "bogie_angle_*"];
+/// Kinds of sensors that speak seldom, in one of so many frames; or in none.
+const KINDS: [&str; 7] =
+    ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "gyro_*", "bogie_angle_*", "rocker_angle_rad"];
 const SPEAKS_EVERY: Range<u32> = 2..11;
-const SILENT_FOR_GOOD: f64 = 0.2;
+/// The share of drives with sensors that are silent for good in which it is one column of a frame, not all of a kind; and in which they have
+/// been so from the start.
+const ONE_COLUMN: f64 = 0.5;
+const NEVER_HEARD: f64 = 0.5;
+/// Of each other kind there is one drive for so many nominal ones.
+const LESS_OFTEN: u32 = 6;
 /// No drive is longer, s.
 const LONGEST_S: f64 = 120.0;
 /// Other rovers, and radii of their wheels.
@@ -48,7 +54,7 @@ const RADII_M: Range<f64> = 0.06..0.15;
 pub struct Plan {
     /// Seed of the first drive; each further drive has the next.
     pub seed: u32,
-    /// Drives of each nominal scenario; other sets are shares of it, of at least one drive.
+    /// Drives of each nominal scenario; there are fewer of others, but at least one.
     pub drives: u32,
 }
 
@@ -69,8 +75,10 @@ enum Deviation {
     Noise,
     /// One sensor after the other fails for seconds.
     Failures,
-    /// All sensors of one kind speak in one of several frames, or in none.
+    /// All sensors of one kind speak in one of several frames.
     Seldom,
+    /// One sensor, or all of one kind, say nothing, or nothing any more.
+    Silent,
     /// The rover is lighter or heavier, on wheels of other sizes, and the flight side is told.
     Mass,
     /// Slip digs the wheels in.
@@ -78,6 +86,17 @@ enum Deviation {
     /// Torque and forces swing as grousers come to bear.
     GrouserRipple,
 }
+
+/// All of them but that there is none.
+const DEVIATIONS: [Deviation; 7] = [
+    Deviation::Noise,
+    Deviation::Failures,
+    Deviation::Seldom,
+    Deviation::Silent,
+    Deviation::Mass,
+    Deviation::SlipSinkage,
+    Deviation::GrouserRipple,
+];
 
 /// So many drives of a kind.
 #[derive(Debug, Clone, Copy)]
@@ -109,32 +128,24 @@ impl Plan {
         let learned: u64 = self.training_sets().iter().map(|set| u64::from(set.drives)).sum();
         let mut seed = u64::from(self.seed) + learned;
         NOMINAL.map(|scenario| {
-            let journeys = numbered(seed, &[Set { scenario, deviation: Deviation::None, drives: self.share(6) }]);
+            let journeys = numbered(seed, &[Set { scenario, deviation: Deviation::None, drives: self.less_often() }]);
             seed += journeys.len() as u64;
             journeys
         })
     }
 
     fn training_sets(&self) -> Vec<Set> {
-        let kinds = [
-            (Deviation::None, self.drives),
-            (Deviation::Noise, self.share(6)),
-            (Deviation::Failures, self.share(6)),
-            (Deviation::Seldom, self.share(6)),
-            (Deviation::Mass, self.share(6)),
-            (Deviation::SlipSinkage, self.share(12)),
-            (Deviation::GrouserRipple, self.share(12)),
-        ];
-        let of_nominal = kinds.into_iter().flat_map(|(deviation, drives)| {
-            NOMINAL.into_iter().map(move |scenario| Set { scenario, deviation, drives })
-        });
-        let others =
-            OTHER.into_iter().map(|scenario| Set { scenario, deviation: Deviation::None, drives: self.share(6) });
-        of_nominal.chain(others).collect()
+        let nominal = NOMINAL.map(|scenario| Set { scenario, deviation: Deviation::None, drives: self.drives });
+        let drives = self.less_often();
+        let deviations = DEVIATIONS
+            .into_iter()
+            .flat_map(|deviation| NOMINAL.into_iter().map(move |scenario| Set { scenario, deviation, drives }));
+        let others = OTHER.into_iter().map(|scenario| Set { scenario, deviation: Deviation::None, drives });
+        nominal.into_iter().chain(deviations).chain(others).collect()
     }
 
-    fn share(&self, of: u32) -> u32 {
-        self.drives.div_ceil(of)
+    fn less_often(&self) -> u32 {
+        self.drives.div_ceil(LESS_OFTEN)
     }
 }
 
@@ -211,6 +222,7 @@ impl Deviation {
             Self::Noise => rover.noise = other_noise(&rover.noise, random),
             Self::Failures => faults = failures(random)?,
             Self::Seldom => faults = silences(random)?,
+            Self::Silent => faults.push(silence(random)?),
             Self::Mass => {
                 rover.mass_kg = log_uniform(&MASSES_KG, random);
                 rover.wheel.radius_m = log_uniform(&RADII_M, random);
@@ -242,14 +254,23 @@ fn failures(random: &mut ChaCha8Rng) -> Result<Vec<Fault>, String> {
     Ok(failures)
 }
 
-/// All sensors of a kind are silent but in one of so many frames; or from some time on.
+/// All sensors of a kind are silent but in one of so many frames.
 fn silences(random: &mut ChaCha8Rng) -> Result<Vec<Fault>, String> {
     let columns = KINDS[random.random_range(0..KINDS.len())];
-    if random.random::<f64>() < SILENT_FOR_GOOD {
-        let from_s = random.random_range(WARM_UP_S..LONGEST_S / 2.0);
-        return Ok(vec![Fault::new(Failure::Dropout, columns, (from_s, LONGEST_S))?]);
-    }
     Fault::silent_but_one_in(random.random_range(SPEAKS_EVERY), columns, LONGEST_S)
+}
+
+/// One column, or those of a kind, is silent for good: always, or from some time on.
+fn silence(random: &mut ChaCha8Rng) -> Result<Fault, String> {
+    let names = names();
+    let columns = if random.random::<f64>() < ONE_COLUMN {
+        names[random.random_range(0..names.len())].as_str()
+    } else {
+        KINDS[random.random_range(0..KINDS.len())]
+    };
+    let never_heard = random.random::<f64>() < NEVER_HEARD;
+    let from_s = if never_heard { 0.0 } else { random.random_range(WARM_UP_S..LONGEST_S / 2.0) };
+    Fault::new(Failure::Dropout, columns, (from_s, LONGEST_S))
 }
 
 /// Each noise by itself is better or worse.
@@ -275,7 +296,7 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 6 * (16 + 3 + 3 + 3 + 3 + 2 + 2) + 2 * 3);
+        assert_eq!(training.len(), 6 * (16 + 7 * 3) + 2 * 3);
         let held_out = plan.held_out();
         assert!(held_out.iter().all(|journeys| journeys.len() == 3));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();
@@ -286,15 +307,7 @@ mod tests {
 
     #[test]
     fn a_drive_that_deviates_gives_the_same_rows_again() {
-        for deviation in [
-            Deviation::None,
-            Deviation::Noise,
-            Deviation::Failures,
-            Deviation::Seldom,
-            Deviation::Mass,
-            Deviation::SlipSinkage,
-            Deviation::GrouserRipple,
-        ] {
+        for deviation in DEVIATIONS.into_iter().chain([Deviation::None]) {
             let journey = Journey { scenario: Scenario::Level, seed: 3, deviation };
             let sides = journey.sides().expect("a drive on the level");
             let known = sides.as_ref().map(|rows| rows.iter().filter(|row| row.known.is_some()).count());

@@ -1,6 +1,7 @@
 //! The trained network as Rust source.
 
 use kapvik_firmware::estimator::doubt::DoubtNetwork;
+use kapvik_firmware::network::checksum;
 
 use super::drives::Plan;
 use super::held_out::BeforeAfter;
@@ -28,8 +29,11 @@ pub fn source(network: &DoubtNetwork, provenance: &Provenance<'_>) -> String {
          use crate::network::fixed_point::{{FixedLayer, Pair}};\n\
          \n\
          #[rustfmt::skip] // the weights of two inputs a line\n\
-         pub(super) static NETWORK: DoubtNetwork = {};\n",
-        in_lines(&format!("{network:?}"))
+         pub(super) static NETWORK: DoubtNetwork = {};\n\n\
+         /// CRC-32 of these weights.\n\
+         pub(super) const CHECKSUM: u32 = {:#010x};\n",
+        in_lines(&format!("{network:?}")),
+        checksum(network)
     )
 }
 
@@ -64,7 +68,9 @@ mod tests {
         let plan = Plan { seed: 7, drives: 9 };
         let text = source(&network, &Provenance { plan: &plan, held_out: &BeforeAfter::default() });
         assert!(text.contains("--seed 7 --drives 9"));
-        let (_, value) = text.split_once("static NETWORK: DoubtNetwork =").expect("the static");
+        let (text_of_weights, after) = text.split_once("/// CRC").expect("a checksum");
+        assert!(after.ends_with(&format!(" = {:#010x};\n", checksum(&network))), "{after}");
+        let (_, value) = text_of_weights.split_once("static NETWORK: DoubtNetwork =").expect("the static");
         assert_eq!(without_space(value), without_space(&format!("{network:?};")));
         assert_eq!(value.matches("Pair(").count(), HIDDEN * (INPUTS + OUTPUTS) / 2);
         assert!(text.lines().all(|line| line.chars().count() <= 120 && line.trim_end() == line), "{text}");

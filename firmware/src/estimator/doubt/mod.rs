@@ -11,6 +11,7 @@ mod inputs;
 mod memory;
 
 use crate::math::of_octaves;
+use crate::network::checksum;
 use crate::network::fixed_point::{FixedLayer, Quad, SUM_BITS, rounded};
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
@@ -34,6 +35,18 @@ pub struct DoubtNetwork {
     pub first: FixedLayer<{ INPUTS / 4 }, { HIDDEN / 4 }>,
     /// Linear output.
     pub output: FixedLayer<{ HIDDEN / 4 }, { OUTPUTS / 4 }>,
+}
+
+crate::words!(DoubtNetwork: first, output);
+
+/// The network that flies.
+pub fn frozen() -> &'static DoubtNetwork {
+    &frozen::NETWORK
+}
+
+/// Whether a network is, by its checksum, the one that was trained.
+pub fn is_as_trained(network: &DoubtNetwork) -> bool {
+    checksum(network) == frozen::CHECKSUM
 }
 
 impl DoubtNetwork {
