@@ -8,8 +8,8 @@
 //! there are as many as there may be, or nothing is left to cut. Scatter is measured in the units of [`ALIKE_SLIP`] and [`ALIKE_LOAD`]: as
 //! far apart as two states can be before the curve between them bends noticeably. A group is left whole in a quantity
 //! in which it scatters no more than its noise explains: cutting there would sort the rows by their errors. Where a cut runs
-//! through rows all the same, what it sorts by errors is taken off: see [`super::selection`]. How the rows of a group scatter
-//! goes with its mean: see [`super::spread`].
+//! through rows all the same, what it sorts by errors is taken off: see `selection.rs`. How the rows of a group scatter
+//! goes with its mean: see `spread.rs`.
 
 use kapvik_firmware::wheel_state::WheelState;
 

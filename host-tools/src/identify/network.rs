@@ -73,7 +73,7 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
 }
 
 /// As [`identify`], `answer` being what the flight networks say; and the intervals of all wheels together are widened where the
-/// networks are too sure of runs that are laid out as these: see [`super::rehearsal`]. Campaigns that declare effects are not
+/// networks are too sure of runs that are laid out as these: see `rehearsal.rs`. Campaigns that declare effects are not
 /// rehearsed, for the soils that are drawn know none.
 ///
 /// # Errors
