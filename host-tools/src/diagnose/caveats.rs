@@ -3,7 +3,7 @@
 use crate::data::campaign::Campaign;
 
 use super::candidates::{is_load_set, loads_differ};
-use super::fit::Reading;
+use super::fit::{Model, Reading};
 use super::forward::Selected;
 use super::measurements::Measurements;
 use super::selection::Judged;
@@ -82,10 +82,11 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
 fn at_an_end(winner: &Judged<'_>) -> Vec<String> {
     let trial = &winner.trial;
     let Some(effect) = trial.specification.effects.last() else { return Vec::new() };
+    let coordinates = trial.model.coordinates();
     let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
     let said = own.filter_map(|(place, (id, name))| {
         let place = trial.model.soil_count() + place;
-        let coordinate = &super::fit::Model::coordinates(&trial.model)[place];
+        let coordinate = &coordinates[place];
         let info = effect.info.parameters.iter().find(|info| info.name == *name)?;
         let (value, (low, high)) = (trial.fit.parameters[place], (coordinate.low, coordinate.high));
         let std = trial.fit.covariance[(place, place)].max(0.0).sqrt();

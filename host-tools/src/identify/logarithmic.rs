@@ -1,11 +1,10 @@
 //! A network's estimate in what it estimates: ln c, φ and ln K; and back, with wider intervals.
 
+use kapvik_firmware::network::TARGETS;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use crate::train::dataset::prior_scale;
 
-/// c, φ and K.
-pub const TARGETS: usize = 3;
 /// Standard deviations that a 68 % and a 95 % interval of an error reach.
 const WIDTHS: [f64; 2] = [1.0, 1.96];
 /// Share of the prior's variance that must be gone for a parameter to be told: as the networks have it.

@@ -7,6 +7,7 @@
 //! error is added to those: the least with which they hold as many as they promise. Nothing is made narrower, and no
 //! value is changed.
 
+use kapvik_firmware::network::TARGETS;
 use kapvik_firmware::soil::SoilEstimate;
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::WheelState;
@@ -14,10 +15,11 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::statistics::{quantile, sorted};
+use crate::train::example::soil_targets;
 use crate::train::prior::{self, Range, SOIL_PARAMETERS};
 
 use super::layout::Layout;
-use super::logarithmic::{TARGETS, Target, targets};
+use super::logarithmic::{Target, targets};
 
 /// Soils about the answer: the share of a 95 % interval then has a standard error of 1.5 %.
 const SOILS: u64 = 200;
@@ -74,7 +76,7 @@ pub fn missing(
         let ranges = about(&stated, &widths);
         let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| any_soil(&ranges, random));
         let answers: Vec<([f64; TARGETS], [Target; TARGETS])> =
-            runs.iter().filter_map(|(soil, run)| Some((truths(soil), targets(&ask(&run.states)?)))).collect();
+            runs.iter().filter_map(|(soil, run)| Some((soil_targets(soil), targets(&ask(&run.states)?)))).collect();
         if answers.len() < LEAST_SOILS {
             return None;
         }
@@ -114,10 +116,6 @@ fn about(stated: &[Target; TARGETS], widths: &[f64; TARGETS]) -> [Range; SOIL_PA
         *range = Range { low: low.min(range.high), high: high.max(range.low), ..*range };
     }
     ranges
-}
-
-fn truths(soil: &Soil<f64>) -> [f64; TARGETS] {
-    [soil.cohesion_pa.ln(), soil.friction_angle_rad, soil.shear_modulus_m.ln()]
 }
 
 /// The error that is missing in the 68 % and in the 95 % interval of one target.
