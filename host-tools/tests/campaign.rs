@@ -104,6 +104,7 @@ fn mistakes_in_the_table_are_told_by_line_and_column() {
         ("22,\n", "22\n", "test.csv:4:9: 8 fields in this row: expected 9"),
         ("run,", "walk,", "test.csv:1:1: no column `run`"),
         ("t_s,", "time,", "test.csv:1:1: no column `t_s`"),
+        ("run,", "# wheel 3\nrun,", "test.csv:1:1: remarks: expected the names of the columns"),
         ("camera_c", "slip", "test.csv:1:8: a second column is named `slip`"),
     ];
     for (good, bad, message) in cases {
@@ -181,4 +182,34 @@ fn a_gross_error_is_told_from_other_units() {
     assert!(lifted.gross_error(0).is_some() && lifted.gross_error(1).is_none());
     let error = parse(&table(&["14.5", "13"]).replace("80.0", "-80.0"), &toml).expect_err("all of them");
     assert!(error.starts_with("test.csv:2:4: load_n of -80 N") && error.contains("a load is above 0"), "{error}");
+}
+
+/// A logger at ten times the rate of its sensors: what they read once stands there once, whatever the clock says.
+#[test]
+fn rows_that_only_repeat_their_sensors_are_left_out() {
+    let readings = ["0.2,80.0,11.0,4.2,0.006", "0.3,81.0,11.5,4.3,0.006", "0.3,80.0,11.0,4.2,0.006"];
+    let logged = |times: usize| {
+        let row = |place: usize| format!("a,{place},{}\n", readings[place / times]);
+        let rows: String = (0..readings.len() * times).map(row).collect();
+        parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), TOML).expect("a campaign")
+    };
+    let [once, often] = [logged(1), logged(10)];
+    assert!(once.of_repeats().is_none());
+    assert!(often.of_repeats().expect("told").starts_with("27 rows"));
+    assert_eq!(often.rows().iter().map(|row| row.line).collect::<Vec<_>>(), [2, 12, 22]);
+    assert_eq!(once.column("slip"), often.column("slip"));
+}
+
+/// Two numbers of few digits agree by chance, and another run is another wheel on another ground.
+#[test]
+fn rows_that_agree_in_little_or_stand_in_another_run_stay() {
+    let cases = [
+        "run,t_s,slip,sinkage_m\na,0,0.2,0.006\na,1,0.2,0.006\na,2,0.3,0.007\n",
+        "run,t_s,slip,load_n,sinkage_m\na,0,0.2,80,0.006\nb,0,0.2,80,0.006\nc,0,0.3,81,0.007\n",
+    ];
+    let toml = "name = \"T\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.15\nwidth_m = 0.1\n";
+    for csv in cases {
+        let campaign = parse(csv, toml).expect("a campaign");
+        assert_eq!((campaign.rows().len(), campaign.of_repeats()), (3, None));
+    }
 }

@@ -3,6 +3,7 @@
 pub mod atomic_write;
 pub mod campaign;
 pub mod frame_file;
+mod header;
 pub mod number_stream;
 pub mod outputs;
 pub mod rover_file;

@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use csv::{ReaderBuilder, StringRecord};
 
+use super::header::column_names;
 use crate::error::HostError;
 
 /// A row longer than this many bytes is refused: such a file is not a table.
@@ -47,17 +48,8 @@ impl NumberStream {
         let Some(row) = stream.next_row()? else {
             return Err(stream.error(1, 1, "the file is empty: expected a header with the names of the columns"));
         };
-        stream.header = row.fields.iter().map(|name| name.trim().to_owned()).collect();
-        for (place, name) in stream.header.iter().enumerate() {
-            let column = place as u64 + 1;
-            if name.is_empty() {
-                return Err(stream.error(row.line, column, "this column has no name: expected one in the header"));
-            }
-            if stream.header.iter().take(place).any(|other| other == name) {
-                let message = format!("a second column is named `{name}`: expected each name once");
-                return Err(stream.error(row.line, column, message));
-            }
-        }
+        let names = column_names(row.fields.iter());
+        stream.header = names.map_err(|wrong| stream.error(row.line, wrong.column, wrong.message))?;
         Ok(stream)
     }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator, WriterBuilder};
 
 use super::atomic_write::write_atomically;
+use super::header::column_names;
 use super::text::TextFile;
 use crate::error::HostError;
 
@@ -53,8 +54,8 @@ impl Table {
             let line = lines.of_record(&record);
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
             if table.header.is_empty() {
-                table.header = fields.iter().map(|name| name.trim().to_owned()).collect();
-                table.check_header(line)?;
+                let names = column_names(fields.iter().map(String::as_str));
+                table.header = names.map_err(|wrong| table.error(line, wrong.column, wrong.message))?;
             } else {
                 table.check_length(line, fields.len())?;
                 table.rows.push(Row { line, fields });
@@ -71,23 +72,6 @@ impl Table {
             let line = error.position().map_or(1, csv::Position::line);
             self.error(line, 1, format!("not a row of a CSV table: {error}"))
         })
-    }
-
-    fn check_header(&self, line: u64) -> Result<(), HostError> {
-        for (place, name) in self.header.iter().enumerate() {
-            let column = place as u64 + 1;
-            if name.is_empty() {
-                return Err(self.error(line, column, "this column has no name: expected one in the header"));
-            }
-            if self.header.iter().take(place).any(|other| other == name) {
-                return Err(self.error(
-                    line,
-                    column,
-                    format!("a second column is named `{name}`: expected each name once"),
-                ));
-            }
-        }
-        Ok(())
     }
 
     fn check_length(&self, line: u64, length: usize) -> Result<(), HostError> {

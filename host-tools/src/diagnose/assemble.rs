@@ -78,7 +78,7 @@ fn found_effect(winner: &Judged<'_>) -> FoundEffect {
         id: winner.id().to_owned(),
         form: winner.effect().map_or("", |effect| effect.form.name).to_owned(),
         parameters: parameters(&winner.trial),
-        gain_per_row: winner.gain_per_row,
+        gain_per_row: winner.held_out.per_row,
         p_value: winner.p_value,
     }
 }
@@ -102,7 +102,7 @@ fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
     let winner = first.map_or("", |found| found.winner.id());
     let next = step.ranking.iter().find(|judged| judged.id() != winner)?;
     let form = next.effect().map_or("", |effect| effect.form.name).to_owned();
-    Some(RunnerUp { id: next.id().to_owned(), form, gain_per_row: next.gain_per_row })
+    Some(RunnerUp { id: next.id().to_owned(), form, gain_per_row: next.held_out.per_row })
 }
 
 fn unexplained(selected: &Selected<'_>) -> Vec<Unexplained> {
@@ -188,8 +188,8 @@ fn listed(selected: &Selected<'_>) -> Vec<Candidate> {
             step: number + 1,
             id: judged.id().to_owned(),
             form: judged.effect().map_or("", |effect| effect.form.name).to_owned(),
-            gain_per_row: judged.gain_per_row,
-            gain_std: judged.gain_std,
+            gain_per_row: judged.held_out.per_row,
+            gain_std: judged.held_out.std,
             p_value: Some(judged.p_value),
             parameters: parameters(&judged.trial),
         };

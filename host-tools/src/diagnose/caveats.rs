@@ -24,10 +24,15 @@ const SET_LOAD: &str = "The load is the same number in every row: it is what was
 const NO_LOAD: &str = "No load: the sinkage stands in for it, so that the sinkage is not judged itself. What makes a wheel sink deeper \
                        under the same load cannot be told from more load but through the forces, and load-stiffening, \
                        guide-friction and errors of the load are not looked for: what they do may stand under another effect.";
+/// Said where rows of a run are not independent.
+const REMEMBERS: &str = "What is left of a channel goes together from row to row along a run: its noise is not independent, or a law is \
+                         missing. Rows then tell less than they seem to, and standard deviations of parameters are stated too \
+                         narrow; an effect is named only where runs that no fit knew bear it out beyond the chance of so many runs.";
 
 /// The caveats, sentence by sentence: those of the campaign's own notes, then what the data cannot decide.
 pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
     let mut said = campaign.notes.clone();
+    said.extend(campaign.of_repeats());
     let runs = measurements.runs.len();
     if runs < 5 {
         said.push(format!("Only {runs} runs: what is found rests on few independent observations."));
@@ -71,6 +76,9 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
              and what it lacks besides is not known.",
             dispersion.sqrt()
         ));
+    }
+    if selected.model().fit.remembers() {
+        said.push(REMEMBERS.to_owned());
     }
     said.extend(selected.found.iter().flat_map(|found| at_an_end(&found.winner)));
     said.extend(untold(selected));

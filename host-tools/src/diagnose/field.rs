@@ -3,7 +3,7 @@
 use super::fit::HeldOutRun;
 use super::selection::{dispersion, enough, is_misfit, predicts_better, worth};
 use super::trial::{Bench, Glance, Trial};
-use super::unseen_runs::{gain_over, held_out};
+use super::unseen_runs::{HeldOutGain, held_out};
 
 /// Times the distance at which candidates are in question from which a few steps will not bring one near.
 const FAR_BEHIND: f64 = 2.0;
@@ -65,7 +65,7 @@ impl<'a> Field<'a> {
         let Some((before, predicted)) = predicted.split_first() else { return self.trials.first() };
         let all = || self.trials.iter().zip(predicted);
         let leader = all().max_by(|a, b| worth(a.0).total_cmp(&worth(b.0)))?;
-        let gain = |runs: &[HeldOutRun]| gain_over(before, runs).0;
+        let gain = |runs: &[HeldOutRun]| HeldOutGain::over(before, runs).per_row;
         let better = all().filter(|(_, runs)| self.misfit || predicts_better(runs, leader.1));
         let best = better.max_by(|a, b| gain(a.1).total_cmp(&gain(b.1)));
         Some(best.unwrap_or(leader).0)

@@ -172,8 +172,8 @@ pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
     let winner = step.ranking[place].clone();
     // Both must leave it open: the likelihood of the runs that were seen, and the density of those that were not.
     let is_near = |other: &Judged<'_>| {
-        let errors = winner.gain_std.hypot(other.gain_std);
-        other.score > winner.score - TELLS_APART && other.gain_per_row > winner.gain_per_row - errors
+        let errors = winner.held_out.std.hypot(other.held_out.std);
+        other.score > winner.score - TELLS_APART && other.held_out.per_row > winner.held_out.per_row - errors
     };
     let near = |other: &&Judged<'_>| other.id() != winner.id() && is_near(other);
     let ambiguous_with = step.ranking.iter().filter(near).take(MOST_ALTERNATIVES).map(Judged::id).collect();

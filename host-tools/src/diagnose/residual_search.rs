@@ -10,7 +10,7 @@ use super::regressors::{Regressor, columns, products};
 use super::selection::{PARAMETER_COST, TELLS_APART};
 use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
-use super::unseen_runs::gain_over;
+use super::unseen_runs::HeldOutGain;
 
 /// A channel's dependence on a column.
 #[derive(Debug, Clone)]
@@ -29,7 +29,8 @@ pub struct Structure {
     pub score: f64,
     /// Share of the channel's residual that follows it.
     pub share_of_variance: f64,
-    /// The chance of such a gain, over all channels and columns that were tried.
+    /// The chance of such a gain, over all channels and columns that were tried; where noise remembers, of that on unseen runs if
+    /// it is larger.
     pub p_value: f64,
     /// Gain in log predictive density on runs that the fit did not see, nats a row.
     pub gain_per_row: Option<f64>,
@@ -168,10 +169,13 @@ fn second_look(
         let fit = linearised.fit_with(&structure.added).ok()?;
         let gain = gain(trial, &nothing, &fit).min(gain_at_its_scales(bench, trial, &fit)?) / dispersion;
         let after = linearised.held_out(&structure.added, &fit, runs)?;
+        let held_out = HeldOutGain::over(&before, &after);
+        let as_independent = chance_of(gain, terms, observations(bench, &nothing, structure.channel), tried);
+        let as_runs = over_all(held_out.chance(), tried);
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
-            p_value: chance_of(gain, terms, observations(bench, &nothing, structure.channel), tried),
-            gain_per_row: Some(gain_over(&before, &after).0),
+            p_value: if fit.remembers() { as_independent.max(as_runs) } else { as_independent },
+            gain_per_row: Some(held_out.per_row),
             ..structure
         })
     };

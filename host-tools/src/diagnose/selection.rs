@@ -8,7 +8,7 @@ use super::chance::over_all;
 use super::fit::HeldOutRun;
 use super::specification::EffectForm;
 use super::trial::{Bench, Glance, Trial};
-use super::unseen_runs::{gain_over, held_out, nearly_held_out};
+use super::unseen_runs::{HeldOutGain, held_out, nearly_held_out};
 
 /// The chance, over all candidates, below which a gain is taken for an effect: less than half of the false alarms that are
 /// allowed, for they come of structure that no effect explains as well.
@@ -44,12 +44,10 @@ pub struct Judged<'a> {
     pub trial: Trial<'a>,
     /// What it gains in ln likelihood over the model without, in units of the dispersion, less the cost of its parameters.
     pub score: f64,
-    /// The chance of such a gain, over all candidates.
+    /// The chance of such a gain, over all candidates; where noise remembers, of that on unseen runs if it is larger.
     pub p_value: f64,
-    /// Gain in log predictive density on runs that the fits did not see, nats a row.
-    pub gain_per_row: f64,
-    /// One standard deviation of that, over runs.
-    pub gain_std: f64,
+    /// The gain on runs that the fits did not see.
+    pub held_out: HeldOutGain,
     /// Standard errors by which that gain must exceed nothing.
     pub errors_wanted: f64,
 }
@@ -68,7 +66,7 @@ impl Judged<'_> {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
         let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
-        self.p_value < SIGNIFICANT && self.gain_per_row > errors * self.gain_std && !self.trial.is_out_of_bounds()
+        self.p_value < SIGNIFICANT && self.held_out.exceeds(errors) && !self.trial.is_out_of_bounds()
     }
 
     /// Whether chance does not explain what it gains, whether or not it may be the effect.
@@ -116,6 +114,8 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
     let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
     let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
     let enough = enough(&trials, dispersion);
+    // What a second effect does along a run is no memory of noise.
+    let remembers = |trial: &Trial<'_>| trial.fit.remembers() && ahead.iter().all(|both| both.fit.remembers());
     let judge = |(place, trial): (usize, Trial<'a>)| {
         let in_question = place < FINISHED && worth(&trial) > enough;
         let (before, after) = if in_question {
@@ -123,10 +123,12 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
         } else {
             (&before.nearly, nearly_held_out(bench, &trial))
         };
-        let (gain_per_row, gain_std) = gain_over(before, &after);
+        let held_out = HeldOutGain::over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
-        let p_value = family_chance(gain(&trial), trial.added_parameters(), tried);
-        (Judged { score, p_value, gain_per_row, gain_std, errors_wanted, trial }, after)
+        let as_independent = family_chance(gain(&trial), trial.added_parameters(), tried);
+        let as_runs = over_all(held_out.chance(), tried);
+        let p_value = if remembers(&trial) { as_independent.max(as_runs) } else { as_independent };
+        (Judged { score, p_value, held_out, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
     let mut ranking: Vec<Judged<'a>> = Vec::new();
@@ -153,10 +155,10 @@ fn in_order<'a>(mut judged: Vec<(Judged<'a>, Vec<HeldOutRun>)>, misfit: bool) ->
     let leader = significant.max_by(|a, b| a.0.score.total_cmp(&b.0.score)).map(|(_, runs)| runs.clone());
     let place = |(judged, runs): &(Judged<'a>, Vec<HeldOutRun>)| match &leader {
         Some(leader) if judged.is_significant() && (misfit || predicts_better(runs, leader)) => {
-            (2, judged.gain_per_row)
+            (2, judged.held_out.per_row)
         }
         Some(_) if judged.is_significant() => (1, judged.score),
-        _ => (0, judged.gain_per_row),
+        _ => (0, judged.held_out.per_row),
     };
     judged.sort_by(|a, b| place(b).0.cmp(&place(a).0).then(place(b).1.total_cmp(&place(a).1)));
     judged.into_iter().map(|(judged, _)| judged).collect()
@@ -164,8 +166,7 @@ fn in_order<'a>(mut judged: Vec<(Judged<'a>, Vec<HeldOutRun>)>, misfit: bool) ->
 
 /// Whether runs that were not seen are predicted better by more than one standard error over runs.
 pub fn predicts_better(runs: &[HeldOutRun], than: &[HeldOutRun]) -> bool {
-    let (gain, std) = gain_over(than, runs);
-    gain > std
+    HeldOutGain::over(than, runs).exceeds(1.0)
 }
 
 /// The base at its best: a candidate that changes nothing may still have found a better place for the others. Where that leaves

@@ -8,7 +8,7 @@ use super::outcome::{DiagnoseOptions, declared_model, measured};
 use super::selection::{SIGNIFICANT, family_chance};
 use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
-use super::unseen_runs::{gain_over, held_out};
+use super::unseen_runs::{HeldOutGain, held_out};
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
 
@@ -41,7 +41,7 @@ pub fn told(campaign: &Campaign, ids: &[&str]) -> Result<Vec<Option<Told>>, Host
         let without = others.into_iter().try_fold(declared.clone(), |trial, id| add(&bench, &trial, id))?;
         let with = add(&bench, &without, last)?;
         let gain = (with.log_posterior() - without.log_posterior()) / with.fit.dispersion.max(1.0);
-        let (gain_per_row, _) = gain_over(&held_out(&bench, &without), &held_out(&bench, &with));
+        let gain_per_row = HeldOutGain::over(&held_out(&bench, &without), &held_out(&bench, &with)).per_row;
         Some(Told { p_value: family_chance(gain, with.added_parameters(), 1), gain_per_row })
     };
     Ok(ids.iter().map(judge).collect())

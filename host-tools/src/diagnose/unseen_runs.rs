@@ -1,6 +1,7 @@
 //! What a model says of runs that it has not seen, and what one model says better than another.
 
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::fit::HeldOutRun;
 use super::trial::{Bench, Trial};
@@ -41,16 +42,64 @@ pub fn held_out(bench: &Bench<'_>, trial: &Trial<'_>) -> Vec<HeldOutRun> {
     predicted
 }
 
-/// Mean gain a row, and its standard deviation over runs. Runs for which the model before had no answer count for nothing; a
-/// model without an answer where that one had one has lost.
-pub fn gain_over(before: &[HeldOutRun], after: &[HeldOutRun]) -> (f64, f64) {
-    let answered = before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
-    let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
-    let Some(gains) = gains else { return (f64::NEG_INFINITY, 0.0) };
-    let rows: usize = before.iter().map(|run| run.rows.len()).sum();
-    let count = gains.len() as f64;
-    let mean = gains.iter().sum::<f64>() / count.max(1.0);
-    let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    let per_row = count / (rows.max(1) as f64);
-    (mean * per_row, (variance / count.max(1.0)).sqrt() * per_row)
+/// What one model says better than another of runs that neither has seen, in log predictive density.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldOutGain {
+    /// Mean gain a row, in nats.
+    pub per_row: f64,
+    /// One standard deviation of that, over runs.
+    pub std: f64,
+    /// Runs of which both had an answer.
+    pub runs: usize,
+}
+
+impl HeldOutGain {
+    /// Of a model that has no answer where the other had one.
+    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0, runs: 0 };
+
+    /// Of the second model over the first. Runs for which the first had no answer count for nothing; a second without an answer
+    /// where the first had one has lost.
+    pub fn over(before: &[HeldOutRun], after: &[HeldOutRun]) -> Self {
+        let answered =
+            before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
+        let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
+        let Some(gains) = gains else { return Self::LOST };
+        let rows: usize = before.iter().map(|run| run.rows.len()).sum();
+        let count = gains.len() as f64;
+        let mean = gains.iter().sum::<f64>() / count.max(1.0);
+        let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+        let per_row = count / (rows.max(1) as f64);
+        Self { per_row: mean * per_row, std: (variance / count.max(1.0)).sqrt() * per_row, runs: gains.len() }
+    }
+
+    /// Whether it is more than so many standard errors.
+    pub fn exceeds(&self, errors: f64) -> bool {
+        self.per_row > errors * self.std
+    }
+
+    /// The chance that runs which are no better predicted scatter to such a mean (Student's t, one-sided): nothing is taken of how
+    /// the rows of a run hang together. With fewer than two runs anything may be chance.
+    pub fn chance(&self) -> f64 {
+        let freedom = self.runs.saturating_sub(1) as f64;
+        let law = StudentsT::new(0.0, 1.0, freedom);
+        law.map_or(
+            1.0,
+            |law| if self.exceeds(0.0) { law.sf(self.per_row / self.std.max(f64::MIN_POSITIVE)) } else { 1.0 },
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Student's t of 2.262 has a chance of 0.025 with 9 degrees of freedom.
+    #[test]
+    fn a_chance_is_that_of_students_t() {
+        let gain = HeldOutGain { per_row: 2.262, std: 1.0, runs: 10 };
+        assert!((gain.chance() - 0.025).abs() < 1e-4);
+        for nothing in [HeldOutGain { runs: 1, ..gain }, HeldOutGain { per_row: -1.0, ..gain }, HeldOutGain::LOST] {
+            assert_eq!(nothing.chance(), 1.0);
+        }
+    }
 }

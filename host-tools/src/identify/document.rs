@@ -151,6 +151,11 @@ impl Document {
         Self::new(method, campaign, noise, runs)
     }
 
+    /// What is to be known of all runs.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
     /// The runs.
     pub fn runs(&self) -> &[RunDocument] {
         &self.runs
@@ -163,7 +168,7 @@ impl Document {
 
     fn new(method: Method, campaign: &Campaign, noise: &SensorNoise, runs: Vec<RunDocument>) -> Self {
         let declared = campaign.declared.ids();
-        let mut warnings = Vec::new();
+        let mut warnings: Vec<String> = campaign.of_repeats().into_iter().collect();
         if !declared.is_empty() && !method.knows_effects() {
             let effects = declared.join(", ");
             warnings.push(format!("declared effects that the method {} does not know: {effects}", method.name()));

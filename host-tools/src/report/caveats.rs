@@ -19,6 +19,7 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
     [
         Some(provenance(&findings.campaign)),
         noise(findings),
+        findings.campaign.of_repeats(),
         one_load(findings),
         widened(findings),
         cannot_be_told(findings),

@@ -4,7 +4,7 @@ use crate::compare::Parameter;
 use crate::identify::{Document, ParameterDocument, RunDocument, SoilDocument};
 
 use super::draw::number;
-use super::terminal::{align_right, plain_table};
+use super::terminal::{align_right, plain_table, wrapped};
 
 /// What the marks mean.
 const LEGEND: &str = "value ± one standard deviation; ? = cannot be told from these data; ( ) = taken as given";
@@ -18,7 +18,12 @@ pub fn identified(document: &Document) -> String {
         table.add_row([run.run.clone(), cohesion, friction, modulus, remark(run)]);
     }
     align_right(&mut table);
-    format!("{table}\n  {LEGEND}")
+    let mut text = format!("{table}\n  {LEGEND}");
+    for warning in document.warnings() {
+        text.push('\n');
+        text += wrapped("• ", warning).trim_end();
+    }
+    text
 }
 
 /// Why there is no estimate, or none that can be relied on as the method states it.

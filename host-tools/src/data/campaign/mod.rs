@@ -9,6 +9,7 @@ mod fingerprint;
 mod gross_error;
 mod ground;
 mod noise;
+mod repeats;
 
 use std::path::{Path, PathBuf};
 
@@ -59,6 +60,7 @@ pub struct Campaign {
     header: Vec<String>,
     rows: Vec<RowId>,
     columns: Vec<Measured>,
+    repeats: usize,
     plausible: Plausible,
 }
 
@@ -110,8 +112,9 @@ impl Campaign {
 
     fn assemble(path: &Path, table: &Table, toml: &TomlFile) -> Result<Self, HostError> {
         let about = about::About::read(toml)?;
-        let rows = row_ids(table)?;
-        let columns = numeric_columns(table)?;
+        let mut rows = row_ids(table)?;
+        let mut columns = numeric_columns(table)?;
+        let repeats = repeats::take_out(&mut rows, &mut columns);
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let mut campaign = Self {
             path: path.to_path_buf(),
@@ -128,6 +131,7 @@ impl Campaign {
             header: table.header().to_vec(),
             rows,
             columns,
+            repeats,
             plausible: Plausible::unknown(),
         };
         if campaign.rows.is_empty() {
@@ -138,7 +142,18 @@ impl Campaign {
         Ok(campaign)
     }
 
-    /// The rows, in the order of the file.
+    /// What is said where rows of the file were taken out that only repeat what the sensors had said before.
+    pub fn of_repeats(&self) -> Option<String> {
+        (self.repeats > 0).then(|| {
+            format!(
+                "{} rows say in every channel of the wheel's sensors what the row before them says: the logger writes faster \
+                 than the sensors speak. They are no new readings, and are left out.",
+                self.repeats
+            )
+        })
+    }
+
+    /// The rows, in the order of the file; without those that repeat the one before, where there are many.
     pub fn rows(&self) -> &[RowId] {
         &self.rows
     }

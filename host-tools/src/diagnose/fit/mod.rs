@@ -22,6 +22,7 @@ mod levenberg_marquardt;
 mod leverage;
 mod likelihood;
 mod measured_latents;
+mod memory;
 mod model;
 mod multistart;
 mod normal_equations;

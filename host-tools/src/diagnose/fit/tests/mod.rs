@@ -5,6 +5,7 @@ mod dense;
 mod errors_in_variables;
 mod held_out;
 mod linear;
+mod memory;
 mod missing;
 mod offsets;
 mod robust;
