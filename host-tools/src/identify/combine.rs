@@ -1,7 +1,8 @@
 //! Many instants of a run to few states: for the networks to those of at most six wheels.
 //!
 //! The rule. As many rows as there may be states are taken as they are, each a wheel. More are cut into groups of like slip
-//! and load, and each group's mean is one wheel, its noise the smaller by the root of the number of rows. So six wheels in
+//! and load, and each group's mean is one wheel, its noise the smaller by the root of the number of rows (of
+//! those that are independent: see `memory.rs`). So six wheels in
 //! steady driving become six means over all instants, and one wheel whose slip changes becomes means along its way.
 //!
 //! The cut. Beginning with one group of all rows, the cut that most reduces the scatter within groups is made, until
@@ -13,6 +14,7 @@
 
 use kapvik_firmware::wheel_state::WheelState;
 
+use super::memory::RowsPerReading;
 use super::selection::{Bounds, mean_noise};
 use super::spread::Spread;
 
@@ -20,6 +22,8 @@ use super::spread::Spread;
 pub const ALIKE_SLIP: f64 = 0.1;
 /// Share of the load; forces grow nearly in proportion to it, so it may differ more than the slip.
 pub const ALIKE_LOAD: f64 = 0.3;
+/// Groups that are fine enough for rows to be steady in most.
+const FINE_GROUPS: usize = 64;
 /// A group scatters more than its noise explains above this ratio of standard deviations. Noise alone exceeds it in one
 /// or two of a thousand groups of seven, and more rarely in greater ones.
 const BEYOND_NOISE: f64 = 1.75;
@@ -27,6 +31,8 @@ const BEYOND_NOISE: f64 = 1.75;
 /// What was measured in one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
+    /// Time within the run, s.
+    pub t_s: f64,
     /// Slip i.
     pub slip: f64,
     /// Load W, N.
@@ -61,6 +67,8 @@ pub struct MeanState {
     pub rows: usize,
     /// Rows in the mean of the sinkage.
     pub sinkage_rows: usize,
+    /// How many of the run's rows tell as much as one by itself.
+    pub rows_per_reading: RowsPerReading,
     /// How their true slips and loads scatter about the mean.
     pub spread: Spread,
 }
@@ -79,8 +87,18 @@ pub fn combine(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) 
     let groups = groups(samples, most, &axes);
     let mut states: Vec<MeanState> =
         groups.iter().map(|group| MeanState::of(group, samples, [slip_std, load_std_n])).collect();
+    let rows_per_reading = rows_per_reading(samples, &axes);
+    states.iter_mut().for_each(|state| state.rows_per_reading = rows_per_reading);
     states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
     states
+}
+
+/// How many rows tell as much as one by itself, from groups so fine that slip and load scatter by their noise alone in most.
+fn rows_per_reading(samples: &[Sample], axes: &[Axis; 2]) -> RowsPerReading {
+    let noise = [axes[0].noise, axes[1].noise];
+    let groups = groups(samples, FINE_GROUPS, axes).into_iter().map(|group| group.samples);
+    let steady: Vec<Vec<Sample>> = groups.filter(|rows| Spread::of(rows, noise).is_none()).collect();
+    RowsPerReading::of(&steady)
 }
 
 /// The groups whose means are the states; none is empty.
@@ -102,7 +120,13 @@ fn groups(samples: &[Sample], most: usize, axes: &[Axis; 2]) -> Vec<Group> {
 
 impl MeanState {
     fn of_row(sample: &Sample) -> Self {
-        Self { mean: *sample, rows: 1, sinkage_rows: usize::from(sample.sinkage_m.is_some()), spread: Spread::NONE }
+        Self {
+            mean: *sample,
+            rows: 1,
+            sinkage_rows: usize::from(sample.sinkage_m.is_some()),
+            rows_per_reading: RowsPerReading::INDEPENDENT,
+            spread: Spread::NONE,
+        }
     }
 
     /// The mean of a group of all the samples, `noise` being that of slip and load.
@@ -112,6 +136,7 @@ impl MeanState {
         let errors = mean_noise(&group.bounds, all, rows.len(), noise);
         Self {
             mean: Sample {
+                t_s: mean(rows.iter().map(|sample| sample.t_s)),
                 slip: mean(rows.iter().map(|sample| sample.slip)) - errors[0],
                 load_n: mean(rows.iter().map(|sample| sample.load_n)) - errors[1],
                 drawbar_pull_n: mean(rows.iter().map(|sample| sample.drawbar_pull_n)),
@@ -120,6 +145,7 @@ impl MeanState {
             },
             rows: rows.len(),
             sinkage_rows: sinkages.len(),
+            rows_per_reading: RowsPerReading::INDEPENDENT,
             spread: Spread::of(rows, noise),
         }
     }
@@ -203,7 +229,7 @@ mod tests {
     use super::*;
 
     fn sample(slip: f64, load_n: f64, drawbar_pull_n: f64) -> Sample {
-        Sample { slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None }
+        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None }
     }
 
     /// Numbers that scatter like a sensor: a fixed sequence of −1, 0 and 1 with mean zero over six.

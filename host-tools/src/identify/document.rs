@@ -52,6 +52,9 @@ pub struct RunDocument {
     /// Why the estimate is none that a soil can be; then nothing in it is called identifiable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_soil: Option<String>,
+    /// Which channels' noise is not independent from row to row, and how much less rows tell for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remembers: Option<String>,
     /// Which intervals are wider than the networks state them, and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub widened: Option<String>,
@@ -238,6 +241,7 @@ impl RunDocument {
             rows_used: states.rows_used,
             rows_left_out: states.rows_left_out.iter().map(left_out).collect(),
             no_soil: None,
+            remembers: states.states.first().and_then(|state| state.rows_per_reading.in_words()),
             widened: None,
             fit: None,
             networks: None,

@@ -11,6 +11,7 @@ mod document;
 mod each_run;
 mod layout;
 mod logarithmic;
+mod memory;
 pub mod method;
 mod network;
 mod rehearsal;

@@ -74,6 +74,7 @@ fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, 
     }
     let or_zero = |channel| value(channel).unwrap_or(0.0);
     let sample = Sample {
+        t_s: campaign.rows()[row].t_s,
         slip: or_zero(Channel::Slip),
         load_n: or_zero(Channel::Load),
         drawbar_pull_n: or_zero(Channel::DrawbarPull),

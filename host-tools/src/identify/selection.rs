@@ -62,7 +62,7 @@ mod tests {
     const STD: f64 = 0.01;
 
     fn sample(slip: f64) -> Sample {
-        Sample { slip, load_n: 65.0, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None }
+        Sample { t_s: 0.0, slip, load_n: 65.0, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None }
     }
 
     /// Rows with slips from 0 to 0.1, with noise, cut at 0.05: what is taken for the mean noise below and above, and the truth.

@@ -76,14 +76,16 @@ impl SensorNoise {
 
     /// The noise of a mean state.
     pub fn of_mean(&self, state: &MeanState) -> WheelNoise<f64> {
-        let share = |rows: usize| 1.0 / (rows.max(1) as f64).sqrt();
-        let (all, sinkage) = (share(state.rows), share(state.sinkage_rows));
+        let per_reading = &state.rows_per_reading;
+        let mean_of = |one: ChannelStd, rows: usize, per_reading: f64| {
+            one.std * (per_reading / rows.max(1) as f64).min(1.0).sqrt()
+        };
         WheelNoise {
-            drawbar_pull_n: self.drawbar_pull.std * all,
-            load_n: self.load.std * all,
-            torque_nm: self.torque.std * all,
-            slip: self.slip.std * all,
-            sinkage_m: self.sinkage.std * sinkage,
+            drawbar_pull_n: mean_of(self.drawbar_pull, state.rows, per_reading.drawbar_pull),
+            load_n: mean_of(self.load, state.rows, per_reading.load),
+            torque_nm: mean_of(self.torque, state.rows, per_reading.torque),
+            slip: mean_of(self.slip, state.rows, per_reading.slip),
+            sinkage_m: mean_of(self.sinkage, state.sinkage_rows, per_reading.sinkage),
         }
     }
 }

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     fn sample(slip: f64, load_n: f64) -> Sample {
-        Sample { slip, load_n, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None }
+        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None }
     }
 
     #[test]
