@@ -38,12 +38,30 @@ const KEYS: [&str; 3] = ["cohesion_pa", "friction_angle_rad", "shear_modulus_m"]
 struct Plan {
     states: Vec<(f64, f64)>,
     rows: usize,
+    /// Share of a state's noise that its next row keeps.
+    kept: f64,
+}
+
+/// The noise of a state in each channel, in standard deviations.
+#[derive(Clone, Default)]
+struct Remembered {
+    noise: [Option<f64>; 5],
+    channel: usize,
+}
+
+impl Remembered {
+    /// The next channel's noise, which keeps a share of what it was a row ago.
+    fn next(&mut self, kept: f64, fresh: f64) -> f64 {
+        let noise = &mut self.noise[self.channel % 5];
+        self.channel += 1;
+        *noise.insert(noise.map_or(fresh, |last| kept * last + (1.0 - kept * kept).sqrt() * fresh))
+    }
 }
 
 impl Plan {
     fn of(slips: &[f64], loads_n: &[f64], rows: usize) -> Self {
         let states = slips.iter().flat_map(|slip| loads_n.iter().map(move |load_n| (*slip, *load_n)));
-        Self { states: states.collect(), rows }
+        Self { states: states.collect(), rows, kept: 0.0 }
     }
 
     /// A run on each of `soils` soils that carry the wheel, and their soils.
@@ -59,8 +77,10 @@ impl Plan {
                 (state.sinkage_m? <= prior::DEEPEST * wheel.radius_m).then_some(state)
             };
             let Some(truths) = self.states.iter().map(truth).collect::<Option<Vec<_>>>() else { continue };
-            for (row, truth) in (0..self.rows).flat_map(|_| &truths).enumerate() {
-                let seen = truth.blurred(&NOISE, || StandardNormal.sample(&mut random));
+            let mut noises = vec![Remembered::default(); truths.len()];
+            for row in 0..self.rows * truths.len() {
+                let (truth, noise) = (&truths[row % truths.len()], &mut noises[row % truths.len()]);
+                let seen = truth.blurred(&NOISE, || noise.next(self.kept, StandardNormal.sample(&mut random)));
                 let WheelState { slip, load_n, drawbar_pull_n, torque_nm, sinkage_m } = seen;
                 let sinkage_m = sinkage_m.expect("simulated");
                 writeln!(
@@ -130,4 +150,11 @@ fn six_wheels_as_in_training_are_left_as_the_networks_state_them() {
 #[test]
 fn one_wheel_at_one_slip() {
     check(&Plan::of(&[0.4], &[90.0], 30), 100, 88);
+}
+
+/// Of a hundred rows a state, whose noise keeps nine tenths from row to row, five are independent.
+#[test]
+fn rows_that_remember_each_other() {
+    let plan = Plan::of(&[0.05, 0.16, 0.27, 0.38, 0.49, 0.60], &[45.0, 65.0, 90.0], 100);
+    check(&Plan { kept: 0.9, ..plan }, 50, 42);
 }
