@@ -202,6 +202,15 @@ fn rows_that_only_repeat_their_sensors_are_left_out() {
     assert_eq!(once.column("slip"), often.column("slip"));
 }
 
+/// The same with two wheels at each instant.
+#[test]
+fn a_wheel_that_repeats_itself_beside_another_is_left_out() {
+    let wheels = ["0.2,80.0,11.0,4.2,0.006", "0.3,81.0,11.5,4.3,0.006"];
+    let rows: String = (0..40).map(|row| format!("a,{},{}\n", row / 2, wheels[row % 2])).collect();
+    let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
+    assert_eq!(campaign.expect("a campaign").rows().len(), 2);
+}
+
 /// Two numbers of few digits agree by chance, and another run is another wheel on another ground.
 #[test]
 fn rows_that_agree_in_little_or_stand_in_another_run_stay() {

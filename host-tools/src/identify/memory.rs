@@ -14,6 +14,9 @@ use super::combine::Sample;
 const FEWEST: usize = 8;
 /// Standard errors by which neighbours must go together.
 const BEYOND_CHANCE: f64 = 2.5;
+/// Lags that are summed at most: what is remembered for longer is hardly told from what is true.
+const MOST_LAGS: usize = 2000;
+
 /// For each channel, how many rows tell as much as an independent one: 1 or more.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowsPerReading {
@@ -129,7 +132,7 @@ fn rows_per_reading(mut series: Vec<Vec<f64>>) -> f64 {
         return 1.0;
     }
     let (mut sum, mut lags) = (first / variance, 1);
-    while lags + 2 < longest / 2 {
+    while lags + 2 < MOST_LAGS.min(longest / 2) {
         let both = (covariance(lags + 1).0 + covariance(lags + 2).0) / variance;
         if both <= 0.0 {
             break;

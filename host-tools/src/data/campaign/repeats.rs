@@ -5,14 +5,13 @@ use super::{Channel, Measured, RowId};
 /// What the sensors of a wheel read. Clocks and ways go on while these say nothing new.
 const SENSED: [Channel; 6] =
     [Channel::Slip, Channel::Load, Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce];
-/// Fewest channels that have to vary in a campaign for a row that is like another to be one: two or three numbers with few
-/// digits agree by chance.
+/// Fewest channels that vary in a campaign and that have to agree: one or two numbers of few digits do so by chance.
 const FEWEST: usize = 3;
 /// Share of the rows from which repeats are a logger's habit. Fewer are chance, or cost nothing.
 const HABIT: f64 = 0.1;
 
-/// Takes rows out that say in every such channel what the row before them in the same run says, where a campaign has many, and
-/// tells how many they were.
+/// Takes rows out that say in every such channel what the row before them in the same run says, or the same wheel an instant
+/// before, where a campaign has many, and tells how many they were.
 pub(super) fn take_out(rows: &mut Vec<RowId>, columns: &mut [Measured]) -> usize {
     let repeats = repeats(rows, columns);
     let count = repeats.iter().filter(|repeat| **repeat).count();
@@ -29,15 +28,29 @@ fn keep<T>(all: &mut Vec<T>, repeats: &[bool]) {
     all.retain(|_| !repeats.next().is_some_and(|repeat| *repeat));
 }
 
-/// Of each row whether it says the same as the one before.
+/// Of each row whether it says the same as an earlier one.
 fn repeats(rows: &[RowId], columns: &[Measured]) -> Vec<bool> {
     let is_sensed = |column: &&Measured| SENSED.iter().any(|channel| channel.name() == column.name);
     let varies = |column: &&Measured| column.values.windows(2).any(|pair| pair[0] != pair[1]);
     let varying: Vec<&Measured> = columns.iter().filter(is_sensed).filter(varies).collect();
-    let is_repeat = |row: usize| {
-        let same = |column: &&Measured| column.values[row - 1] == column.values[row];
+    let says_same = |row: usize, earlier: usize| {
+        let same = |column: &&Measured| column.values[earlier] == column.values[row];
         let said = varying.iter().filter(|column| column.values[row].is_some()).count();
-        said >= FEWEST && rows[row - 1].run == rows[row].run && varying.iter().all(same)
+        said >= FEWEST && rows[earlier].run == rows[row].run && varying.iter().all(same)
     };
-    (0..rows.len()).map(|row| row > 0 && is_repeat(row)).collect()
+    let instant_before = an_instant_before(rows);
+    let is_repeat =
+        |row: usize| [row.checked_sub(1), instant_before[row]].into_iter().flatten().any(|one| says_same(row, one));
+    (0..rows.len()).map(is_repeat).collect()
+}
+
+/// Of each row the one in its place among the rows of the instant before it; none where that has fewer.
+fn an_instant_before(rows: &[RowId]) -> Vec<Option<usize>> {
+    let mut before: Vec<Option<usize>> = Vec::with_capacity(rows.len());
+    let mut last = 0..0;
+    for instant in rows.chunk_by(|one, other| one.run == other.run && one.t_s == other.t_s) {
+        before.extend((0..instant.len()).map(|place| Some(last.start + place).filter(|row| last.contains(row))));
+        last = before.len() - instant.len()..before.len();
+    }
+    before
 }
