@@ -171,10 +171,9 @@ fn second_look(
         let after = linearised.held_out(&structure.added, &fit, runs)?;
         let held_out = HeldOutGain::over(&before, &after);
         let as_independent = chance_of(gain, terms, observations(bench, &nothing, structure.channel), tried);
-        let as_runs = over_all(held_out.chance(), tried);
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
-            p_value: if fit.remembers() { as_independent.max(as_runs) } else { as_independent },
+            p_value: held_out.chance_over_all(as_independent, fit.remembers(), tried),
             gain_per_row: Some(held_out.per_row),
             ..structure
         })

@@ -126,8 +126,7 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
         let held_out = HeldOutGain::over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
         let as_independent = family_chance(gain(&trial), trial.added_parameters(), tried);
-        let as_runs = over_all(held_out.chance(), tried);
-        let p_value = if remembers(&trial) { as_independent.max(as_runs) } else { as_independent };
+        let p_value = held_out.chance_over_all(as_independent, remembers(&trial), tried);
         (Judged { score, p_value, held_out, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);

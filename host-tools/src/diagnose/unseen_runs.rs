@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use super::chance::over_all;
 use super::fit::HeldOutRun;
 use super::trial::{Bench, Trial};
 
@@ -77,9 +78,15 @@ impl HeldOutGain {
         self.per_row > errors * self.std
     }
 
+    /// The chance, over all that were `tried`, of what is gained: that of rows which are independent, and where noise remembers, that
+    /// of runs if it is larger.
+    pub fn chance_over_all(&self, as_independent: f64, remembers: bool, tried: usize) -> f64 {
+        if remembers { as_independent.max(over_all(self.chance(), tried)) } else { as_independent }
+    }
+
     /// The chance that runs which are no better predicted scatter to such a mean (Student's t, one-sided): nothing is taken of how
     /// the rows of a run hang together. With fewer than two runs anything may be chance.
-    pub fn chance(&self) -> f64 {
+    fn chance(&self) -> f64 {
         let freedom = self.runs.saturating_sub(1) as f64;
         let law = StudentsT::new(0.0, 1.0, freedom);
         law.map_or(

@@ -84,26 +84,26 @@ pub fn combine(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) 
         Axis { of: |sample| sample.slip, unit: ALIKE_SLIP, noise: slip_std },
         Axis { of: |sample| sample.load_n, unit: ALIKE_LOAD * mean_load, noise: load_std_n },
     ];
-    let groups = groups(samples, most, &axes);
+    let mut groups = vec![Group::new(samples.to_vec(), Bounds::NONE, &axes)];
+    cut_into(&mut groups, most, &axes);
     let mut states: Vec<MeanState> =
         groups.iter().map(|group| MeanState::of(group, samples, [slip_std, load_std_n])).collect();
-    let rows_per_reading = rows_per_reading(samples, &axes);
+    cut_into(&mut groups, FINE_GROUPS, &axes);
+    let rows_per_reading = rows_per_reading(groups, [slip_std, load_std_n]);
     states.iter_mut().for_each(|state| state.rows_per_reading = rows_per_reading);
     states.sort_by(|a, b| a.mean.slip.total_cmp(&b.mean.slip).then(a.mean.load_n.total_cmp(&b.mean.load_n)));
     states
 }
 
 /// How many rows tell as much as one by itself, from groups so fine that slip and load scatter by their noise alone in most.
-fn rows_per_reading(samples: &[Sample], axes: &[Axis; 2]) -> RowsPerReading {
-    let noise = [axes[0].noise, axes[1].noise];
-    let groups = groups(samples, FINE_GROUPS, axes).into_iter().map(|group| group.samples);
-    let steady: Vec<Vec<Sample>> = groups.filter(|rows| Spread::of(rows, noise).is_none()).collect();
+fn rows_per_reading(groups: Vec<Group>, noise: [f64; 2]) -> RowsPerReading {
+    let rows = groups.into_iter().map(|group| group.samples);
+    let steady: Vec<Vec<Sample>> = rows.filter(|rows| Spread::of(rows, noise).is_none()).collect();
     RowsPerReading::of(&steady)
 }
 
-/// The groups whose means are the states; none is empty.
-fn groups(samples: &[Sample], most: usize, axes: &[Axis; 2]) -> Vec<Group> {
-    let mut groups = vec![Group::new(samples.to_vec(), Bounds::NONE, axes)];
+/// Cuts groups until there are `most`, or nothing is left to cut; none becomes empty.
+fn cut_into(groups: &mut Vec<Group>, most: usize, axes: &[Axis; 2]) {
     while groups.len() < most {
         let best = groups.iter_mut().filter(|group| group.cut.is_some()).max_by(|a, b| a.gain().total_cmp(&b.gain()));
         let Some((group, cut)) = best.and_then(|group| group.cut.take().map(|cut| (group, cut))) else { break };
@@ -115,7 +115,6 @@ fn groups(samples: &[Sample], most: usize, axes: &[Axis; 2]) -> Vec<Group> {
         *group = Group::new(low, below, axes);
         groups.push(Group::new(high, above, axes));
     }
-    groups
 }
 
 impl MeanState {

@@ -51,6 +51,8 @@ pub struct Question {
     /// What the flight networks' intervals lack on runs of this layout, and what has been added to those of `answer`; none where
     /// they have not been rehearsed.
     pub missing: Option<Missing>,
+    /// How the run is laid out.
+    layout: Layout,
     /// What has brought means over different slips and loads onto the curve; none where there was none.
     bends: Option<Bends>,
 }
@@ -81,10 +83,7 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
 pub fn identify_rehearsed(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identification, HostError> {
     let mut identification = identify(campaign, answer)?;
     if campaign.declared.ids().is_empty() {
-        for run in &mut identification.runs {
-            let layout = Layout::new(&campaign.wheel, &run.states.states, &identification.noise);
-            run.question.iter_mut().for_each(|question| question.rehearse(&layout));
-        }
+        identification.runs.iter_mut().filter_map(|run| run.question.as_mut()).for_each(Question::rehearse);
     }
     Ok(identification)
 }
@@ -95,7 +94,8 @@ fn ask(
     noise: &SensorNoise,
     answer: &mut Answer<'_>,
 ) -> Result<Question, HostError> {
-    let bends = Bends::of(&Layout::new(&campaign.wheel, states, noise));
+    let layout = Layout::new(&campaign.wheel, states, noise);
+    let bends = Bends::of(&layout);
     let straight = bends.as_ref().map(|bends| bends.of_means(states));
     let states = straight.as_deref().unwrap_or(states);
     let query = networks::query(&Evidence::of_run(campaign, noise, states));
@@ -111,7 +111,7 @@ fn ask(
         let soil = assumed_soil(&campaign.ground, campaign, estimate);
         condition_number(&campaign.wheel, &soil, states, &query.noise)
     });
-    Ok(Question { query, answer: said, answer_without_sinkage, condition_number, missing: None, bends })
+    Ok(Question { query, answer: said, answer_without_sinkage, condition_number, missing: None, layout, bends })
 }
 
 /// Whether the rover network uses the sinkage: it does where every wheel has one.
@@ -143,8 +143,8 @@ pub fn at_edge(trained: Range, value: f64) -> bool {
 }
 
 impl Question {
-    fn rehearse(&mut self, layout: &Layout) {
-        let (query, bends) = (&self.query, &self.bends);
+    fn rehearse(&mut self) {
+        let Self { query, layout, bends, .. } = self;
         let ask = |states: &[WheelState<f64>], is_blind: bool| {
             let straight = bends.as_ref().map(|bends| bends.straightened(states));
             let seen = straight.as_deref().unwrap_or(states).iter().map(|state| state.map(|number| number as f32));
