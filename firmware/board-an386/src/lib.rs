@@ -6,6 +6,7 @@
 
 pub mod bench;
 mod fault;
+mod interrupts;
 mod log;
 pub mod stack;
 mod ticks;
