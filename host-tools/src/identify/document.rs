@@ -55,7 +55,7 @@ pub struct RunDocument {
     /// Which channels' noise is not independent from row to row, and how much less rows tell for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remembers: Option<String>,
-    /// Which intervals are wider than the networks state them, and why.
+    /// Which intervals are wider than the networks, or the method, state them, and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub widened: Option<String>,
     /// How well the method's model explains the run, where the method says.
@@ -213,7 +213,7 @@ impl RunDocument {
                 without_sinkage: question.and_then(|question| question.answer_without_sinkage.as_ref()).map(estimate),
                 wheels: question.map(|question| WheelDocument::all(&run.states, question)).unwrap_or_default(),
             }),
-            widened: question.and_then(|question| question.missing.as_ref()?.in_words()),
+            widened: question.and_then(|question| question.missing.as_ref()?.in_words("networks'")),
             ..Self::empty(&run.states)
         }
     }
@@ -225,6 +225,7 @@ impl RunDocument {
             condition_number: found.ok().and_then(|found| found.condition_number),
             soil: found.map(SoilDocument::of_method).unwrap_or_default(),
             no_soil: found.ok().and_then(|found| found.no_soil.clone()),
+            widened: found.ok().and_then(|found| found.widened.clone()),
             fit: found.ok().and_then(|found| found.fit).map(FitDocument::of),
             ..Self::empty(states)
         }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
 
-use super::method::{Evidence, Finding, Method, answer};
+use super::method::{Evidence, Finding, Method, answer, rehearse};
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Document, SensorNoise};
 
@@ -30,7 +30,14 @@ fn of_run(
     let found = if states.states.is_empty() {
         Err(format!("no row can be used: {}", states.reasons_in_words()))
     } else {
-        answer(method, &Evidence::of_run(campaign, noise, &states.states))
+        let evidence = Evidence::of_run(campaign, noise, &states.states);
+        answer(method, &evidence).map(|mut finding| {
+            // The soils that are drawn know no effects.
+            if campaign.declared.ids().is_empty() {
+                rehearse(method, &evidence, &states.states, noise, &mut finding);
+            }
+            finding
+        })
     };
     (states, found)
 }

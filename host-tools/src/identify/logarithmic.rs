@@ -5,46 +5,10 @@ use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use crate::train::dataset::prior_scale;
 
-/// Standard deviations that a 68 % and a 95 % interval of an error reach.
-const WIDTHS: [f64; 2] = [1.0, 1.96];
+use super::target::Target;
+
 /// Share of the prior's variance that must be gone for a parameter to be told: as the networks have it.
 const TOLD: f64 = 0.5;
-
-/// Of ln c, φ or ln K.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Target {
-    /// The estimate.
-    pub value: f64,
-    /// Its standard deviation.
-    pub std: f64,
-    /// The 68 % and the 95 % interval.
-    pub intervals: [[f64; 2]; 2],
-}
-
-impl Target {
-    /// The standard deviation of an error with which an interval would just hold a truth; zero where it does without.
-    pub fn excess(&self, truth: f64, interval: usize) -> f64 {
-        let error = truth - self.value;
-        let [low, high] = self.intervals[interval];
-        let reach = if error < 0.0 { self.value - low } else { high - self.value };
-        (error * error - reach * reach).max(0.0).sqrt() / WIDTHS[interval]
-    }
-
-    /// With errors added to the intervals, within the ends of the prior; the standard deviation grows to at most that of the prior,
-    /// as the networks have it.
-    fn widened(&self, errors: [f64; 2], ends: [f64; 2], prior_std: f64) -> Self {
-        let mut wide = *self;
-        for ((interval, error), width) in wide.intervals.iter_mut().zip(errors).zip(WIDTHS) {
-            if error > 0.0 {
-                let side = |reach: f64| reach.hypot(width * error);
-                let [low, high] = [side(self.value - interval[0]), side(interval[1] - self.value)];
-                *interval = [(self.value - low).max(ends[0]), (self.value + high).min(ends[1])];
-            }
-        }
-        wide.std = self.std.hypot(errors[0].max(errors[1])).min(prior_std.max(self.std));
-        wide
-    }
-}
 
 /// The targets of an estimate.
 pub fn targets(estimate: &SoilEstimate) -> [Target; TARGETS] {

@@ -20,6 +20,7 @@ mod selection;
 mod sensor_noise;
 pub mod soil_bank;
 mod spread;
+mod target;
 
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;

@@ -13,9 +13,9 @@ use super::bend::Bends;
 use super::combine::MeanState;
 use super::condition::condition_number;
 use super::layout::Layout;
-use super::logarithmic::widened;
+use super::logarithmic::{targets, widened};
 use super::method::{Evidence, Method, network_refusal, networks};
-use super::rehearsal::{Missing, missing};
+use super::rehearsal::{Missing, OfTraining, missing};
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Answer, SensorNoise};
 
@@ -149,12 +149,13 @@ impl Question {
             let straight = bends.as_ref().map(|bends| bends.straightened(states));
             let seen = straight.as_deref().unwrap_or(states).iter().map(|state| state.map(|number| number as f32));
             let blind = |state: WheelState| WheelState { sinkage_m: state.sinkage_m.filter(|_| !is_blind), ..state };
-            pipeline::answer(&SoilQuery { wheels: seen.map(blind).collect(), ..query.clone() }).rover.ok()
+            let answer = pipeline::answer(&SoilQuery { wheels: seen.map(blind).collect(), ..query.clone() });
+            answer.rover.ok().map(|estimate| targets(&estimate))
         };
         let widen = |answer: &mut QueryAnswer, is_blind: bool| {
             // Of what is outside, the networks say themselves that nothing can be relied on.
             let estimate = answer.rover.as_mut().ok().filter(|estimate| !estimate.outside_training_range)?;
-            let missing = missing(layout, estimate, |states| ask(states, is_blind))?;
+            let missing = missing(layout, &OfTraining, &targets(estimate), |states| ask(states, is_blind))?;
             *estimate = widened(estimate, &missing.errors);
             Some(missing)
         };

@@ -1,14 +1,14 @@
-//! How true what a network states is for runs of one layout: the run is rehearsed on soils near the answer.
+//! How true what a network or a method states is for runs of one layout: the run is rehearsed on soils near the answer.
 //!
 //! A network's intervals are true on the whole over what it was trained with. A campaign may be laid out as few of those scenes
 //! were (slips all small, loads in three steps, thousands of rows), and there what it states may be too narrow without any
-//! input being out of range. So soils are drawn about the answer, what the run's sensors would show of each is given to the
-//! network, and its answers are held against the soils. Where more of them than chance explains lie outside of the intervals, an
-//! error is added to those: the least with which they hold as many as they promise. Nothing is made narrower, and no
-//! value is changed.
+//! input being out of range. What a method of the literature states is the noise by its own equations, not what it errs by since
+//! these are simpler than the wheel, or since it takes a number as given. So soils are drawn about the answer, what the run's
+//! sensors would show of each is given to the network or the method, and its answers are held against the soils. Where more of
+//! them than chance explains lie outside of the intervals, an error is added to those: the least with which they hold as many as
+//! they promise. Nothing is made narrower, and no value is changed.
 
 use kapvik_firmware::network::TARGETS;
-use kapvik_firmware::soil::SoilEstimate;
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::WheelState;
 use rand::RngExt;
@@ -19,7 +19,7 @@ use crate::train::example::soil_targets;
 use crate::train::prior::{self, Range, SOIL_PARAMETERS};
 
 use super::layout::Layout;
-use super::logarithmic::{Target, targets};
+use super::target::Target;
 
 /// Soils about the answer: the share of a 95 % interval then has a standard error of 1.5 %.
 const SOILS: u64 = 200;
@@ -28,7 +28,7 @@ const FIRST_SEED: u64 = 1 << 32;
 /// Fewer of them that carry the wheels say nothing.
 const LEAST_SOILS: usize = 50;
 /// A uniform distribution reaches so many of its standard deviations to either side.
-const REACH: f64 = 1.732_050_807_568_877_2;
+pub const REACH: f64 = 1.732_050_807_568_877_2;
 /// Shares are below what is promised by chance by up to so many of their standard errors.
 const BY_CHANCE: f64 = 2.0;
 /// Soils are drawn anew where errors turn out greater than they were drawn for by this factor…
@@ -36,24 +36,37 @@ const GROWN: f64 = 1.2;
 /// …and no more often.
 const ROUNDS: usize = 4;
 
-/// What is missing in the intervals of ln c, φ and ln K.
+/// Soils about an answer.
+pub trait Soils: Sync {
+    /// A soil whose c, φ and K are about what is stated, within such widths, as standard deviations.
+    fn draw(&self, stated: &[Target; TARGETS], widths: &[f64; TARGETS], random: &mut ChaCha8Rng) -> Soil<f64>;
+
+    /// Its c, φ and K, counted as they are in what is stated.
+    fn targets(&self, soil: &Soil<f64>) -> [f64; TARGETS];
+}
+
+/// Soils of the networks' training; ln c, φ and ln K are stated.
+#[derive(Debug, Clone, Copy)]
+pub struct OfTraining;
+
+/// What is missing in the intervals of c, φ and K, or of their logarithms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Missing {
     /// Error to be added to the 68 % and the 95 % interval, as a standard deviation; zero where nothing is missing.
     pub errors: [[f64; 2]; TARGETS],
-    /// Share of the rehearsed answers with the truth in the 95 % interval as the network states it.
+    /// Share of the rehearsed answers with the truth in the 95 % interval as it is stated.
     pub held_95: [f64; TARGETS],
 }
 
 impl Missing {
-    /// What is widened and why, in words; none where nothing is.
-    pub fn in_words(&self) -> Option<String> {
+    /// What is widened and why, in words, the intervals being of such; none where nothing is.
+    pub fn in_words(&self, of: &str) -> Option<String> {
         let widened = || (0..TARGETS).filter(|target| self.errors[*target] != [0.0; 2]);
         let names: Vec<&str> = widened().map(|target| ["c", "φ", "K"][target]).collect();
         let held: Vec<String> = widened().map(|target| format!("{:.0}", 100.0 * self.held_95[target])).collect();
         (!names.is_empty()).then(|| {
             format!(
-                "{} widened: on simulated soils, runs laid out as this one have the truth in the networks' own 95 % \
+                "{} widened: on simulated soils, runs laid out as this one have the truth in the {of} own 95 % \
                  intervals in {} %",
                 names.join(", "),
                 held.join(", ")
@@ -62,21 +75,20 @@ impl Missing {
     }
 }
 
-/// What the intervals of `estimate` lack on runs of this layout; none where too few soils carry the wheels. `ask` is what makes of
-/// states an estimate.
+/// What the intervals that are stated lack on runs of this layout; none where too few soils carry the wheels, or too few are
+/// answered. `ask` is what makes of states an answer.
 pub fn missing(
     layout: &Layout,
-    estimate: &SoilEstimate,
-    ask: impl Fn(&[WheelState<f64>]) -> Option<SoilEstimate>,
+    soils: &impl Soils,
+    stated: &[Target; TARGETS],
+    ask: impl Fn(&[WheelState<f64>]) -> Option<[Target; TARGETS]>,
 ) -> Option<Missing> {
-    let stated = targets(estimate);
     let mut missing = Missing::default();
     let mut widths = stated.map(|target| target.std);
     for _ in 0..ROUNDS {
-        let ranges = about(&stated, &widths);
-        let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| any_soil(&ranges, random));
+        let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| soils.draw(stated, &widths, random));
         let answers: Vec<([f64; TARGETS], [Target; TARGETS])> =
-            runs.iter().filter_map(|(soil, run)| Some((soil_targets(soil), targets(&ask(&run.states)?)))).collect();
+            runs.iter().filter_map(|(soil, run)| Some((soils.targets(soil), ask(&run.states)?))).collect();
         if answers.len() < LEAST_SOILS {
             return None;
         }
@@ -97,6 +109,16 @@ pub fn missing(
         widths = found;
     }
     Some(missing)
+}
+
+impl Soils for OfTraining {
+    fn draw(&self, stated: &[Target; TARGETS], widths: &[f64; TARGETS], random: &mut ChaCha8Rng) -> Soil<f64> {
+        any_soil(&about(stated, widths), random)
+    }
+
+    fn targets(&self, soil: &Soil<f64>) -> [f64; TARGETS] {
+        soil_targets(soil)
+    }
 }
 
 /// A soil of the ranges.
@@ -130,7 +152,7 @@ fn lacking(answers: &[(f64, Target)]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kapvik_firmware::soil::ParameterEstimate;
+    use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
     /// Six hundred errors of a standard deviation of one, stated to be of another.
     fn stated(std: f64) -> Vec<(f64, Target)> {
@@ -167,7 +189,7 @@ mod tests {
             shear_modulus_m: parameter(0.01, 0.001),
             outside_training_range: false,
         };
-        let stated = targets(&estimate);
+        let stated = crate::identify::logarithmic::targets(&estimate);
         let ranges = about(&stated, &stated.map(|target| target.std));
         for (range, prior) in ranges.iter().zip(&prior::SOIL_RANGES) {
             assert!(prior.low <= range.low && range.low < range.high && range.high <= prior.high, "{range:?}");

@@ -82,7 +82,7 @@ fn widened(findings: &Findings) -> Option<String> {
     let words: Vec<String> = runs
         .iter()
         .filter_map(|run| {
-            Some(format!("run {}: {}", run.states.run, run.question.as_ref()?.missing.as_ref()?.in_words()?))
+            Some(format!("run {}: {}", run.states.run, run.question.as_ref()?.missing.as_ref()?.in_words("networks'")?))
         })
         .collect();
     (!words.is_empty()).then(|| {

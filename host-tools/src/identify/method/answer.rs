@@ -18,6 +18,8 @@ pub struct Finding {
     pub fit: Option<Fit>,
     /// Why the answer is none that a soil can be, in a few words; none where it is one.
     pub no_soil: Option<String>,
+    /// Which intervals are wider than the method states them, and why; none where they are as it states them.
+    pub widened: Option<String>,
 }
 
 /// What a method says of one parameter.
@@ -69,6 +71,7 @@ impl From<&Identified<f64>> for Finding {
             condition_number: Some(identified.condition_number).filter(|number| number.is_finite()),
             fit: None,
             no_soil: None,
+            widened: None,
         }
     }
 }
@@ -82,6 +85,7 @@ impl From<&SoilEstimate> for Finding {
             condition_number: None,
             fit: None,
             no_soil: None,
+            widened: None,
         }
     }
 }

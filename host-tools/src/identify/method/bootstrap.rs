@@ -4,7 +4,6 @@
 //! method makes of noise shows; a bias that noise gives a method does not.
 
 use kapvik_firmware::identification::Observation;
-use kapvik_firmware::wheel_state::WheelState;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -25,8 +24,8 @@ pub fn complete(finding: &mut Finding, evidence: &Evidence, answer: impl Fn(&Evi
     }
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let mut redrawn = || {
-        let observations = evidence.observations.iter().map(|seen| blurred(seen, &mut random)).collect();
-        answer(&Evidence { observations, ..evidence.clone() })
+        let blurred = |seen: &Observation<f64>| seen.state.blurred(&seen.noise, || StandardNormal.sample(&mut random));
+        answer(&evidence.seeing(evidence.observations.iter().map(blurred)))
     };
     let answers: Vec<[f64; 3]> =
         (0..REDRAWS).filter_map(|_| redrawn()).map(|found| found.statements().map(|one| one.value)).collect();
@@ -45,11 +44,4 @@ pub fn complete(finding: &mut Finding, evidence: &Evidence, answer: impl Fn(&Evi
 fn half_spread(values: impl Iterator<Item = f64>) -> f64 {
     let values = sorted(values);
     0.5 * (quantile(&values, 0.841) - quantile(&values, 0.159))
-}
-
-/// Blurred within what a slip and a sinkage can be.
-fn blurred(seen: &Observation<f64>, random: &mut ChaCha8Rng) -> Observation<f64> {
-    let state = seen.state.blurred(&seen.noise, || StandardNormal.sample(random));
-    let (slip, sinkage_m) = (state.slip.clamp(-1.0, 1.0), state.sinkage_m.map(|sinkage_m| sinkage_m.max(0.0)));
-    Observation { state: WheelState { slip, sinkage_m, ..state }, noise: seen.noise }
 }

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use kapvik_firmware::identification::{Observation, SoilPrior};
 use kapvik_firmware::terramechanics::effects::Grousers;
 use kapvik_firmware::terramechanics::{Soil, Wheel};
+use kapvik_firmware::wheel_state::WheelState;
 
 use crate::data::campaign::{Campaign, DeclaredEffect};
 use crate::identify::SensorNoise;
@@ -65,6 +66,15 @@ impl Evidence {
             bank: literature_bank(),
             declared: campaign.declared.effects.clone(),
         }
+    }
+
+    /// The same where such states were seen, within what a slip and a sinkage can be.
+    pub fn seeing(&self, states: impl Iterator<Item = WheelState<f64>>) -> Self {
+        let seeing = |(seen, state): (&Observation<f64>, WheelState<f64>)| {
+            let (slip, sinkage_m) = (state.slip.clamp(-1.0, 1.0), state.sinkage_m.map(|sinkage_m| sinkage_m.max(0.0)));
+            Observation { state: WheelState { slip, sinkage_m, ..state }, noise: seen.noise }
+        };
+        Self { observations: self.observations.iter().zip(states).map(seeing).collect(), ..self.clone() }
     }
 }
 

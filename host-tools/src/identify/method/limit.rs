@@ -25,7 +25,15 @@ pub fn posterior_mean(evidence: &Evidence) -> Result<Finding, String> {
     let found = draws(&query(evidence), LoadPrior::Flat, effort, &mut random).map_err(|error| error.to_string())?;
     let summary = Summary::new(&found);
     let [cohesion_pa, friction_angle_rad, shear_modulus_m] = [0, 1, 2].map(|target| statement(&summary, target));
-    Ok(Finding { cohesion_pa, friction_angle_rad, shear_modulus_m, condition_number: None, fit: None, no_soil: None })
+    Ok(Finding {
+        cohesion_pa,
+        friction_angle_rad,
+        shear_modulus_m,
+        condition_number: None,
+        fit: None,
+        no_soil: None,
+        widened: None,
+    })
 }
 
 fn statement(summary: &Summary, target: usize) -> Statement {

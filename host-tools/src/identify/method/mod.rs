@@ -11,6 +11,7 @@ mod map;
 pub mod networks;
 mod no_soil;
 mod out_of_range;
+mod rehearsed;
 mod words;
 
 use clap::ValueEnum;
@@ -21,6 +22,7 @@ use crate::data::campaign::Channel;
 pub use answer::{Finding, Fit, Statement};
 pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
 pub use knowledge::{soil_prior, training_prior};
+pub use rehearsed::rehearse;
 pub use words::{method_refusal, network_refusal};
 
 /// A method of the literature, or ours.
@@ -83,6 +85,11 @@ impl Method {
             Self::Map => "map",
             Self::Limit => "limit",
         }
+    }
+
+    /// Whether what the method states is the noise by its own simpler equations alone, and so has to be rehearsed.
+    pub const fn is_simpler(self) -> bool {
+        !matches!(self, Self::Network | Self::Map | Self::Limit)
     }
 
     /// Whether the method's model takes in the effects that a campaign declares.

@@ -51,6 +51,7 @@ mod tests {
             condition_number: None,
             fit: None,
             no_soil: None,
+            widened: None,
         };
         change(&mut finding);
         doubt(&mut finding);
