@@ -1,4 +1,6 @@
-//! Order statistics of samples.
+//! Order statistics of samples, and how series hang together.
+
+pub mod autocorrelation;
 
 /// The values in rising order.
 pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {

@@ -77,7 +77,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
             dispersion.sqrt()
         ));
     }
-    if selected.model().fit.remembers() {
+    if selected.model().fit.rows_per_reading() > 1.0 {
         said.push(REMEMBERS.to_owned());
     }
     said.extend(selected.found.iter().flat_map(|found| at_an_end(&found.winner)));

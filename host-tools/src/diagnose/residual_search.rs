@@ -29,8 +29,7 @@ pub struct Structure {
     pub score: f64,
     /// Share of the channel's residual that follows it.
     pub share_of_variance: f64,
-    /// The chance of such a gain, over all channels and columns that were tried; where noise remembers, of that on unseen runs if
-    /// it is larger.
+    /// The chance of such a gain in as many independent rows as there are, over all channels and columns that were tried.
     pub p_value: f64,
     /// Gain in log predictive density on runs that the fit did not see, nats a row.
     pub gain_per_row: Option<f64>,
@@ -170,10 +169,11 @@ fn second_look(
         let gain = gain(trial, &nothing, &fit).min(gain_at_its_scales(bench, trial, &fit)?) / dispersion;
         let after = linearised.held_out(&structure.added, &fit, runs)?;
         let held_out = HeldOutGain::over(&before, &after);
-        let as_independent = chance_of(gain, terms, observations(bench, &nothing, structure.channel), tried);
+        let rows_per_reading = fit.rows_per_reading();
+        let count = observations(bench, &nothing, structure.channel, rows_per_reading);
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
-            p_value: held_out.chance_over_all(as_independent, fit.remembers(), tried),
+            p_value: chance_of(gain / rows_per_reading, terms, count, tried),
             gain_per_row: Some(held_out.per_row),
             ..structure
         })
@@ -199,18 +199,19 @@ fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Opti
     Some(gain(trial, &linearised.fit_with(&no_terms()).ok()?, after))
 }
 
-/// What a channel's scale is estimated from: its runs, where they have offsets of their own, else its rows.
-fn observations(bench: &Bench<'_>, fit: &Fit, channel: Reading) -> usize {
+/// What a channel's scale is estimated from: its runs, where they have offsets of their own, else its independent rows.
+fn observations(bench: &Bench<'_>, fit: &Fit, channel: Reading, rows_per_reading: f64) -> f64 {
     if fit.offset_std[channel.index()] > 0.0 {
-        return bench.measurements.runs.len();
+        return bench.measurements.runs.len() as f64;
     }
-    bench.measurements.rows.iter().filter(|row| row.readings[channel.index()].is_some()).count()
+    let rows = bench.measurements.rows.iter().filter(|row| row.readings[channel.index()].is_some());
+    rows.count() as f64 / rows_per_reading
 }
 
 /// The chance, over all that were tried, of a gain where the scale is estimated beside it: the likelihood ratio as the F
 /// ratio that it is for a linear model.
-fn chance_of(gain: f64, terms: usize, observations: usize, tried: usize) -> f64 {
-    let (terms, count) = (terms as f64, observations as f64);
+fn chance_of(gain: f64, terms: usize, count: f64, tried: usize) -> f64 {
+    let terms = terms as f64;
     if count < PER_TERM * terms {
         return 1.0;
     }

@@ -44,7 +44,7 @@ pub struct Judged<'a> {
     pub trial: Trial<'a>,
     /// What it gains in ln likelihood over the model without, in units of the dispersion, less the cost of its parameters.
     pub score: f64,
-    /// The chance of such a gain, over all candidates; where noise remembers, of that on unseen runs if it is larger.
+    /// The chance of such a gain, over all candidates, in as many independent rows as there are.
     pub p_value: f64,
     /// The gain on runs that the fits did not see.
     pub held_out: HeldOutGain,
@@ -115,7 +115,8 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
     let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
     let enough = enough(&trials, dispersion);
     // What a second effect does along a run is no memory of noise.
-    let remembers = |trial: &Trial<'_>| trial.fit.remembers() && ahead.iter().all(|both| both.fit.remembers());
+    let of_noise = ahead.iter().map(|both| both.fit.rows_per_reading()).fold(f64::INFINITY, f64::min);
+    let independent = |trial: &Trial<'_>| gain(trial) / trial.fit.rows_per_reading().min(of_noise);
     let judge = |(place, trial): (usize, Trial<'a>)| {
         let in_question = place < FINISHED && worth(&trial) > enough;
         let (before, after) = if in_question {
@@ -125,8 +126,7 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
         };
         let held_out = HeldOutGain::over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
-        let as_independent = family_chance(gain(&trial), trial.added_parameters(), tried);
-        let p_value = held_out.chance_over_all(as_independent, remembers(&trial), tried);
+        let p_value = family_chance(independent(&trial), trial.added_parameters(), tried);
         (Judged { score, p_value, held_out, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);

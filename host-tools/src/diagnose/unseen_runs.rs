@@ -1,9 +1,7 @@
 //! What a model says of runs that it has not seen, and what one model says better than another.
 
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::chance::over_all;
 use super::fit::HeldOutRun;
 use super::trial::{Bench, Trial};
 
@@ -50,13 +48,11 @@ pub struct HeldOutGain {
     pub per_row: f64,
     /// One standard deviation of that, over runs.
     pub std: f64,
-    /// Runs of which both had an answer.
-    pub runs: usize,
 }
 
 impl HeldOutGain {
     /// Of a model that has no answer where the other had one.
-    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0, runs: 0 };
+    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0 };
 
     /// Of the second model over the first. Runs for which the first had no answer count for nothing; a second without an answer
     /// where the first had one has lost.
@@ -70,43 +66,11 @@ impl HeldOutGain {
         let mean = gains.iter().sum::<f64>() / count.max(1.0);
         let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
         let per_row = count / (rows.max(1) as f64);
-        Self { per_row: mean * per_row, std: (variance / count.max(1.0)).sqrt() * per_row, runs: gains.len() }
+        Self { per_row: mean * per_row, std: (variance / count.max(1.0)).sqrt() * per_row }
     }
 
     /// Whether it is more than so many standard errors.
     pub fn exceeds(&self, errors: f64) -> bool {
         self.per_row > errors * self.std
-    }
-
-    /// The chance, over all that were `tried`, of what is gained: that of rows which are independent, and where noise remembers, that
-    /// of runs if it is larger.
-    pub fn chance_over_all(&self, as_independent: f64, remembers: bool, tried: usize) -> f64 {
-        if remembers { as_independent.max(over_all(self.chance(), tried)) } else { as_independent }
-    }
-
-    /// The chance that runs which are no better predicted scatter to such a mean (Student's t, one-sided): nothing is taken of how
-    /// the rows of a run hang together. With fewer than two runs anything may be chance.
-    fn chance(&self) -> f64 {
-        let freedom = self.runs.saturating_sub(1) as f64;
-        let law = StudentsT::new(0.0, 1.0, freedom);
-        law.map_or(
-            1.0,
-            |law| if self.exceeds(0.0) { law.sf(self.per_row / self.std.max(f64::MIN_POSITIVE)) } else { 1.0 },
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Student's t of 2.262 has a chance of 0.025 with 9 degrees of freedom.
-    #[test]
-    fn a_chance_is_that_of_students_t() {
-        let gain = HeldOutGain { per_row: 2.262, std: 1.0, runs: 10 };
-        assert!((gain.chance() - 0.025).abs() < 1e-4);
-        for nothing in [HeldOutGain { runs: 1, ..gain }, HeldOutGain { per_row: -1.0, ..gain }, HeldOutGain::LOST] {
-            assert_eq!(nothing.chance(), 1.0);
-        }
     }
 }

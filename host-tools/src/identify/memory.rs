@@ -1,21 +1,12 @@
 //! How many rows of a mean tell as much as one by itself.
 //!
 //! The noise of a mean falls with the root of the number of rows, if these are independent. A sensor that is read faster than its
-//! noise changes says much the same many times: a mean of n rows is then as good as one of n / τ, τ = 1 + 2 Σ ρₖ, with ρₖ the
-//! correlation of rows k apart. The sum ends where it would add noise alone: at the first two lags that together are not positive
-//! (initial positive sequence; C. J. Geyer 1992, Statistical Science 7:473-483). Rows scatter about the mean of their own group,
-//! which has taken a part of all correlations away; that is put back.
+//! noise changes says much the same many times: a mean of n rows is then as good as one of n / τ (statistics/autocorrelation.rs).
 
 use crate::data::campaign::Channel;
+use crate::statistics::autocorrelation::autocorrelation_time;
 
 use super::combine::Sample;
-
-/// Fewest instants of a group that say how they hang together.
-const FEWEST: usize = 8;
-/// Standard errors by which neighbours must go together.
-const BEYOND_CHANCE: f64 = 2.5;
-/// Lags that are summed at most: what is remembered for longer is hardly told from what is true.
-const MOST_LAGS: usize = 2000;
 
 /// For each channel, how many rows tell as much as an independent one: 1 or more.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +46,7 @@ impl RowsPerReading {
     /// As the rows have it of groups in each of which slip and load are steady but for noise.
     pub fn of(steady: &[Vec<Sample>]) -> Self {
         let of_channel = |of: fn(&Sample) -> Option<f64>, follows: bool| {
-            rows_per_reading(steady.iter().map(|rows| series(rows, of, follows)).collect())
+            autocorrelation_time(steady.iter().map(|rows| series(rows, of, follows)).collect())
         };
         Self {
             drawbar_pull: of_channel(|row| Some(row.drawbar_pull_n), true),
@@ -115,42 +106,6 @@ impl Plane {
     fn at(&self, row: &Sample) -> f64 {
         self.value + self.by_slip * (row.slip - self.slip) + self.by_load * (row.load_n - self.load_n)
     }
-}
-
-/// τ of some series about their means, each that is long enough.
-fn rows_per_reading(mut series: Vec<Vec<f64>>) -> f64 {
-    series.retain(|series| series.len() >= FEWEST);
-    let Some(longest) = series.iter().map(Vec::len).max() else { return 1.0 };
-    let covariance = |lag: usize| {
-        let products = series.iter().flat_map(|series| series.iter().zip(series.iter().skip(lag)));
-        let (sum, pairs) = products.fold((0.0, 0.0), |(sum, pairs), (one, other)| (sum + one * other, pairs + 1.0));
-        (sum / f64::max(pairs, 1.0), pairs)
-    };
-    let (variance, instants) = covariance(0);
-    let (first, pairs) = covariance(1);
-    if variance <= 0.0 || first / variance * pairs.sqrt() <= BEYOND_CHANCE {
-        return 1.0;
-    }
-    let (mut sum, mut lags) = (first / variance, 1);
-    while lags + 2 < MOST_LAGS.min(longest / 2) {
-        let both = (covariance(lags + 1).0 + covariance(lags + 2).0) / variance;
-        if both <= 0.0 {
-            break;
-        }
-        sum += both;
-        lags += 2;
-    }
-    unbiased(1.0 + 2.0 * sum, lags, instants / series.len() as f64)
-}
-
-/// τ from 1 + 2 Σ ρₖ over some lags, the correlations being those about the mean of `length` rows. That mean's variance, τ over
-/// the length times that of a row, is missing in every covariance; and where it is all that is left of one, the sum
-/// has ended, and what fades from there on adds as much as it would by an exponential. Both together are a quadratic equation
-/// for τ.
-fn unbiased(seen: f64, lags: usize, length: f64) -> f64 {
-    let kept = 1.0 + (seen - 1.0 - 2.0 * lags as f64) / length;
-    let root = (kept * kept - 4.0 * seen / length).max(0.0).sqrt();
-    (0.5 * length * (kept - root)).clamp(1.0, length)
 }
 
 #[cfg(test)]

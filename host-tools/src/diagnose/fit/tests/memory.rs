@@ -32,7 +32,7 @@ fn remembering(kept: f64) -> usize {
                 row
             })
             .collect();
-        fit(&model, &rows, &Start::at(vec![0.0], &rows), &plain()).expect("a fit").remembers()
+        fit(&model, &rows, &Start::at(vec![0.0], &rows), &plain()).expect("a fit").rows_per_reading() > 1.0
     };
     (0..CAMPAIGNS).filter(remembers).count()
 }
