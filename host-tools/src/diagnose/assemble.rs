@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::data::campaign::Campaign;
+use crate::data::campaign::{Campaign, Channel};
 
 use super::document::{
     Candidate, ChannelErrors, Diagnosis, EndsApart, ErrorPair, Estimate, FoundEffect, LevelsLeftOut, RunnerUp,
@@ -12,6 +12,7 @@ use super::fit::Reading;
 use super::force_channels::ForceChannels;
 use super::forward::Selected;
 use super::held_out_errors::{HeldOutErrors, rmse};
+use super::left_over::{LeftOver, left_over};
 use super::measurements::{COLUMNS, Measurements};
 use super::selection::Judged;
 use super::trial::Trial;
@@ -32,18 +33,19 @@ pub fn assemble(
     levels: Option<LevelsLeftOut>,
     by_themselves: &ForceChannels,
 ) -> Diagnosis {
+    let unexplained = unexplained(selected, &left_over(measurements, selected.model()));
     let mut document = Diagnosis {
         campaign: campaign.name.clone(),
         data: None,
         declared: campaign.declared.ids(),
-        verdict: verdict(selected),
+        verdict: verdict(selected, &unexplained),
         sentence: String::new(),
         effects: selected.found.iter().map(|found| found_effect(&found.winner)).collect(),
         runner_up: runner_up(selected),
         ambiguous_with: selected.found.first().map_or_else(Vec::new, |found| owned(&found.ambiguous_with)),
         deciding_measurement: None,
         force_channels: by_themselves.effects.clone(),
-        unexplained: unexplained(selected),
+        unexplained,
         found_law: None,
         channels: channels(measurements, selected, errors),
         leave_level_out: levels,
@@ -60,11 +62,11 @@ pub fn assemble(
     document
 }
 
-fn verdict(selected: &Selected<'_>) -> Verdict {
+fn verdict(selected: &Selected<'_>, unexplained: &[Unexplained]) -> Verdict {
     match selected.found.first() {
         Some(found) if !found.ambiguous_with.is_empty() => Verdict::Ambiguous,
         Some(_) => Verdict::Effect,
-        None if !selected.left.is_empty() => Verdict::Unexplained,
+        None if !unexplained.is_empty() => Verdict::Unexplained,
         None => Verdict::None,
     }
 }
@@ -105,14 +107,23 @@ fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
     Some(RunnerUp { id: next.id().to_owned(), form, gain_per_row: next.held_out.per_row })
 }
 
-fn unexplained(selected: &Selected<'_>) -> Vec<Unexplained> {
+/// Dependences on columns, and of the channels that show none, what is left of them.
+fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver]) -> Vec<Unexplained> {
     let entry = |structure: &super::residual_search::Structure| Unexplained {
-        channel: COLUMNS[structure.channel.index()].name().to_owned(),
+        channel: name(structure.channel),
         regressor: structure.regressor.clone(),
         share_of_variance: structure.share_of_variance,
         p_value: structure.p_value,
     };
-    selected.left.iter().take(MOST_UNEXPLAINED).map(entry).collect()
+    let of_no_column = |left: &LeftOver| Unexplained {
+        channel: name(left.channel),
+        regressor: Channel::Time.name().to_owned(),
+        share_of_variance: left.share_of_variance,
+        p_value: left.p_value,
+    };
+    let is_told = |left: &&LeftOver| selected.left.iter().any(|structure| structure.channel == left.channel);
+    let others = left_over.iter().filter(|left| !is_told(left)).map(of_no_column);
+    selected.left.iter().map(entry).chain(others).take(MOST_UNEXPLAINED).collect()
 }
 
 /// Every measured channel that a model predicts.

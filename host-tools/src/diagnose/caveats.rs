@@ -13,6 +13,8 @@ use super::soil_coordinates::SoilParameter;
 const ONE_SLIP: f64 = 0.03;
 /// Share of its prior's standard deviation that a parameter must be known to, to count as told by the data.
 const TOLD: f64 = 0.7;
+/// Times the stated noise from which the offsets of runs are told.
+const OFF: f64 = 2.0;
 /// Dispersion beyond which stated noise and model do not agree.
 const MISFIT: f64 = 1.5;
 
@@ -26,8 +28,8 @@ const NO_LOAD: &str = "No load: the sinkage stands in for it, so that the sinkag
                        guide-friction and errors of the load are not looked for: what they do may stand under another effect.";
 /// Said where rows of a run are not independent.
 const REMEMBERS: &str = "What is left of a channel goes together from row to row along a run: its noise is not independent, or a law is \
-                         missing. Rows then tell less than they seem to, and standard deviations of parameters are stated too \
-                         narrow; an effect is named only where runs that no fit knew bear it out beyond the chance of so many runs.";
+                         missing. Rows then tell less than they seem to: gains count in as many independent rows as there seem to \
+                         be, but standard deviations of parameters are stated too narrow.";
 
 /// The caveats, sentence by sentence: those of the campaign's own notes, then what the data cannot decide.
 pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
@@ -80,9 +82,26 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     if selected.model().fit.rows_per_reading() > 1.0 {
         said.push(REMEMBERS.to_owned());
     }
+    said.extend(off_by_run(measurements, selected));
     said.extend(selected.found.iter().flat_map(|found| at_an_end(&found.winner)));
     said.extend(untold(selected));
     said
+}
+
+/// The channels that are off by another amount in each run, by far more than their stated noise.
+fn off_by_run<'a>(measurements: &'a Measurements, selected: &'a Selected<'_>) -> impl Iterator<Item = String> + 'a {
+    let fit = &selected.model().fit;
+    let judged = Reading::JUDGED.into_iter().filter(|reading| measurements.noise[reading.index()].stated);
+    judged.filter_map(|reading| {
+        let times = fit.offset_std[reading.index()] / measurements.noise[reading.index()].std;
+        (measurements.has(reading) && times > OFF).then(|| {
+            format!(
+                "{} is off by another amount in each run, by {times:.1} times its stated noise: the zero of a sensor, or a law \
+                 that changes little within a run. The model does not say which.",
+                super::measurements::COLUMNS[reading.index()].name()
+            )
+        })
+    })
 }
 
 /// What is said of parameters of an effect that was found which lie on an end of their range, or no further from it than they

@@ -25,6 +25,7 @@ mod formula_groups;
 mod formula_search;
 mod forward;
 mod held_out_errors;
+mod left_over;
 mod levels;
 mod linearised;
 pub mod measurements;

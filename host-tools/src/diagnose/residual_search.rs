@@ -170,7 +170,7 @@ fn second_look(
         let after = linearised.held_out(&structure.added, &fit, runs)?;
         let held_out = HeldOutGain::over(&before, &after);
         let rows_per_reading = fit.rows_per_reading();
-        let count = observations(bench, &nothing, &structure.added, rows_per_reading);
+        let count = observations(bench, &fit, structure.channel, rows_per_reading);
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
             p_value: chance_of(gain / rows_per_reading, terms, count, tried),
@@ -199,27 +199,14 @@ fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Opti
     Some(gain(trial, &linearised.fit_with(&no_terms()).ok()?, after))
 }
 
-/// What the scale of a dependence is estimated from: the channel's independent rows; where its runs have offsets of their own, the runs, and
-/// of the rows the share by which the dependence goes to and fro within them.
-fn observations(bench: &Bench<'_>, fit: &Fit, added: &AddedTerms, rows_per_reading: f64) -> f64 {
-    let (runs, channel) = (bench.measurements.runs.len() as f64, added.channel.index());
-    let rows = bench.measurements.rows.iter().filter(|row| row.readings[channel].is_some()).count() as f64;
-    let has_offsets = fit.offset_std[channel] > 0.0;
-    let within = if has_offsets { added.terms.last().map_or(0.0, |term| share_within_runs(bench, term)) } else { 1.0 };
-    let of_runs = if has_offsets { runs } else { 0.0 };
-    of_runs + within * (rows - of_runs).max(0.0) / rows_per_reading
-}
-
-/// Share of a term's variance that is within runs.
-fn share_within_runs(bench: &Bench<'_>, term: &Term) -> f64 {
-    let rows: Vec<(usize, f64)> =
-        bench.measurements.rows.iter().map(|row| row.run).zip(term.values.iter().copied()).collect();
-    let scatter = |values: &[(usize, f64)]| {
-        let mean = values.iter().map(|(_, value)| value).sum::<f64>() / values.len().max(1) as f64;
-        values.iter().map(|(_, value)| (value - mean).powi(2)).sum::<f64>()
-    };
-    let within: f64 = rows.chunk_by(|one, other| one.0 == other.0).map(scatter).sum();
-    (within / scatter(&rows).max(f64::MIN_POSITIVE)).min(1.0)
+/// What a channel's scale is estimated from beside a dependence: its runs, where they have offsets of their own that it does not explain, else
+/// its independent rows.
+fn observations(bench: &Bench<'_>, with: &Fit, channel: Reading, rows_per_reading: f64) -> f64 {
+    if with.offset_std[channel.index()] > 0.0 {
+        return bench.measurements.runs.len() as f64;
+    }
+    let rows = bench.measurements.rows.iter().filter(|row| row.readings[channel.index()].is_some());
+    rows.count() as f64 / rows_per_reading
 }
 
 /// The chance, over all that were tried, of a gain where the scale is estimated beside it: the likelihood ratio as the F

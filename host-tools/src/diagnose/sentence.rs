@@ -23,8 +23,14 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
         format!("the declared model ({})", document.declared.join(", "))
     };
     let of = &campaign.name;
-    let left = document.unexplained.first().map(|left| format!("{} against {}", left.channel, left.regressor));
+    let left = document.unexplained.first().map(|left| match left.regressor.as_str() {
+        "t_s" => format!("{} along runs (t_s)", left.channel),
+        column => format!("{} against {column}", left.channel),
+    });
     match document.verdict {
+        Verdict::None if document.channels.is_empty() => {
+            format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
+        }
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
         }

@@ -9,6 +9,7 @@ use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::train::prior::{self, Range};
 
 use super::method::{Finding, Fit, Method, Statement, network_refusal};
+use super::misfit::misfits;
 use super::network::{Identification, IdentifiedRun, Question, at_edge};
 use super::run_states::RunStates;
 use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
@@ -52,6 +53,9 @@ pub struct RunDocument {
     /// Why the estimate is none that a soil can be; then nothing in it is called identifiable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_soil: Option<String>,
+    /// Why no soil explains the run, where its residuals are no noise; then nothing in the estimate is called identifiable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub misfit: Option<String>,
     /// Which channels' noise is not independent from row to row, and how much less rows tell for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remembers: Option<String>,
@@ -169,7 +173,11 @@ impl Document {
         self.runs
     }
 
-    fn new(method: Method, campaign: &Campaign, noise: &SensorNoise, runs: Vec<RunDocument>) -> Self {
+    fn new(method: Method, campaign: &Campaign, noise: &SensorNoise, mut runs: Vec<RunDocument>) -> Self {
+        let mut misfits = misfits(campaign, noise);
+        for (run, why) in runs.iter_mut().filter_map(|run| misfits.remove(&run.run).map(|why| (run, why))) {
+            run.doubt(why);
+        }
         let declared = campaign.declared.ids();
         let mut warnings: Vec<String> = campaign.of_repeats().into_iter().collect();
         if !declared.is_empty() && !method.knows_effects() {
@@ -231,6 +239,12 @@ impl RunDocument {
         }
     }
 
+    fn doubt(&mut self, why: String) {
+        self.misfit = Some(why);
+        let without_sinkage = self.networks.as_mut().and_then(|networks| networks.without_sinkage.as_mut());
+        std::iter::once(&mut self.soil).chain(without_sinkage).for_each(SoilDocument::doubt);
+    }
+
     fn empty(states: &RunStates) -> Self {
         let left_out = |(line, reason): &(u64, String)| LeftOutDocument { line: *line, reason: reason.clone() };
         Self {
@@ -242,6 +256,7 @@ impl RunDocument {
             rows_used: states.rows_used,
             rows_left_out: states.rows_left_out.iter().map(left_out).collect(),
             no_soil: None,
+            misfit: None,
             remembers: states.states.first().and_then(|state| state.rows_per_reading.in_words()),
             widened: None,
             fit: None,
@@ -275,6 +290,11 @@ impl WheelDocument {
 }
 
 impl SoilDocument {
+    fn doubt(&mut self) {
+        let parameters = [&mut self.cohesion_pa, &mut self.friction_angle_rad, &mut self.shear_modulus_m];
+        parameters.into_iter().flatten().for_each(|parameter| parameter.identifiable = false);
+    }
+
     fn of_method(found: &Finding) -> Self {
         let [cohesion, friction, shear] = found.statements().map(|statement| Some(ParameterDocument::of(statement)));
         Self {

@@ -13,6 +13,7 @@ mod layout;
 mod logarithmic;
 mod memory;
 pub mod method;
+mod misfit;
 mod network;
 mod rehearsal;
 mod run_states;

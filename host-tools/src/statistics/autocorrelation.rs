@@ -12,23 +12,31 @@ const BEYOND_CHANCE: f64 = 2.5;
 /// Lags that are summed at most: what is remembered for longer is hardly told from what is true.
 const MOST_LAGS: usize = 2000;
 
+/// Mean product of values so many places apart, and how many pairs there are.
+fn covariance(series: &[Vec<f64>], lag: usize) -> (f64, f64) {
+    let products = series.iter().flat_map(|series| series.iter().zip(series.iter().skip(lag)));
+    let (sum, pairs) = products.fold((0.0, 0.0), |(sum, pairs), (one, other)| (sum + one * other, pairs + 1.0));
+    (sum / f64::max(pairs, 1.0), pairs)
+}
+
+/// Correlation of neighbours in some series about their means, and how many pairs of them there are; none where nothing varies.
+pub fn neighbours(series: &[Vec<f64>]) -> (f64, f64) {
+    let ((variance, _), (first, pairs)) = (covariance(series, 0), covariance(series, 1));
+    if variance > 0.0 { (first / variance, pairs) } else { (0.0, pairs) }
+}
+
 /// τ of some series about their means, of those that are long enough: 1 where neighbours do not go together beyond chance.
 pub fn autocorrelation_time(mut series: Vec<Vec<f64>>) -> f64 {
     series.retain(|series| series.len() >= FEWEST);
     let Some(longest) = series.iter().map(Vec::len).max() else { return 1.0 };
-    let covariance = |lag: usize| {
-        let products = series.iter().flat_map(|series| series.iter().zip(series.iter().skip(lag)));
-        let (sum, pairs) = products.fold((0.0, 0.0), |(sum, pairs), (one, other)| (sum + one * other, pairs + 1.0));
-        (sum / f64::max(pairs, 1.0), pairs)
-    };
-    let (variance, values) = covariance(0);
-    let (first, pairs) = covariance(1);
-    if variance <= 0.0 || first / variance * pairs.sqrt() <= BEYOND_CHANCE {
+    let (first, pairs) = neighbours(&series);
+    if first * pairs.sqrt() <= BEYOND_CHANCE {
         return 1.0;
     }
-    let (mut sum, mut lags) = (first / variance, 1);
+    let (variance, values) = covariance(&series, 0);
+    let (mut sum, mut lags) = (first, 1);
     while lags + 2 < MOST_LAGS.min(longest / 2) {
-        let both = (covariance(lags + 1).0 + covariance(lags + 2).0) / variance;
+        let both = (covariance(&series, lags + 1).0 + covariance(&series, lags + 2).0) / variance;
         if both <= 0.0 {
             break;
         }

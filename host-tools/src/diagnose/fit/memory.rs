@@ -17,7 +17,7 @@ impl Fit {
     }
 
     /// What the fit leaves of a channel about its mean, run by run.
-    fn series(&self, channel: usize) -> Vec<Vec<f64>> {
+    pub fn series(&self, channel: usize) -> Vec<Vec<f64>> {
         let rows: Vec<_> = self.rows.iter().zip(&self.standardised).collect();
         let runs = rows.chunk_by(|one, other| one.0.run == other.0.run);
         runs.map(|run| about_mean(run.iter().filter_map(|(_, left)| left[channel]).collect())).collect()

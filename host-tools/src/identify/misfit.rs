@@ -1,0 +1,36 @@
+//! Runs that no soil explains: what is identified of them stands for something that the model lacks.
+//!
+//! Every method of identification takes the model for true. The soil of the greatest posterior probability leaves residuals that are as large
+//! as the noise, if it is; where they are far larger, the soil has been bent to make up for another law, and is no soil's, by whichever method
+//! and however narrow.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::data::campaign::Campaign;
+
+use super::method::{Evidence, Method, answer};
+use super::run_states::run_states;
+use super::sensor_noise::{NoiseSource, SensorNoise};
+
+/// The chance below which residuals are no noise.
+const SIGNIFICANT: f64 = 1e-4;
+
+/// Why runs are explained by no soil, by their names. Nothing is said where a noise was only guessed, for a misfit then may be the guess's.
+pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, String> {
+    if [noise.drawbar_pull, noise.load, noise.torque].iter().any(|channel| channel.source != NoiseSource::Campaign) {
+        return BTreeMap::new();
+    }
+    let runs = run_states(campaign, noise, Method::Map.needs(), Method::Map.most_states());
+    let misfit = |run: super::RunStates| {
+        let found = answer(Method::Map, &Evidence::of_run(campaign, noise, &run.states)).ok()?;
+        let fit = found.fit.filter(|fit| fit.p_value < SIGNIFICANT)?;
+        let why = format!(
+            "no soil explains the run: χ² is {:.0} where {:.0} is expected (p = {:.0e}); what the model lacks stands in c, φ and K",
+            fit.chi_square, fit.degrees_of_freedom, fit.p_value
+        );
+        Some((run.run, why))
+    };
+    runs.into_par_iter().filter_map(misfit).collect()
+}
