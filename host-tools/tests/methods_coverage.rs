@@ -23,18 +23,19 @@ fn check(method: Method, plan: &Plan) {
 
 /// The network of 2013 knows one wheel on few soils: what it answers elsewhere is near to nothing that is true, and soils about that tell
 /// nothing of it.
-fn all(plan: &Plan) {
-    for method in Method::ALL.into_iter().filter(|method| method.is_simpler() && *method != Method::Cross) {
+fn all_but(left_out: &[Method], plan: &Plan) {
+    for method in Method::ALL.into_iter().filter(|method| method.is_simpler() && !left_out.contains(method)) {
         check(method, plan);
     }
 }
 
 #[test]
 fn six_slips_at_one_load() {
-    all(&Plan::of(&SLIPS, &[65.0], 1));
+    all_but(&[Method::Cross], &Plan::of(&SLIPS, &[65.0], 1));
 }
 
 #[test]
 fn six_slips_at_three_loads() {
-    all(&Plan::of(&SLIPS, &[45.0, 65.0, 90.0], 10));
+    // The method of multiple models takes minutes over so many states.
+    all_but(&[Method::Cross, Method::Ray], &Plan::of(&SLIPS, &[45.0, 65.0, 90.0], 10));
 }

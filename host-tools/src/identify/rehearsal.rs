@@ -8,8 +8,6 @@
 //! them than chance explains lie outside of the intervals, an error is added to those: the least with which they hold as many as
 //! they promise. Nothing is made narrower, and no value is changed.
 
-use std::ops::Range;
-
 use kapvik_firmware::network::TARGETS;
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::WheelState;
@@ -18,11 +16,13 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::statistics::{quantile, sorted};
 use crate::train::example::soil_targets;
-use crate::train::prior::{self, SOIL_PARAMETERS};
+use crate::train::prior::{self, Range, SOIL_PARAMETERS};
 
 use super::layout::Layout;
 use super::target::Target;
 
+/// Soils about the answer: the share of a 95 % interval then has a standard error of 1.5 %.
+const SOILS: u64 = 200;
 /// Their first seed; those below are of soils that bends are learnt from.
 const FIRST_SEED: u64 = 1 << 32;
 /// Fewer of them that carry the wheels say nothing.
@@ -38,9 +38,6 @@ const ROUNDS: usize = 4;
 
 /// Soils about an answer.
 pub trait Soils: Sync {
-    /// How many are drawn.
-    const COUNT: u64;
-
     /// A soil whose c, φ and K are about what is stated, within such widths, as standard deviations.
     fn draw(&self, stated: &[Target; TARGETS], widths: &[f64; TARGETS], random: &mut ChaCha8Rng) -> Soil<f64>;
 
@@ -89,7 +86,7 @@ pub fn missing(
     let mut missing = Missing::default();
     let mut widths = stated.map(|target| target.std);
     for _ in 0..ROUNDS {
-        let runs = layout.rehearse(seeds(soils), |random| soils.draw(stated, &widths, random));
+        let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| soils.draw(stated, &widths, random));
         let answers: Vec<([f64; TARGETS], [Target; TARGETS])> =
             runs.iter().filter_map(|(soil, run)| Some((soils.targets(soil), ask(&run.states)?))).collect();
         if answers.len() < LEAST_SOILS {
@@ -114,14 +111,7 @@ pub fn missing(
     Some(missing)
 }
 
-fn seeds<S: Soils>(_: &S) -> Range<u64> {
-    FIRST_SEED..FIRST_SEED + S::COUNT
-}
-
 impl Soils for OfTraining {
-    /// The share of a 95 % interval then has a standard error of 1.5 %.
-    const COUNT: u64 = 200;
-
     fn draw(&self, stated: &[Target; TARGETS], widths: &[f64; TARGETS], random: &mut ChaCha8Rng) -> Soil<f64> {
         any_soil(&about(stated, widths), random)
     }
@@ -132,12 +122,12 @@ impl Soils for OfTraining {
 }
 
 /// A soil of the ranges.
-pub fn any_soil(ranges: &[prior::Range; SOIL_PARAMETERS], random: &mut ChaCha8Rng) -> Soil<f64> {
+pub fn any_soil(ranges: &[Range; SOIL_PARAMETERS], random: &mut ChaCha8Rng) -> Soil<f64> {
     prior::soil(ranges.map(|range| range.at(random.random())))
 }
 
 /// Where soils are drawn: c, φ and K about the answer, all else from the prior.
-fn about(stated: &[Target; TARGETS], widths: &[f64; TARGETS]) -> [prior::Range; SOIL_PARAMETERS] {
+fn about(stated: &[Target; TARGETS], widths: &[f64; TARGETS]) -> [Range; SOIL_PARAMETERS] {
     let mut ranges = prior::SOIL_RANGES;
     for (range, (target, width)) in ranges.iter_mut().zip(stated.iter().zip(widths)) {
         let end = |side: f64| {
@@ -145,7 +135,7 @@ fn about(stated: &[Target; TARGETS], widths: &[f64; TARGETS]) -> [prior::Range; 
             if range.logarithmic { end.exp() } else { end }
         };
         let (low, high) = (end(-1.0).max(range.low), end(1.0).min(range.high));
-        *range = prior::Range { low: low.min(range.high), high: high.max(range.low), ..*range };
+        *range = Range { low: low.min(range.high), high: high.max(range.low), ..*range };
     }
     ranges
 }

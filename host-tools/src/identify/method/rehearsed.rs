@@ -78,9 +78,6 @@ impl From<&Statement> for Target {
 }
 
 impl Soils for Believed<'_> {
-    /// Some of these methods take as long over one as the networks over all.
-    const COUNT: u64 = 100;
-
     fn draw(&self, stated: &[Target; TARGETS], widths: &[f64; TARGETS], random: &mut ChaCha8Rng) -> Soil<f64> {
         let prior = self.0;
         let ends = |belief: &Belief<f64>| [belief.low.exp(), belief.high.exp()];
