@@ -9,7 +9,7 @@ use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::train::prior::{self, Range};
 
 use super::method::{Finding, Fit, Method, Statement, network_refusal};
-use super::misfit::misfits;
+use super::misfit::{misfits, misfits_of};
 use super::network::{Identification, IdentifiedRun, Question, at_edge};
 use super::run_states::RunStates;
 use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
@@ -144,7 +144,8 @@ impl Document {
     /// What is printed of an identification by the networks.
     pub fn of(campaign: &Campaign, identification: &Identification) -> Self {
         let runs = identification.runs.iter().map(RunDocument::of).collect();
-        Self::new(Method::Network, campaign, &identification.noise, runs)
+        let misfits = misfits(campaign, &identification.noise);
+        Self::new(Method::Network, campaign, &identification.noise, misfits, runs)
     }
 
     /// What is printed of an identification by another method: what it says of each run.
@@ -154,8 +155,15 @@ impl Document {
         noise: &SensorNoise,
         runs: &[(RunStates, Result<Finding, String>)],
     ) -> Self {
+        let fit = |(states, found): &(RunStates, Result<Finding, String>)| {
+            Some((states.run.clone(), found.as_ref().ok()?.fit?))
+        };
+        let misfits = match method {
+            Method::Map => misfits_of(noise, runs.iter().filter_map(fit)),
+            _ => misfits(campaign, noise),
+        };
         let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();
-        Self::new(method, campaign, noise, runs)
+        Self::new(method, campaign, noise, misfits, runs)
     }
 
     /// What is to be known of all runs.
@@ -173,8 +181,13 @@ impl Document {
         self.runs
     }
 
-    fn new(method: Method, campaign: &Campaign, noise: &SensorNoise, mut runs: Vec<RunDocument>) -> Self {
-        let mut misfits = misfits(campaign, noise);
+    fn new(
+        method: Method,
+        campaign: &Campaign,
+        noise: &SensorNoise,
+        mut misfits: BTreeMap<String, String>,
+        mut runs: Vec<RunDocument>,
+    ) -> Self {
         for (run, why) in runs.iter_mut().filter_map(|run| misfits.remove(&run.run).map(|why| (run, why))) {
             run.doubt(why);
         }

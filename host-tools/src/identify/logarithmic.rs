@@ -5,10 +5,7 @@ use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use crate::train::dataset::prior_scale;
 
-use super::target::Target;
-
-/// Share of the prior's variance that must be gone for a parameter to be told: as the networks have it.
-const TOLD: f64 = 0.5;
+use super::target::{Target, is_told};
 
 /// The targets of an estimate.
 pub fn targets(estimate: &SoilEstimate) -> [Target; TARGETS] {
@@ -31,8 +28,7 @@ pub fn widened(estimate: &SoilEstimate, errors: &[[f64; 2]; TARGETS]) -> SoilEst
         let ends = [prior.low[target], prior.high[target]].map(f64::from);
         let prior_std = f64::from(prior.std[target]);
         let found = stated[target].widened(errors[target], ends, prior_std);
-        let is_told = found.std * found.std <= TOLD * prior_std * prior_std;
-        let identifiable = parameter.identifiable && is_told;
+        let identifiable = parameter.identifiable && is_told(found.std, prior_std);
         if target == 1 {
             to_number(parameter, &found, identifiable)
         } else {

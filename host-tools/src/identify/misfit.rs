@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::data::campaign::Campaign;
 
-use super::method::{Evidence, Method, answer};
+use super::method::{Evidence, Fit, Method, answer};
 use super::run_states::run_states;
 use super::sensor_noise::{NoiseSource, SensorNoise};
 
@@ -19,18 +19,31 @@ const SIGNIFICANT: f64 = 1e-4;
 
 /// Why runs are explained by no soil, by their names. Nothing is said where a noise was only guessed, for a misfit then may be the guess's.
 pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, String> {
-    if [noise.drawbar_pull, noise.load, noise.torque].iter().any(|channel| channel.source != NoiseSource::Campaign) {
+    if !is_stated(noise) {
         return BTreeMap::new();
     }
     let runs = run_states(campaign, noise, Method::Map.needs(), Method::Map.most_states());
-    let misfit = |run: super::RunStates| {
+    let fit = |run: super::RunStates| {
         let found = answer(Method::Map, &Evidence::of_run(campaign, noise, &run.states)).ok()?;
-        let fit = found.fit.filter(|fit| fit.p_value < SIGNIFICANT)?;
-        let why = format!(
+        Some((run.run, in_words(&found.fit?)?))
+    };
+    runs.into_par_iter().filter_map(fit).collect()
+}
+
+/// The same of fits that are there already.
+pub fn misfits_of(noise: &SensorNoise, fits: impl Iterator<Item = (String, Fit)>) -> BTreeMap<String, String> {
+    fits.filter(|_| is_stated(noise)).filter_map(|(run, fit)| Some((run, in_words(&fit)?))).collect()
+}
+
+fn is_stated(noise: &SensorNoise) -> bool {
+    [noise.drawbar_pull, noise.load, noise.torque].iter().all(|channel| channel.source == NoiseSource::Campaign)
+}
+
+fn in_words(fit: &Fit) -> Option<String> {
+    (fit.p_value < SIGNIFICANT).then(|| {
+        format!(
             "no soil explains the run: χ² is {:.0} where {:.0} is expected (p = {:.0e}); what the model lacks stands in c, φ and K",
             fit.chi_square, fit.degrees_of_freedom, fit.p_value
-        );
-        Some((run.run, why))
-    };
-    runs.into_par_iter().filter_map(misfit).collect()
+        )
+    })
 }

@@ -2,6 +2,13 @@
 
 /// Standard deviations that a 68 % and a 95 % interval of an error reach.
 const WIDTHS: [f64; 2] = [1.0, 1.96];
+/// Share of the variance of what is believed beforehand that must be gone for a parameter to be told: as the library and the networks have it.
+const TOLD: f64 = 0.5;
+
+/// Whether a parameter that is known to a standard deviation is told by the data, that of what was believed beforehand being this.
+pub fn is_told(std: f64, believed_std: f64) -> bool {
+    std * std <= TOLD * believed_std * believed_std
+}
 
 /// An estimate of one number of a soil: of c, φ or K, or of a logarithm of one.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,6 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use crate::identify::target::is_told;
 use crate::limit::coordinates::Targets;
 use crate::limit::sampler::Effort;
 use crate::limit::summary::{EFFORT, Summary, draws};
@@ -11,9 +12,6 @@ use crate::statistics::{quantile, sorted};
 
 use super::networks::query;
 use super::{Evidence, Finding, Statement};
-
-/// Share of the prior's variance that must be gone for a parameter to be told: as the networks have it.
-const TOLD: f64 = 0.5;
 
 /// Mean and intervals of the posterior.
 ///
@@ -48,7 +46,7 @@ fn statement(summary: &Summary, target: usize) -> Statement {
         std: if logarithmic { unit(mean) * std } else { std },
         interval_68: [0.16, 0.84].map(|share| unit(at(share))),
         interval_95: [0.025, 0.975].map(|share| unit(at(share))),
-        identifiable: std * std <= TOLD * prior * prior,
+        identifiable: is_told(std, prior),
         assumed: false,
     }
 }

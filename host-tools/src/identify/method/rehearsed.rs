@@ -10,14 +10,12 @@ use crate::identify::SensorNoise;
 use crate::identify::combine::MeanState;
 use crate::identify::layout::Layout;
 use crate::identify::rehearsal::{REACH, Soils, missing};
-use crate::identify::target::Target;
+use crate::identify::target::{Target, is_told};
 
 use super::{Evidence, Finding, Method, Statement, by_itself};
 
 /// The last states of a run that are rehearsed: methods that take more of them forget sooner.
 const MOST_REHEARSED: usize = 240;
-/// Share of the variance of what is believed beforehand that must be gone for a parameter to be told: as the library has it.
-const TOLD: f64 = 0.5;
 
 /// Soils of which all is believed but c, φ and K.
 struct Believed<'a>(&'a SoilPrior<f64>);
@@ -65,9 +63,8 @@ fn widen(finding: &mut Finding, stated: &[Target; TARGETS], errors: &[[f64; 2]; 
         }
         let Target { std, intervals: [interval_68, interval_95], .. } =
             target.widened(*errors, [f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
-        let is_told = std * std <= TOLD * believed * believed;
-        *statement =
-            Statement { std, interval_68, interval_95, identifiable: statement.identifiable && is_told, ..*statement };
+        let identifiable = statement.identifiable && is_told(std, believed);
+        *statement = Statement { std, interval_68, interval_95, identifiable, ..*statement };
     }
 }
 
