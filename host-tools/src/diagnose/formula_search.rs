@@ -7,10 +7,11 @@ use super::document::{Estimate, FoundLaw};
 use super::fit::{Fit, Reading};
 use super::formula::{Group, Term, figure, terms};
 use super::formula_groups::{Scale, groups, scale};
+use super::gain_chance::Gain;
 use super::linearised::{AddedTerms, Linearised, Term as AddedTerm};
 use super::measurements::COLUMNS;
 use super::residual_search::Structure;
-use super::selection::{SIGNIFICANT, family_chance};
+use super::selection::SIGNIFICANT;
 use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
 use super::unseen_runs::groups as folds;
@@ -95,9 +96,11 @@ impl Search<'_, '_> {
         promising.sort_by(|a, b| b.0.total_cmp(&a.0));
         let with = |&(_, place): &(f64, usize)| {
             let law = self.fitted(before.chosen.iter().copied().chain([place]).collect())?;
-            let gain = (law.log_posterior - before.log_posterior) / self.dispersion;
-            let likely = family_chance(gain, 1, self.terms.len()) < SIGNIFICANT;
-            likely.then(|| (gain - self.cost(place), law))
+            let ln_posterior = law.log_posterior - before.log_posterior;
+            let dispersion = self.dispersion;
+            let gain = Gain { before: &before.fit, after: &law.fit, ln_posterior, dispersion, rows_per_reading: 1.0 };
+            let likely = gain.chance(1, self.terms.len()) < SIGNIFICANT;
+            likely.then(|| (ln_posterior / dispersion - self.cost(place), law))
         };
         let mut fitted: Vec<(f64, Law)> =
             promising[..promising.len().min(FITTED)].par_iter().filter_map(with).collect();

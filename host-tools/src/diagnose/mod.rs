@@ -24,6 +24,7 @@ mod formula_groups;
 
 mod formula_search;
 mod forward;
+mod gain_chance;
 mod held_out_errors;
 mod left_over;
 mod levels;

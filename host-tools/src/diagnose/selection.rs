@@ -1,11 +1,10 @@
 //! Which effect a model lacks: every candidate refitted with the model, ranked, and tested against chance.
 
 use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::candidates::candidates;
-use super::chance::over_all;
 use super::fit::HeldOutRun;
+use super::gain_chance::Gain;
 use super::specification::EffectForm;
 use super::trial::{Bench, Glance, Trial};
 use super::unseen_runs::{HeldOutGain, held_out, nearly_held_out};
@@ -116,7 +115,12 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
     let enough = enough(&trials, dispersion);
     // What a second effect does along a run is no memory of noise.
     let of_noise = ahead.iter().map(|both| both.fit.rows_per_reading()).fold(f64::INFINITY, f64::min);
-    let independent = |trial: &Trial<'_>| gain(trial) / trial.fit.rows_per_reading().min(of_noise);
+    let chance = |trial: &Trial<'_>| {
+        let rows_per_reading = trial.fit.rows_per_reading().min(of_noise);
+        let ln_posterior = trial.log_posterior() - base.log_posterior();
+        let gain = Gain { before: &base.fit, after: &trial.fit, ln_posterior, dispersion, rows_per_reading };
+        gain.chance(trial.added_parameters(), tried)
+    };
     let judge = |(place, trial): (usize, Trial<'a>)| {
         let in_question = place < FINISHED && worth(&trial) > enough;
         let (before, after) = if in_question {
@@ -126,7 +130,7 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
         };
         let held_out = HeldOutGain::over(before, &after);
         let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
-        let p_value = family_chance(independent(&trial), trial.added_parameters(), tried);
+        let p_value = chance(&trial);
         (Judged { score, p_value, held_out, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
@@ -286,10 +290,4 @@ pub fn look_ahead<'a>(bench: &Bench<'a>, trials: &[Trial<'a>]) -> Vec<Trial<'a>>
 pub fn dispersion<'a>(base: &Trial<'a>, trials: &[Trial<'a>], ahead: &[Trial<'a>]) -> f64 {
     let all = std::iter::once(base).chain(trials).chain(ahead);
     all.map(|trial| trial.fit.dispersion).fold(f64::INFINITY, f64::min).max(1.0)
-}
-
-/// The chance that the best of `tried` candidates that change nothing gains so much in ln likelihood.
-pub fn family_chance(gain: f64, parameters: usize, tried: usize) -> f64 {
-    let chance = ChiSquared::new(parameters.max(1) as f64).map_or(1.0, |law| law.sf(2.0 * gain.max(0.0)));
-    over_all(chance, tried)
 }

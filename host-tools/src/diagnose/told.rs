@@ -4,8 +4,9 @@ use kapvik_firmware::terramechanics::effects::effect_info;
 
 use super::candidates::is_measured;
 use super::field::chosen;
+use super::gain_chance::Gain;
 use super::outcome::{DiagnoseOptions, declared_model, measured};
-use super::selection::{SIGNIFICANT, family_chance};
+use super::selection::SIGNIFICANT;
 use super::specification::EffectForm;
 use super::trial::{Bench, Trial};
 use super::unseen_runs::{HeldOutGain, held_out};
@@ -40,9 +41,15 @@ pub fn told(campaign: &Campaign, ids: &[&str]) -> Result<Vec<Option<Told>>, Host
         let others = ids.iter().filter(|id| *id != last);
         let without = others.into_iter().try_fold(declared.clone(), |trial, id| add(&bench, &trial, id))?;
         let with = add(&bench, &without, last)?;
-        let gain = (with.log_posterior() - without.log_posterior()) / with.fit.dispersion.max(1.0);
+        let gain = Gain {
+            before: &without.fit,
+            after: &with.fit,
+            ln_posterior: with.log_posterior() - without.log_posterior(),
+            dispersion: with.fit.dispersion.max(1.0),
+            rows_per_reading: 1.0,
+        };
         let gain_per_row = HeldOutGain::over(&held_out(&bench, &without), &held_out(&bench, &with)).per_row;
-        Some(Told { p_value: family_chance(gain, with.added_parameters(), 1), gain_per_row })
+        Some(Told { p_value: gain.chance(with.added_parameters(), 1), gain_per_row })
     };
     Ok(ids.iter().map(judge).collect())
 }

@@ -14,6 +14,7 @@
 
 mod bend;
 mod bounds;
+mod channel_squares;
 mod curvature;
 mod held_out;
 mod huber;

@@ -3,6 +3,7 @@
 mod bounds;
 mod dense;
 mod errors_in_variables;
+mod gain_chance;
 mod held_out;
 mod linear;
 mod memory;

@@ -1,0 +1,82 @@
+//! Diagnosis of nine rows, each a run of its own, whose noise nobody states, with many columns beside.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use kapvik_firmware::terramechanics::Soil;
+use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+use kapvik_host::data::campaign::Campaign;
+use kapvik_host::diagnose::document::{Diagnosis, Verdict};
+use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
+use kapvik_host::train::prior;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+const TOML: &str = "\
+name = \"Nine points\"
+kind = \"simulated\"
+source = \"equations 1–11\"
+gravity_m_s2 = 9.81
+[wheel]
+radius_m = 0.075
+width_m = 0.070
+[soil]
+n = { value = 1.0, std = 0.05 }
+k_eff = { value = 2e6, std = 1e5 }
+c1 = { value = 0.3, std = 0.03 }
+c2 = { value = 0.15, std = 0.03 }
+";
+const NOISE: WheelNoise<f64> =
+    WheelNoise { drawbar_pull_n: 0.5, load_n: 0.4, torque_nm: 0.04, slip: 0.002, sinkage_m: 0.0005 };
+const SLIPS: [f64; 3] = [0.1, 0.3, 0.55];
+const LOADS_N: [f64; 3] = [40.0, 65.0, 98.0];
+
+/// A row at each slip and load, on soil whose sinkage exponent falls by so much with slip.
+fn campaign(slip_sinkage: f64, random: &mut ChaCha8Rng) -> Campaign {
+    let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m,speed_m_s,temperature_c,hours_since_zero,\
+                   pitch_rad,pass\n"
+        .to_owned();
+    let [cohesion, friction, shear] = [100.0..2000.0, 0.45..0.7, 0.005..0.03].map(|range| random.random_range(range));
+    for (run, (slip, load_n)) in SLIPS.into_iter().flat_map(|slip| LOADS_N.map(|load_n| (slip, load_n))).enumerate() {
+        let soil: Soil<f64> = prior::soil([cohesion, friction, shear, 1.0 - slip_sinkage * slip, 2e6, 0.3, 0.15]);
+        let truth = WheelState::under_load(&prior::KAPVIK_WHEEL, &soil, slip, load_n).expect("a soil that carries");
+        let seen = truth.blurred(&NOISE, || StandardNormal.sample(random));
+        let WheelState { slip, load_n, drawbar_pull_n, torque_nm, sinkage_m } = seen;
+        let sinkage_m = sinkage_m.expect("simulated");
+        write!(csv, "r{run},0,{slip:.5},{load_n:.3},{drawbar_pull_n:.4},{torque_nm:.5},{sinkage_m:.6}").expect("text");
+        for column in [0.01..0.1, 8.0..35.0, 0.0..8.0, -0.2..0.2] {
+            write!(csv, ",{:.4}", random.random_range(column)).expect("text");
+        }
+        writeln!(csv, ",{}", random.random_range(1..5)).expect("text");
+    }
+    Campaign::parse(Path::new("nine.csv"), &csv, TOML).expect("a campaign")
+}
+
+fn diagnosed(campaign: &Campaign) -> Diagnosis {
+    diagnose(campaign, &DiagnoseOptions::default(), &|_| ()).expect("diagnosed").document
+}
+
+/// By chances of known noise one in eight would be given something.
+#[test]
+fn of_clean_campaigns_few_are_given_something() {
+    const CAMPAIGNS: usize = 80;
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let documents = (0..CAMPAIGNS).map(|_| diagnosed(&campaign(0.0, &mut random)));
+    let named: Vec<String> =
+        documents.filter(|document| document.verdict != Verdict::None).map(|document| document.sentence).collect();
+    println!("{} of {CAMPAIGNS} are given something", named.len());
+    assert!(named.len() <= 2, "{named:#?}");
+}
+
+#[test]
+fn of_nine_rows_slip_sinkage_is_named() {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let first = (0..10).filter(|_| {
+        let document = diagnosed(&campaign(0.5, &mut random));
+        document.effects.first().is_some_and(|effect| effect.id == "slip-sinkage")
+    });
+    let named = first.count();
+    println!("{named} of 10 are named");
+    assert!(named >= 8, "{named} of 10");
+}
