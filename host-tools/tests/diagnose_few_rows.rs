@@ -57,7 +57,7 @@ fn diagnosed(campaign: &Campaign) -> Diagnosis {
     diagnose(campaign, &DiagnoseOptions::default(), &|_| ()).expect("diagnosed").document
 }
 
-/// By chances of known noise one in eight would be given something.
+/// By chances of known noise eight are given something.
 #[test]
 fn of_clean_campaigns_few_are_given_something() {
     const CAMPAIGNS: usize = 80;
