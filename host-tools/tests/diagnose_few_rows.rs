@@ -1,5 +1,7 @@
 //! Diagnosis of nine rows, each a run of its own, whose noise nobody states, with many columns beside.
 
+mod described;
+
 use std::fmt::Write;
 use std::path::Path;
 
@@ -13,14 +15,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-const TOML: &str = "\
-name = \"Nine points\"
-kind = \"simulated\"
-source = \"equations 1–11\"
-gravity_m_s2 = 9.81
-[wheel]
-radius_m = 0.075
-width_m = 0.070
+use described::{COLUMNS, description, readings};
+
+const SOIL: &str = "\
 [soil]
 n = { value = 1.0, std = 0.05 }
 k_eff = { value = 2e6, std = 1e5 }
@@ -34,23 +31,20 @@ const LOADS_N: [f64; 3] = [40.0, 65.0, 98.0];
 
 /// A row at each slip and load, on soil whose sinkage exponent falls by so much with slip.
 fn campaign(slip_sinkage: f64, random: &mut ChaCha8Rng) -> Campaign {
-    let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m,speed_m_s,temperature_c,hours_since_zero,\
-                   pitch_rad,pass\n"
-        .to_owned();
+    let mut csv = format!("{COLUMNS},speed_m_s,temperature_c,hours_since_zero,pitch_rad,pass\n");
     let [cohesion, friction, shear] = [100.0..2000.0, 0.45..0.7, 0.005..0.03].map(|range| random.random_range(range));
     for (run, (slip, load_n)) in SLIPS.into_iter().flat_map(|slip| LOADS_N.map(|load_n| (slip, load_n))).enumerate() {
         let soil: Soil<f64> = prior::soil([cohesion, friction, shear, 1.0 - slip_sinkage * slip, 2e6, 0.3, 0.15]);
         let truth = WheelState::under_load(&prior::KAPVIK_WHEEL, &soil, slip, load_n).expect("a soil that carries");
         let seen = truth.blurred(&NOISE, || StandardNormal.sample(random));
-        let WheelState { slip, load_n, drawbar_pull_n, torque_nm, sinkage_m } = seen;
-        let sinkage_m = sinkage_m.expect("simulated");
-        write!(csv, "r{run},0,{slip:.5},{load_n:.3},{drawbar_pull_n:.4},{torque_nm:.5},{sinkage_m:.6}").expect("text");
+        write!(csv, "r{run},0,{}", readings(&seen)).expect("text");
         for column in [0.01..0.1, 8.0..35.0, 0.0..8.0, -0.2..0.2] {
             write!(csv, ",{:.4}", random.random_range(column)).expect("text");
         }
         writeln!(csv, ",{}", random.random_range(1..5)).expect("text");
     }
-    Campaign::parse(Path::new("nine.csv"), &csv, TOML).expect("a campaign")
+    let toml = description("Nine points", SOIL, None);
+    Campaign::parse(Path::new("nine.csv"), &csv, &toml).expect("a campaign")
 }
 
 fn diagnosed(campaign: &Campaign) -> Diagnosis {

@@ -1,10 +1,12 @@
 //! Diagnosis of few runs along which the slip rises, with noise of which a row keeps a share of the row before.
 
+mod described;
+
 use std::fmt::Write;
 use std::path::Path;
 
 use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::wheel_state::WheelState;
+use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
 use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
@@ -13,25 +15,15 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-const TOML: &str = "\
-name = \"Slip that rises\"
-kind = \"simulated\"
-source = \"equations 1–11\"
-gravity_m_s2 = 9.81
-[wheel]
-radius_m = 0.075
-width_m = 0.070
+use described::{COLUMNS, description, readings};
+
+const SOIL: &str = "\
 [soil]
 n = { value = 1.0, std = 0.05 }
 k_eff = { value = 2e6, std = 1e5 }
-[noise]
-drawbar_pull_n = 0.8
-load_n = 0.7
-torque_nm = 0.06
-slip = 0.004
-sinkage_m = 0.0009
 ";
-const NOISE: [f64; 5] = [0.004, 0.7, 0.8, 0.06, 0.0009];
+const NOISE: WheelNoise<f64> =
+    WheelNoise { drawbar_pull_n: 0.8, load_n: 0.7, torque_nm: 0.06, slip: 0.004, sinkage_m: 0.0009 };
 const LOADS_N: [f64; 4] = [40.0, 65.0, 98.0, 65.0];
 const ROWS: usize = 40;
 
@@ -46,7 +38,7 @@ fn declared(soil: &Soil<f64>, slip: f64, load_n: f64) -> WheelState<f64> {
 fn campaign(kept: f64, law: Law) -> Campaign {
     let soil: Soil<f64> = prior::soil([400.0, 0.55, 0.012, 1.0, 2e6, 0.3, 0.15]);
     let mut random = ChaCha8Rng::seed_from_u64(11);
-    let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n".to_owned();
+    let mut csv = format!("{COLUMNS}\n");
     for (run, load_n) in LOADS_N.into_iter().enumerate() {
         let mut noise: [f64; 5] = std::array::from_fn(|_| StandardNormal.sample(&mut random));
         for row in 0..ROWS {
@@ -55,16 +47,13 @@ fn campaign(kept: f64, law: Law) -> Campaign {
                 let fresh: f64 = StandardNormal.sample(&mut random);
                 *noise = kept * *noise + (1.0 - kept * kept).sqrt() * fresh;
             }
-            let WheelState { slip, load_n, drawbar_pull_n, torque_nm, sinkage_m } = law(&soil, slip, load_n);
-            let truth = [slip, load_n, drawbar_pull_n, torque_nm, sinkage_m.expect("simulated")];
-            write!(csv, "r{run},{}", 2 * row).expect("text");
-            for ((value, std), noise) in truth.into_iter().zip(NOISE).zip(noise) {
-                write!(csv, ",{:.7}", value + std * noise).expect("text");
-            }
-            csv.push('\n');
+            let mut noise = noise.into_iter().cycle();
+            let seen = law(&soil, slip, load_n).blurred(&NOISE, || noise.next().unwrap_or_default());
+            writeln!(csv, "r{run},{},{}", 2 * row, readings(&seen)).expect("text");
         }
     }
-    Campaign::parse(Path::new("rising.csv"), &csv, TOML).expect("a campaign")
+    let toml = description("Slip that rises", SOIL, Some(&NOISE));
+    Campaign::parse(Path::new("rising.csv"), &csv, &toml).expect("a campaign")
 }
 
 fn diagnosed(kept: f64, law: Law) -> Diagnosis {

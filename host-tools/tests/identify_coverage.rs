@@ -1,6 +1,7 @@
 //! How often the truth lies in what `identify` states, over campaigns drawn from the prior and laid out in ways that few scenes of
 //! the networks' training are.
 
+mod described;
 mod drawn;
 
 use drawn::{Held, KEYS, Plan};

@@ -1,5 +1,6 @@
 //! How often the truth lies in what the methods of the literature are made to state, over campaigns drawn from the prior.
 
+mod described;
 mod drawn;
 
 use drawn::{Held, KEYS, Plan};

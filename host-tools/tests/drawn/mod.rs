@@ -13,21 +13,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde_json::Value;
 
-const TOML: &str = "\
-name = \"Drawn from the prior\"
-kind = \"simulated\"
-source = \"equations 1–11\"
-gravity_m_s2 = 9.81
-[wheel]
-radius_m = 0.075
-width_m = 0.070
-[noise]
-drawbar_pull_n = 0.5
-load_n = 1.0
-torque_nm = 0.05
-slip = 0.01
-sinkage_m = 0.002
-";
+use crate::described::{COLUMNS, description, readings};
+
 const NOISE: WheelNoise<f64> =
     WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
 /// Parameters in the document.
@@ -69,7 +56,7 @@ impl Plan {
     /// A run on each of `soils` soils that carry the wheel, and their soils.
     pub fn campaign(&self, soils: usize, seed: u64) -> (Campaign, Vec<Soil<f64>>) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n".to_owned();
+        let mut csv = format!("{COLUMNS}\n");
         let mut drawn = Vec::new();
         while drawn.len() < soils {
             let soil = prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random())));
@@ -83,18 +70,12 @@ impl Plan {
             for row in 0..self.rows * truths.len() {
                 let (truth, noise) = (&truths[row % truths.len()], &mut noises[row % truths.len()]);
                 let seen = truth.blurred(&NOISE, || noise.next(self.kept, StandardNormal.sample(&mut random)));
-                let WheelState { slip, load_n, drawbar_pull_n, torque_nm, sinkage_m } = seen;
-                let sinkage_m = sinkage_m.expect("simulated");
-                writeln!(
-                    csv,
-                    "{},{row},{slip:.6},{load_n:.4},{drawbar_pull_n:.5},{torque_nm:.6},{sinkage_m:.7}",
-                    drawn.len()
-                )
-                .expect("text");
+                writeln!(csv, "{},{row},{}", drawn.len(), readings(&seen)).expect("text");
             }
             drawn.push(soil);
         }
-        (Campaign::parse(Path::new("drawn.csv"), &csv, TOML).expect("a campaign"), drawn)
+        let toml = description("Drawn from the prior", "", Some(&NOISE));
+        (Campaign::parse(Path::new("drawn.csv"), &csv, &toml).expect("a campaign"), drawn)
     }
 }
 
