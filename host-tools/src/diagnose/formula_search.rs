@@ -100,7 +100,8 @@ impl Search<'_, '_> {
             let dispersion = self.dispersion;
             let gain = Gain { before: &before.fit, after: &law.fit, ln_posterior, dispersion, rows_per_reading: 1.0 };
             let likely = gain.chance(1, self.terms.len()) < SIGNIFICANT;
-            likely.then(|| (ln_posterior / dispersion - self.cost(place), law))
+            let worth = gain.in_dispersions() - self.cost(place);
+            likely.then_some((worth, law))
         };
         let mut fitted: Vec<(f64, Law)> =
             promising[..promising.len().min(FITTED)].par_iter().filter_map(with).collect();

@@ -10,6 +10,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::chance::over_all;
 use super::fit::{Fit, Reading};
+use super::trial::Trial;
 
 /// Degrees of freedom from which a noise is as good as known.
 const KNOWN: f64 = 1e5;
@@ -33,7 +34,18 @@ pub struct Gain<'a> {
     pub rows_per_reading: f64,
 }
 
-impl Gain<'_> {
+impl<'a> Gain<'a> {
+    /// Of a model with something more over that without, rows taken for independent.
+    pub fn over(before: &'a Trial<'_>, after: &'a Trial<'_>, dispersion: f64) -> Self {
+        let ln_posterior = after.log_posterior() - before.log_posterior();
+        Self { before: &before.fit, after: &after.fit, ln_posterior, dispersion, rows_per_reading: 1.0 }
+    }
+
+    /// The gain in units of the dispersion.
+    pub fn in_dispersions(&self) -> f64 {
+        self.ln_posterior / self.dispersion
+    }
+
     /// The chance that the best of `tried` candidates of so many parameters that change nothing gains as much.
     pub fn chance(&self, parameters: usize, tried: usize) -> f64 {
         let parameters = parameters.max(1) as f64;
@@ -54,9 +66,9 @@ impl Gain<'_> {
         for channel in Reading::JUDGED.into_iter().filter(|channel| self.before.estimates_noise(*channel)) {
             let pair = [self.before, self.after].map(|fit| fit.channel_squares(channel));
             let [Some(before), Some(after)] = pair else { continue };
-            of_known -= 2.0 * (before.ln_noise - after.ln_noise) + before.squares - after.squares;
-            let ln_ratio =
-                2.0 * (before.ln_noise - after.ln_noise) / before.count + (before.squares / after.squares).ln();
+            let ln_noise = 2.0 * (before.ln_noise - after.ln_noise);
+            of_known -= ln_noise + before.squares - after.squares;
+            let ln_ratio = ln_noise / before.count + (before.squares / after.squares).ln();
             let freedom = after.freedom.max(LEAST_FREEDOM);
             let squares = freedom * ln_ratio.min(GREATEST_LN_RATIO).exp_m1();
             of_unknown.push(Ratio { squares, freedom });

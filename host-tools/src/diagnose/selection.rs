@@ -110,17 +110,10 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
     let ahead = if misfit { look_ahead(bench, &trials) } else { Vec::new() };
     let dispersion = dispersion(&base, &trials, &ahead);
     let errors_wanted = if misfit { HELD_OUT_ERRORS_OF_A_MISFIT } else { HELD_OUT_ERRORS };
-    let gain = |trial: &Trial<'_>| (trial.log_posterior() - base.log_posterior()) / dispersion;
     let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
     let enough = enough(&trials, dispersion);
     // What a second effect does along a run is no memory of noise.
     let of_noise = ahead.iter().map(|both| both.fit.rows_per_reading()).fold(f64::INFINITY, f64::min);
-    let chance = |trial: &Trial<'_>| {
-        let rows_per_reading = trial.fit.rows_per_reading().min(of_noise);
-        let ln_posterior = trial.log_posterior() - base.log_posterior();
-        let gain = Gain { before: &base.fit, after: &trial.fit, ln_posterior, dispersion, rows_per_reading };
-        gain.chance(trial.added_parameters(), tried)
-    };
     let judge = |(place, trial): (usize, Trial<'a>)| {
         let in_question = place < FINISHED && worth(&trial) > enough;
         let (before, after) = if in_question {
@@ -129,8 +122,10 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
             (&before.nearly, nearly_held_out(bench, &trial))
         };
         let held_out = HeldOutGain::over(before, &after);
-        let score = gain(&trial) - PARAMETER_COST * trial.added_parameters() as f64;
-        let p_value = chance(&trial);
+        let rows_per_reading = trial.fit.rows_per_reading().min(of_noise);
+        let gain = Gain { rows_per_reading, ..Gain::over(&base, &trial, dispersion) };
+        let score = gain.in_dispersions() - PARAMETER_COST * trial.added_parameters() as f64;
+        let p_value = gain.chance(trial.added_parameters(), tried);
         (Judged { score, p_value, held_out, errors_wanted, trial }, after)
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
