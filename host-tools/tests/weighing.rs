@@ -4,6 +4,7 @@ use kapvik_firmware::rover::Rover;
 use kapvik_host::replay::{Misfit, Weighing};
 use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
+use rayon::prelude::*;
 
 /// What a drive of `truly` says of a rover file that states `stated`; none where the rover gets stuck.
 fn misfit(
@@ -58,15 +59,16 @@ fn right_ones() -> Vec<(Rover<f64>, Options)> {
 
 #[test]
 fn a_right_rover_file_is_not_doubted() {
-    let mut drives = 0;
-    for (rover, options) in right_ones() {
-        for (scenario, seed) in DRIVES.into_iter().flat_map(|scenario| (1..5).map(move |seed| (scenario, seed))) {
-            if let Some(found) = misfit(scenario, seed, &rover, &rover, &options) {
-                assert_eq!(found, None, "{} kg, {scenario:?}, seed {seed}, {:?}", rover.mass_kg, options.effects);
-                drives += 1;
-            }
-        }
-    }
+    let of_rover = |(rover, options): (Rover<f64>, Options)| {
+        let drives = DRIVES.into_par_iter().flat_map_iter(|scenario| (1..5).map(move |seed| (scenario, seed)));
+        let through = drives.filter_map(|(scenario, seed)| {
+            let found = misfit(scenario, seed, &rover, &rover, &options)?;
+            assert_eq!(found, None, "{} kg, {scenario:?}, seed {seed}, {:?}", rover.mass_kg, options.effects);
+            Some(())
+        });
+        through.count()
+    };
+    let drives: usize = right_ones().into_iter().map(of_rover).sum();
     println!("{drives} drives");
     assert!(drives > 150, "most of these rovers get through");
 }

@@ -63,7 +63,10 @@ fn lint_image(toolchain: &Toolchain) -> Check {
     Check::new(NAME, lint)
 }
 
-/// The same tests of the image in QEMU, built by the other compiler. Instruction counts are the first one's.
+/// Tests that build the image, by their files in `tests`.
+const TESTS_OF_THE_IMAGE: [&str; 6] = ["image", "link_in_qemu", "other_table", "replay", "run", "target"];
+
+/// These tests in QEMU once more, with the image built by the other compiler. Instruction counts are the first one's.
 fn second_target(toolchain: &Toolchain) -> Outcome {
     const NAME: &str = "tests, image by Debian's compiler";
     if toolchain.target != TargetRoute::Rustup {
@@ -78,6 +81,7 @@ fn second_target(toolchain: &Toolchain) -> Outcome {
     let mut tests = command("cargo");
     tests.env(TARGET_FROM, "debian");
     tests.args(["test", "--release", "--package", "kapvik-tests", "--no-fail-fast"]);
+    tests.args(TESTS_OF_THE_IMAGE.iter().flat_map(|name| ["--test", name]));
     tests.args(["--", "--skip", "functions_cost_no_more_than_their_budget"]);
     Check::new(NAME, tests).run()
 }

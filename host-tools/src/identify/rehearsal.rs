@@ -13,6 +13,7 @@ use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::WheelState;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 use crate::statistics::{quantile, sorted};
 use crate::train::example::soil_targets;
@@ -81,14 +82,14 @@ pub fn missing(
     layout: &Layout,
     soils: &impl Soils,
     stated: &[Target; TARGETS],
-    ask: impl Fn(&[WheelState<f64>]) -> Option<[Target; TARGETS]>,
+    ask: impl Fn(&[WheelState<f64>]) -> Option<[Target; TARGETS]> + Sync,
 ) -> Option<Missing> {
     let mut missing = Missing::default();
     let mut widths = stated.map(|target| target.std);
     for _ in 0..ROUNDS {
         let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| soils.draw(stated, &widths, random));
         let answers: Vec<([f64; TARGETS], [Target; TARGETS])> =
-            runs.iter().filter_map(|(soil, run)| Some((soils.targets(soil), ask(&run.states)?))).collect();
+            runs.par_iter().filter_map(|(soil, run)| Some((soils.targets(soil), ask(&run.states)?))).collect();
         if answers.len() < LEAST_SOILS {
             return None;
         }

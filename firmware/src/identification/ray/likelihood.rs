@@ -33,12 +33,16 @@ struct Prediction<S> {
 }
 
 impl<S: Scalar> Likelihood<S> {
-    /// Of a soil, given all of the observations; none where it does not carry every wheel.
-    pub fn of(soil: &Soil<S>, wheel: &Wheel<S>, observations: &[Observation<S>]) -> Option<Self> {
+    /// Of a soil, given all of the observations; none where it does not carry every wheel, nor where its logarithm falls below `least`: each
+    /// observation takes from it (ln |Σ| ≥ 0 in units of the sensors' noise), so the others need not be asked.
+    pub fn of(soil: &Soil<S>, wheel: &Wheel<S>, observations: &[Observation<S>], least: Option<S>) -> Option<Self> {
         let mut sum = Self { ln: S::zero(), chi_square: S::zero() };
         for observation in observations {
             let one = Prediction::of(soil, wheel, observation)?.likelihood(observation)?;
             sum = Self { ln: sum.ln + one.ln, chi_square: sum.chi_square + one.chi_square };
+            if least.is_some_and(|least| sum.ln < least) {
+                return None;
+            }
         }
         Some(sum)
     }
