@@ -10,6 +10,7 @@ use crate::statistics;
 
 use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
+use super::lone_rows::LoneRow;
 use super::noise::{Noise, channel_noise};
 use super::rates::{speed_ratio, wheel_rates};
 use super::settings::{Settled, settle};
@@ -52,11 +53,20 @@ impl Measurements {
     /// # Errors
     /// Where the campaign lacks a column without which nothing can be said, or no row is left.
     pub fn of(campaign: &Campaign, braking: bool) -> Result<Self, HostError> {
+        Self::without(campaign, braking, &[])
+    }
+
+    /// The same without some rows, by their places in the campaign.
+    ///
+    /// # Errors
+    /// As of [`Measurements::of`].
+    pub fn without(campaign: &Campaign, braking: bool, lone: &[LoneRow]) -> Result<Self, HostError> {
         check_columns(campaign)?;
         let mut reasons = [
             (0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"),
             (0, "braking"),
             (0, "gross errors: a force or sinkage that no wheel can have felt"),
+            (0, "alone with what they read"),
         ];
         let mut usable = Vec::new();
         for row in 0..campaign.rows().len() {
@@ -67,6 +77,8 @@ impl Measurements {
                 reasons[1].0 += 1;
             } else if campaign.gross_error(row).is_some() {
                 reasons[2].0 += 1;
+            } else if lone.iter().any(|lone| lone.place == row) {
+                reasons[3].0 += 1;
             } else {
                 usable.push((row, readings));
             }

@@ -10,6 +10,7 @@ use super::formula_search::law;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
+use super::lone_rows::{LoneRow, bearing, in_words};
 use super::measurements::{COLUMNS, Measurements};
 use super::specification::Specification;
 use super::trial::{Bench, Trial};
@@ -84,35 +85,72 @@ pub fn diagnose(
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Outcome, HostError> {
     let single = campaign.runs().len() == 1;
-    let data = Some(Fingerprint::of(campaign));
-    // Rows of one run may share what the force channels would take for an effect: these judge by runs as they are.
-    let by_themselves = force_channels::examine(campaign);
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
-    let campaign = apart.as_ref().unwrap_or(campaign);
+    let whole = Whole { as_given: campaign, in_runs: apart.as_ref().unwrap_or(campaign) };
     progress("declared model");
-    let measurements = measured(campaign, options)?;
-    let bench = Bench::new(campaign, &measurements);
-    let base = declared_model(&bench)?;
-    let selected = select(&bench, base, progress);
-    let errors = held_out_errors(&bench, &selected.base, &shortlists(&selected), progress);
-    let levels = levels_left_out(&measurements, &selected);
-    let mut document = assemble(campaign, &measurements, &selected, &errors, levels, &by_themselves);
-    document.data = data;
-    if let Some(structure) = selected.left.first() {
-        progress("a law of no list");
-        let dispersion = selected.last.as_ref().map_or(1.0, |step| step.dispersion);
-        document.found_law = law(&bench, selected.model(), structure, dispersion);
+    let measurements = measured(whole.in_runs, options, &[])?;
+    let bench = Bench::new(whole.in_runs, &measurements);
+    let selected = select(&bench, declared_model(&bench)?, progress);
+    let Some(lone) = bearing(&measurements, &selected) else {
+        return Ok(whole.concluded(&bench, &selected, &[], progress));
+    };
+    progress("without rows that stand alone");
+    let fewer = measured(whole.in_runs, options, &lone.rows)?;
+    let bench = Bench::new(whole.in_runs, &fewer);
+    let again = select(&bench, declared_model(&bench)?, progress);
+    if lone.are_explained && !selected.found.is_empty() && ids(&again) == ids(&selected) {
+        let bench = Bench::new(whole.in_runs, &measurements);
+        return Ok(whole.concluded(&bench, &selected, &[], progress));
     }
-    if single {
-        document.caveats.insert(0, ONE_RUN.to_owned());
-    }
-    let guilty = selected.guilty.clone();
-    Ok(Outcome { document, measurements, errors, guilty })
+    Ok(whole.concluded(&bench, &again, &lone.rows, progress))
 }
 
-/// The rows of a campaign; what the bend of the declared model adds counts as noise.
-pub(super) fn measured(campaign: &Campaign, options: &DiagnoseOptions) -> Result<Measurements, HostError> {
-    let mut measurements = Measurements::of(campaign, options.braking)?;
+fn ids(selected: &Selected<'_>) -> Vec<&'static str> {
+    selected.found.iter().map(|found| found.winner.id()).collect()
+}
+
+/// A campaign as it was given, and as its rows are grouped: those of a single run are runs of their own.
+struct Whole<'a> {
+    as_given: &'a Campaign,
+    in_runs: &'a Campaign,
+}
+
+impl Whole<'_> {
+    /// What came of a selection.
+    fn concluded(
+        &self,
+        bench: &Bench<'_>,
+        selected: &Selected<'_>,
+        set_aside: &[LoneRow],
+        progress: &(dyn Fn(&str) + Sync),
+    ) -> Outcome {
+        // Rows of one run may share what the force channels would take for an effect: these judge by runs as they are.
+        let by_themselves = force_channels::examine(self.as_given);
+        let measurements = bench.measurements;
+        let errors = held_out_errors(bench, &selected.base, &shortlists(selected), progress);
+        let levels = levels_left_out(measurements, selected);
+        let mut document = assemble(self.in_runs, measurements, selected, &errors, levels, &by_themselves);
+        document.data = Some(Fingerprint::of(self.as_given));
+        if let Some(structure) = selected.left.first() {
+            progress("a law of no list");
+            let dispersion = selected.last.as_ref().map_or(1.0, |step| step.dispersion);
+            document.found_law = law(bench, selected.model(), structure, dispersion);
+        }
+        document.caveats.splice(0..0, in_words(self.as_given, set_aside));
+        if self.as_given.runs().len() == 1 {
+            document.caveats.insert(0, ONE_RUN.to_owned());
+        }
+        Outcome { document, measurements: measurements.clone(), errors, guilty: selected.guilty.clone() }
+    }
+}
+
+/// The rows of a campaign, less some that stand alone; what the bend of the declared model adds counts as noise.
+pub(super) fn measured(
+    campaign: &Campaign,
+    options: &DiagnoseOptions,
+    lone: &[LoneRow],
+) -> Result<Measurements, HostError> {
+    let mut measurements = Measurements::without(campaign, options.braking, lone)?;
     let bends = curvature(&declared_model(&Bench::new(campaign, &measurements))?, &measurements);
     add_curvature(&mut measurements, &bends);
     Ok(measurements)

@@ -31,14 +31,15 @@ pub struct Structure {
     pub share_of_variance: f64,
     /// The chance of such a gain in as many independent rows as there are, over all channels and columns that were tried.
     pub p_value: f64,
-    /// Gain in log predictive density on runs that the fit did not see, nats a row.
-    pub gain_per_row: Option<f64>,
+    /// The gain on runs that the fit did not see.
+    pub held_out: Option<HeldOutGain>,
 }
 
 impl Structure {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT_STRUCTURE && self.gain_per_row.is_some_and(|gain| gain > 0.0)
+        let is_held = self.held_out.is_some_and(|gain| gain.exceeds(0.0) && gain.is_shared());
+        self.p_value < SIGNIFICANT_STRUCTURE && is_held
     }
 }
 
@@ -117,7 +118,7 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
             score: gain(trial, &nothing, &fit) / dispersion - PARAMETER_COST * added.terms.len() as f64,
             share_of_variance: share(&nothing, &fit, channel),
             p_value: 1.0,
-            gain_per_row: None,
+            held_out: None,
             common: AddedTerms { channel, terms: common(regressor) },
             added,
         })
@@ -174,7 +175,7 @@ fn second_look(
         Some(Structure {
             score: gain - PARAMETER_COST * terms as f64,
             p_value: chance_of(gain / rows_per_reading, terms, count, tried),
-            gain_per_row: Some(held_out.per_row),
+            held_out: Some(held_out),
             ..structure
         })
     };

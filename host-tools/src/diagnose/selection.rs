@@ -65,7 +65,8 @@ impl Judged<'_> {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
         let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
-        self.p_value < SIGNIFICANT && self.held_out.exceeds(errors) && !self.trial.is_out_of_bounds()
+        let is_held = self.held_out.exceeds(errors) && self.held_out.is_shared();
+        self.p_value < SIGNIFICANT && is_held && !self.trial.is_out_of_bounds()
     }
 
     /// Whether chance does not explain what it gains, whether or not it may be the effect.

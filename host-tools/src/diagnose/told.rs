@@ -34,7 +34,7 @@ impl Told {
 /// # Errors
 /// As of a diagnosis.
 pub fn told(campaign: &Campaign, ids: &[&str]) -> Result<Vec<Option<Told>>, HostError> {
-    let measurements = measured(campaign, &DiagnoseOptions::default())?;
+    let measurements = measured(campaign, &DiagnoseOptions::default(), &[])?;
     let bench = Bench::new(campaign, &measurements);
     let declared = declared_model(&bench)?;
     let judge = |last: &&str| {

@@ -48,11 +48,13 @@ pub struct HeldOutGain {
     pub per_row: f64,
     /// One standard deviation of that, over runs.
     pub std: f64,
+    /// What is left of it without the run that gains most.
+    pub without_most: f64,
 }
 
 impl HeldOutGain {
     /// Of a model that has no answer where the other had one.
-    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0 };
+    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0, without_most: f64::NEG_INFINITY };
 
     /// Of the second model over the first. Runs for which the first had no answer count for nothing; a second without an answer
     /// where the first had one has lost.
@@ -65,12 +67,23 @@ impl HeldOutGain {
         let count = gains.len() as f64;
         let mean = gains.iter().sum::<f64>() / count.max(1.0);
         let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-        let per_row = count / (rows.max(1) as f64);
-        Self { per_row: mean * per_row, std: (variance / count.max(1.0)).sqrt() * per_row }
+        let most = gains.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let rows = rows.max(1) as f64;
+        Self {
+            per_row: mean * count / rows,
+            std: (variance * count).sqrt() / rows,
+            without_most: (mean * count - most) / rows,
+        }
     }
 
     /// Whether it is more than so many standard errors.
     pub fn exceeds(&self, errors: f64) -> bool {
         self.per_row > errors * self.std
+    }
+
+    /// Whether more than one run gains. What one alone does, while the others together lose, may be a gross error of its own: a model that is
+    /// less sure of such a row is surprised the less.
+    pub fn is_shared(&self) -> bool {
+        self.without_most > 0.0
     }
 }

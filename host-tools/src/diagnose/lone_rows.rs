@@ -1,0 +1,91 @@
+//! Rows that stand alone: what they read no other row bears out.
+//!
+//! One slip that was noted wrongly is many standard deviations off in every channel, and an effect that bends just there gains by it. Loss
+//! that grows linearly does not help against that: the row is alone where it seems to be. So where a few rows are far out, the search is done
+//! again without them. What still is found is found by the others.
+
+use super::fit::{Fit, Reading};
+use super::forward::Selected;
+use super::measurements::{COLUMNS, Measurements};
+use crate::data::campaign::Campaign;
+use crate::statistics::median;
+
+/// Times what is usual in its channel from which a reading is far out.
+const FAR_OUT: f64 = 6.0;
+/// A standard deviation over the median of absolute values, of a normal distribution.
+const PER_MEDIAN: f64 = 1.482_6;
+/// Share of all rows that may stand alone; more of them do not, together.
+const FEW: f64 = 0.1;
+/// Fewer rows do not tell which of them is wrong.
+const LEAST_ROWS: usize = 12;
+/// Rows that are named one by one.
+const NAMED: usize = 3;
+
+/// A row that stands alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoneRow {
+    /// Its place in the campaign.
+    pub place: usize,
+    /// The channel in which it is farthest out.
+    pub channel: Reading,
+    /// By how many times what is usual there.
+    pub times: f64,
+}
+
+/// Rows that may alone bear what was found.
+#[derive(Debug, Clone)]
+pub struct Bearing {
+    /// The rows.
+    pub rows: Vec<LoneRow>,
+    /// Whether the model with what was found leaves none far out.
+    pub are_explained: bool,
+}
+
+/// Those that the declared model leaves far out, and those that the model with what was found does; none where there are none.
+pub fn bearing(measurements: &Measurements, selected: &Selected<'_>) -> Option<Bearing> {
+    let after = lone_rows(measurements, &selected.model().fit);
+    let are_explained = after.is_empty();
+    let mut rows = lone_rows(measurements, &selected.base.fit);
+    let known: Vec<usize> = rows.iter().map(|lone| lone.place).collect();
+    rows.extend(after.into_iter().filter(|lone| !known.contains(&lone.place)));
+    (!rows.is_empty()).then_some(Bearing { rows, are_explained })
+}
+
+/// Rows that a fit leaves far out, if they are few; the farthest first.
+fn lone_rows(measurements: &Measurements, fit: &Fit) -> Vec<LoneRow> {
+    let rows = fit.standardised.len();
+    if rows < LEAST_ROWS {
+        return Vec::new();
+    }
+    let usual = Reading::ALL.map(|channel| {
+        let sizes: Vec<f64> = fit.standardised.iter().filter_map(|row| Some(row[channel.index()]?.abs())).collect();
+        if sizes.is_empty() { 1.0 } else { (PER_MEDIAN * median(sizes)).max(1.0) }
+    });
+    let farthest = |(row, left): (usize, &[Option<f64>; COLUMNS.len()])| {
+        let times = |channel: Reading| Some((channel, left[channel.index()]?.abs() / usual[channel.index()]));
+        let (channel, times) = Reading::ALL.into_iter().filter_map(times).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (times > FAR_OUT).then_some(LoneRow { place: measurements.places[row], channel, times })
+    };
+    let mut found: Vec<LoneRow> = fit.standardised.iter().enumerate().filter_map(farthest).collect();
+    found.sort_by(|a, b| b.times.total_cmp(&a.times));
+    if found.len() as f64 <= FEW * rows as f64 { found } else { Vec::new() }
+}
+
+/// What is said of rows that were set aside; none where none were.
+pub fn in_words(campaign: &Campaign, rows: &[LoneRow]) -> Option<String> {
+    let name = |lone: &LoneRow| {
+        let row = &campaign.rows()[lone.place];
+        let channel = COLUMNS[lone.channel.index()].name();
+        format!("run {} at {} s ({channel} off by {:.0} times what is usual)", row.run, row.t_s, lone.times)
+    };
+    let named: Vec<String> = rows.iter().take(NAMED).map(name).collect();
+    let others = rows.len().saturating_sub(NAMED);
+    let and_others = if others > 0 { format!(" and {others} more") } else { String::new() };
+    (!rows.is_empty()).then(|| {
+        format!(
+            "Set aside, since no other row bears them out: {}{and_others}. They are gross errors, such as a slip noted wrongly, or tell of \
+             something that these rows alone show.",
+            named.join(", ")
+        )
+    })
+}
