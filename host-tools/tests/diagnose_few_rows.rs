@@ -1,21 +1,20 @@
 //! Diagnosis of nine rows, each a run of its own, whose noise nobody states, with many columns beside.
 
 mod described;
+mod slip_sinkage;
 
 use std::fmt::Write;
 use std::path::Path;
 
-use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::WheelNoise;
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
 use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
-use kapvik_host::train::prior;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
 use described::{COLUMNS, description, readings};
+use slip_sinkage::Sinking;
 
 const SOIL: &str = "\
 [soil]
@@ -32,11 +31,9 @@ const LOADS_N: [f64; 3] = [40.0, 65.0, 98.0];
 /// A row at each slip and load, on soil whose sinkage exponent falls by so much with slip.
 fn campaign(slip_sinkage: f64, random: &mut ChaCha8Rng) -> Campaign {
     let mut csv = format!("{COLUMNS},speed_m_s,temperature_c,hours_since_zero,pitch_rad,pass\n");
-    let [cohesion, friction, shear] = [100.0..2000.0, 0.45..0.7, 0.005..0.03].map(|range| random.random_range(range));
+    let soil = Sinking::drawn(slip_sinkage, random);
     for (run, (slip, load_n)) in SLIPS.into_iter().flat_map(|slip| LOADS_N.map(|load_n| (slip, load_n))).enumerate() {
-        let soil: Soil<f64> = prior::soil([cohesion, friction, shear, 1.0 - slip_sinkage * slip, 2e6, 0.3, 0.15]);
-        let truth = WheelState::under_load(&prior::KAPVIK_WHEEL, &soil, slip, load_n).expect("a soil that carries");
-        let seen = truth.blurred(&NOISE, || StandardNormal.sample(random));
+        let seen = soil.seen(slip, load_n, &NOISE, random);
         write!(csv, "r{run},0,{}", readings(&seen)).expect("text");
         for column in [0.01..0.1, 8.0..35.0, 0.0..8.0, -0.2..0.2] {
             write!(csv, ",{:.4}", random.random_range(column)).expect("text");

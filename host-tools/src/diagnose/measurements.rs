@@ -66,7 +66,7 @@ impl Measurements {
             (0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"),
             (0, "braking"),
             (0, "gross errors: a force or sinkage that no wheel can have felt"),
-            (0, "alone with what they read"),
+            (0, "far out of what all other rows say"),
         ];
         let mut usable = Vec::new();
         for row in 0..campaign.rows().len() {

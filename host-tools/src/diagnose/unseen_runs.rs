@@ -87,3 +87,24 @@ impl HeldOutGain {
         self.without_most > 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scored(scores: [f64; 4]) -> Vec<HeldOutRun> {
+        let of = |(run, score)| HeldOutRun { log_score: Some(score), ..HeldOutRun::without_answer(run) };
+        scores.into_iter().enumerate().map(of).collect()
+    }
+
+    #[test]
+    fn what_one_run_gains_while_the_others_lose_is_not_shared() {
+        let before = scored([-5.0; 4]);
+        let gain = |of_runs: [f64; 4]| HeldOutGain::over(&before, &scored(of_runs.map(|gain| gain - 5.0)));
+        let of_one = gain([9.0, -1.0, -1.0, -1.0]);
+        assert!(of_one.exceeds(0.0) && !of_one.is_shared(), "{of_one:?}");
+        let of_many = gain([9.0, 1.0, -0.5, 1.0]);
+        assert!(of_many.exceeds(0.0) && of_many.is_shared(), "{of_many:?}");
+        assert!(!gain([-1.0, 0.5, -1.0, -1.0]).is_shared());
+    }
+}
