@@ -22,6 +22,14 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     quantile(&sorted(values), 0.5)
 }
 
+/// A standard deviation over the median of absolute values, of a normal distribution.
+const PER_MEDIAN: f64 = 1.482_6;
+
+/// The standard deviation of errors about zero, from the median of their sizes: a few gross ones do not move it; not a number of none.
+pub fn robust_std(errors: impl IntoIterator<Item = f64>) -> f64 {
+    PER_MEDIAN * median(errors.into_iter().map(f64::abs))
+}
+
 #[cfg(test)]
 mod tests {
     use super::{median, quantile, sorted};

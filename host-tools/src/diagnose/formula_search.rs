@@ -14,7 +14,7 @@ use super::residual_search::Structure;
 use super::selection::SIGNIFICANT;
 use super::term_screen::Screen;
 use super::trial::{Bench, Trial};
-use super::unseen_runs::groups as folds;
+use super::unseen_runs::{gains, groups as folds, summed};
 
 /// Most terms of a law.
 const MOST_TERMS: usize = 2;
@@ -187,12 +187,7 @@ impl Search<'_, '_> {
 /// Gain in held-out ln density, and its standard deviation over groups of runs. Groups of which the law before says nothing
 /// count for nothing; none where only the law after has no answer.
 fn held_out_gain(before: &Law, after: &Law) -> Option<(f64, f64)> {
-    let answered = before.held_out.iter().zip(&after.held_out).filter_map(|(before, after)| Some(((*before)?, *after)));
-    let gains: Vec<f64> = answered.map(|(before, after)| Some(after? - before)).collect::<Option<_>>()?;
-    let count = gains.len() as f64;
-    let mean = gains.iter().sum::<f64>() / count.max(1.0);
-    let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    Some((mean * count, (variance * count).sqrt()))
+    gains(&before.held_out, &after.held_out).map(|gains| summed(&gains))
 }
 
 #[cfg(test)]

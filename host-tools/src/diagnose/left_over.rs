@@ -8,7 +8,7 @@
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::statistics::autocorrelation::neighbours;
-use crate::statistics::median;
+use crate::statistics::robust_std;
 
 use super::chance::over_all;
 use super::fit::Reading;
@@ -21,8 +21,6 @@ const TIMES_NOISE: f64 = 3.0;
 const ALIKE: f64 = 0.5;
 /// The chance, over all channels, below which it is none.
 const SIGNIFICANT: f64 = 1e-3;
-/// A standard deviation over the median of absolute values, of a normal distribution.
-const PER_MEDIAN: f64 = 1.482_6;
 
 /// What is left of a channel, along runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +51,7 @@ fn along_runs(trial: &Trial<'_>, channel: Reading) -> Option<LeftOver> {
     let (correlation, pairs) = neighbours(&trial.fit.series(channel.index()));
     (correlation > ALIKE).then(|| LeftOver {
         channel,
-        times_noise: PER_MEDIAN * median(left.map(f64::abs)),
+        times_noise: robust_std(left),
         share_of_variance: correlation * correlation,
         p_value: over_all(Normal::standard().sf(correlation * pairs.sqrt()), Reading::JUDGED.len()),
     })

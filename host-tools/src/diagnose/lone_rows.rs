@@ -8,12 +8,10 @@ use super::fit::{Fit, Reading};
 use super::forward::Selected;
 use super::measurements::{COLUMNS, Measurements};
 use crate::data::campaign::Campaign;
-use crate::statistics::median;
+use crate::statistics::robust_std;
 
 /// Times what is usual in its channel from which a reading is far out.
 const FAR_OUT: f64 = 6.0;
-/// A standard deviation over the median of absolute values, of a normal distribution.
-const PER_MEDIAN: f64 = 1.482_6;
 /// Share of all rows that may stand alone; more of them do not, together.
 const FEW: f64 = 0.1;
 /// Fewer rows do not tell which of them is wrong.
@@ -58,8 +56,8 @@ fn lone_rows(measurements: &Measurements, fit: &Fit) -> Vec<LoneRow> {
         return Vec::new();
     }
     let usual = Reading::ALL.map(|channel| {
-        let sizes: Vec<f64> = fit.standardised.iter().filter_map(|row| Some(row[channel.index()]?.abs())).collect();
-        if sizes.is_empty() { 1.0 } else { (PER_MEDIAN * median(sizes)).max(1.0) }
+        // Not a number of a channel that is not there: the greater of it and 1 is 1.
+        robust_std(fit.standardised.iter().filter_map(|row| row[channel.index()])).max(1.0)
     });
     let farthest = |(row, left): (usize, &[Option<f64>; COLUMNS.len()])| {
         let times = |channel: Reading| Some((channel, left[channel.index()]?.abs() / usual[channel.index()]));

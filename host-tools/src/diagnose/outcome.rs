@@ -96,13 +96,12 @@ pub fn diagnose(
     };
     progress("without rows that stand alone");
     let fewer = measured(whole.in_runs, options, &lone.rows)?;
-    let bench = Bench::new(whole.in_runs, &fewer);
-    let again = select(&bench, declared_model(&bench)?, progress);
+    let without = Bench::new(whole.in_runs, &fewer);
+    let again = select(&without, declared_model(&without)?, progress);
     if lone.are_explained && !selected.found.is_empty() && ids(&again) == ids(&selected) {
-        let bench = Bench::new(whole.in_runs, &measurements);
         return Ok(whole.concluded(&bench, &selected, &[], progress));
     }
-    Ok(whole.concluded(&bench, &again, &lone.rows, progress))
+    Ok(whole.concluded(&without, &again, &lone.rows, progress))
 }
 
 fn ids(selected: &Selected<'_>) -> Vec<&'static str> {

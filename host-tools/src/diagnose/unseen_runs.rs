@@ -59,21 +59,12 @@ impl HeldOutGain {
     /// Of the second model over the first. Runs for which the first had no answer count for nothing; a second without an answer
     /// where the first had one has lost.
     pub fn over(before: &[HeldOutRun], after: &[HeldOutRun]) -> Self {
-        let answered =
-            before.iter().zip(after).filter_map(|(before, after)| Some((before.log_score?, after.log_score)));
-        let gains: Option<Vec<f64>> = answered.map(|(before, after)| Some(after? - before)).collect();
-        let Some(gains) = gains else { return Self::LOST };
-        let rows: usize = before.iter().map(|run| run.rows.len()).sum();
-        let count = gains.len() as f64;
-        let mean = gains.iter().sum::<f64>() / count.max(1.0);
-        let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+        let scores = |runs: &[HeldOutRun]| runs.iter().map(|run| run.log_score).collect::<Vec<_>>();
+        let Some(gains) = gains(&scores(before), &scores(after)) else { return Self::LOST };
+        let rows = before.iter().map(|run| run.rows.len()).sum::<usize>().max(1) as f64;
+        let (sum, std) = summed(&gains);
         let most = gains.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let rows = rows.max(1) as f64;
-        Self {
-            per_row: mean * count / rows,
-            std: (variance * count).sqrt() / rows,
-            without_most: (mean * count - most) / rows,
-        }
+        Self { per_row: sum / rows, std: std / rows, without_most: (sum - most) / rows }
     }
 
     /// Whether it is more than so many standard errors.
@@ -86,6 +77,20 @@ impl HeldOutGain {
     pub fn is_shared(&self) -> bool {
         self.without_most > 0.0
     }
+}
+
+/// What one model gains over another in ln density. What the first had no answer for counts for nothing; none where only the second has none.
+pub fn gains(before: &[Option<f64>], after: &[Option<f64>]) -> Option<Vec<f64>> {
+    let answered = before.iter().zip(after).filter_map(|(before, after)| Some(((*before)?, *after)));
+    answered.map(|(before, after)| Some(after? - before)).collect()
+}
+
+/// Their sum and one standard deviation of it, from how they differ.
+pub fn summed(gains: &[f64]) -> (f64, f64) {
+    let count = gains.len() as f64;
+    let mean = gains.iter().sum::<f64>() / count.max(1.0);
+    let variance = gains.iter().map(|gain| (gain - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    (mean * count, (variance * count).sqrt())
 }
 
 #[cfg(test)]

@@ -50,8 +50,8 @@ impl<'a, S: Scalar, const N: usize> MultipleModel<'a, S, N> {
 
     /// Takes in the wheels of an instant, or any observations that surely are of one soil, and says what the soil is.
     ///
-    /// Before that, no soil is held to be less likely than 1e-3. A soil that does not carry every wheel, or is
-    /// less likely than the best by 1e-17, has no probability left after it. Driving and braking are alike to the method; it does not look at sinkage.
+    /// Before that, no soil is held to be less likely than 1e-3. A soil that does not carry every wheel, or is less likely than the
+    /// best by 1e-17, has no probability left after it. Driving and braking are alike to the method; it does not look at sinkage.
     ///
     /// Mean and standard deviation are those of the bank's soils under their probabilities; the condition number is how many
     /// soils they are spread over, e to the power of their entropy: 1 where one soil is left, the size of the bank where
@@ -70,8 +70,8 @@ impl<'a, S: Scalar, const N: usize> MultipleModel<'a, S, N> {
         let (mut best, mut least_chi_square) = (None::<S>, None::<S>);
         for (soil, probability) in self.bank.iter().zip(&self.probabilities) {
             let before = probability.max(S::constant(FLOOR)).ln();
-            let least = best.map(|best| best - S::constant(NEGLIGIBLE) - before);
-            let likelihood = Likelihood::of(soil, wheel, observations, least);
+            let hopeless = best.map(|best| best - S::constant(NEGLIGIBLE) - before);
+            let likelihood = Likelihood::of(soil, wheel, observations, hopeless);
             let ln = likelihood.map(|likelihood| likelihood.ln + before);
             if let (Some(likelihood), Some(ln)) = (likelihood, ln) {
                 best = Some(best.map_or(ln, |best| best.max(ln)));
