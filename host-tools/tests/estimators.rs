@@ -54,6 +54,20 @@ fn slip_is_better_than_the_raw_sensors_by_a_third_and_load_and_torque_never_wors
     }
 }
 
+/// Hubs creep below what the velocimeter sees, wheels dig in, and drives whose speed changes give half as much torque again as the soil meets.
+#[test]
+fn while_wheels_start_and_stop_nothing_errs_by_more_than_the_raw_sensors() {
+    let trial = drives(Scenario::StartStop);
+    for quantity in [Quantity::Slip, Quantity::Torque, Quantity::ContactAngle, Quantity::Load] {
+        let ratio = ratio(&trial, quantity);
+        assert!(ratio <= 1.0, "{quantity:?}: {ratio}");
+    }
+    for quantity in [Quantity::FrontPull, Quantity::BogiePull] {
+        let ratio = ratio(&trial, quantity);
+        assert!(ratio <= 0.75, "{quantity:?}: {ratio}");
+    }
+}
+
 /// One and two standard deviations of a normal error cover 68 and 95 %; drives differ, so that 63–73 and 92–98 % will do.
 #[test]
 fn with_slips_spread_on_the_level_the_filters_are_as_sure_as_they_may_be() {
@@ -93,7 +107,7 @@ fn a_change_of_soil_is_noticed_within_a_rover_length_and_none_is_invented() {
     let changes = SoilChanges::of(&drives(Scenario::SoilChange));
     assert_eq!((changes.real, changes.noticed), (20, 20));
     assert!(changes.latest_m < 0.85, "{}", changes.latest_m);
-    for scenario in [Scenario::Level, Scenario::Hills, Scenario::Rock] {
+    for scenario in [Scenario::Level, Scenario::Hills, Scenario::Rock, Scenario::StartStop] {
         assert_eq!(SoilChanges::of(&drives(scenario)).claimed_beside, 0, "{scenario:?}");
     }
 }

@@ -54,12 +54,14 @@ impl<S: Scalar> Compaction<S> {
     }
 }
 
-/// What the share tells of one contact angle.
+/// What the share, and a memory of the terrain, tell of one contact angle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Correction<S> {
     /// By how much the contact is steeper than the path of its hub, rad.
     pub steeper: S,
-    /// What is left of the variance of the contact angle, and of what the angles make of that of the pull.
+    /// How much the path of its hub tells beside the memory, 0 … 1.
+    pub of_path: S,
+    /// What the share leaves of the variance of the contact angle, and of what the angles make of that of the pull.
     pub left_of_angle: S,
     pub left_of_pull: S,
     /// By how much less steep the contact is taken to be for each newton by which its pull seems larger, rad/N.
@@ -69,7 +71,15 @@ pub(super) struct Correction<S> {
 impl<S: Scalar> Correction<S> {
     /// It tells nothing.
     pub fn none() -> Self {
-        Self { steeper: S::zero(), left_of_angle: S::one(), left_of_pull: S::one(), by_pull: S::zero() }
+        let (zero, one) = (S::zero(), S::one());
+        Self { steeper: zero, of_path: one, left_of_angle: one, left_of_pull: one, by_pull: zero }
+    }
+
+    /// Adds a memory of the terrain that tells so much of the contact angle, 0 … 1, and that it is so much steeper than the path, rad.
+    pub fn remember(&mut self, told: S, steeper: S) {
+        self.of_path = S::one() - told;
+        self.steeper = self.of_path * self.steeper + told * steeper;
+        self.by_pull = self.of_path * self.by_pull;
     }
 }
 
@@ -104,6 +114,7 @@ impl<S: Scalar> Known<S> {
         let of_angle = if self.variance > S::zero() { gain * self.with_mean / self.variance } else { S::zero() };
         Correction {
             steeper: gain * departure,
+            of_path: S::one(),
             left_of_angle: S::one() - of_angle,
             left_of_pull: S::one() - together.variance * per_variance,
             by_pull: together.wheels * gain / together.load_n,

@@ -225,6 +225,30 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().variance_of_sum(&slopes))
     }
 
+    /// The contact angles, rad: those of the paths of the hubs.
+    pub fn angles(&self) -> PerAxle<S> {
+        let [_, front, middle, rear, ..] = *self.filter.estimate().mean();
+        PerAxle { front, middle, rear }
+    }
+
+    /// The pitch of the link that each wheel is on, rad.
+    pub fn links(&self) -> PerAxle<S> {
+        let [.., rocker, bogie, _] = *self.filter.estimate().mean();
+        PerAxle { front: rocker, middle: bogie, rear: bogie }
+    }
+
+    /// The mean of the variances of the contact angles, rad².
+    pub fn mean_variance(&self) -> S {
+        let PerAxle { front, middle, rear } = self.variances;
+        S::constant(1.0 / 3.0) * (front + middle + rear)
+    }
+
+    /// By what variance the contact angles of the bogie's wheels drifted in the last step, rad².
+    pub fn drift_variance(&self) -> S {
+        let [_, drift] = self.drift_variances;
+        drift
+    }
+
     /// By how much the paths of the hubs are steeper than their links lie, rad: the mean, and the mean of the squares less what their
     /// errors make of it, rad².
     pub fn departure(&self) -> (S, S) {
@@ -308,11 +332,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
-    }
-
-    fn angles(&self) -> PerAxle<S> {
-        let [_, front, middle, rear, ..] = *self.filter.estimate().mean();
-        PerAxle { front, middle, rear }
     }
 
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>, told: bool) {

@@ -28,13 +28,17 @@ pub(super) struct ContactForces<S> {
 pub(super) struct ErrorOf<S> {
     /// It by the states of the contact-angle filter.
     pub by_angles: ByAngles<S>,
-    /// What the torques leave of its variance by these.
+    /// What the torques, and a memory of the terrain, leave of its variance by these.
     pub left: S,
     /// It by the states of the hub-force filter.
     pub by_forces: [S; hub_force::STATES],
     /// It by the split between the wheels of a bogie: one standard deviation, N.
     pub by_split: S,
 }
+
+/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull: one
+/// standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
+const OF_DIGGING: f64 = 0.75;
 
 /// A quantity by the states of the contact-angle filter.
 type ByAngles<S> = [S; contact_angle::STATES];
@@ -53,7 +57,9 @@ impl<S: Scalar> SideEstimator<S> {
         };
         let per_torque = S::constant(OF_TORQUE) / self.rover.wheel.radius_m;
         let of_torques = torque_variance(&self.wheels.middle) + torque_variance(&self.wheels.rear);
-        let split = S::constant(0.5) * (form * form + per_torque * per_torque * of_torques).sqrt();
+        let load_n = S::constant(OF_DIGGING) * (middle.wheel.load_n + rear.wheel.load_n);
+        let digging = load_n * load_n * self.digging_in.variance();
+        let split = S::constant(0.5) * (form * form + digging + per_torque * per_torque * of_torques).sqrt();
         let (of_middle, of_rear) = share_along_bogie(&middle, &rear);
         PerAxle {
             front: contact_forces(Axle::Front, &front, &corrections.front, of_front(&front), S::zero()),
@@ -78,7 +84,8 @@ fn contact_forces<S: Scalar>(
         Axle::Middle => [zero, across, zero, zero, half * along],
         Axle::Rear => [zero, zero, across, zero, half * along],
     };
-    let Correction { left_of_angle, left_of_pull, by_pull, .. } = *correction;
+    let Correction { of_path, left_of_angle, left_of_pull, by_pull, .. } = *correction;
+    let left = of_path * of_path;
     // Where the force along the link is too large, an angle that the torque tells comes out too small, and the pull not as much too large:
     // as far as the torque tells the angle, it tells the pull as well, whatever the force along the link is taken for.
     let pull_of = |times: S| by_hub(times * sine, times * cosine);
@@ -88,9 +95,9 @@ fn contact_forces<S: Scalar>(
         load_n: hub.wheel.load_n,
         pull_n: hub.drawbar_pull_n,
         errors: [
-            error(angle, left_of_angle, pull_of(-by_pull), zero),
-            error(load, left_of_angle, by_hub(cosine, -sine), -sine * split),
-            error(pull, left_of_pull, pull_of(left_of_pull), cosine * split),
+            error(angle, left * left_of_angle, pull_of(-by_pull), zero),
+            error(load, left * left_of_angle, by_hub(cosine, -sine), -sine * split),
+            error(pull, left * left_of_pull, pull_of(left_of_pull), cosine * split),
         ],
     }
 }

@@ -1,11 +1,13 @@
 //! Wheels that have stood dig in as they start.
 //!
 //! Loads shift from wheel to wheel and slips grow, and the hubs sink while they travel: their paths depart from the terrain, and come back
-//! to it over some centimetres. Until then the links' pitches tell the contact angles as well as the paths do. In soil that sinks with
-//! slip they dig deep, over a contact length and more: then all hubs together go down more steeply than their links lie, which terrain
-//! makes them do now and then, but not from where the rover stood.
+//! to it over some centimetres. The velocimeter tells little of the paths of hubs that creep, too. But the terrain is what it was where the
+//! wheels came to stand: what was known of it then tells the contact angles beside the paths, until these are known as well. In soil that
+//! sinks with slip wheels dig deep, over a contact length and more: then all hubs together go down more steeply than their links lie, which
+//! terrain makes them do now and then, but not from where the rover stood.
 
-use super::contact_angle::{ContactAngleFilter, UNKNOWN_ANGLE};
+use super::contact_angle::ContactAngleFilter;
+use super::remembered_terrain::RememberedTerrain;
 use super::scale::Scale;
 use crate::scalar::Scalar;
 
@@ -31,7 +33,7 @@ const LEAST_SPEED: f64 = 3.0e-5;
 pub(super) struct DiggingIn<S> {
     /// Variance of how fast the wheels sink, over the speed of their rims.
     variance: S,
-    told_by_links: S,
+    terrain: RememberedTerrain<S>,
     /// The way of the rims since they stood, m.
     way_m: S,
     /// Whether they dig deep.
@@ -59,30 +61,37 @@ impl<S: Scalar> DiggingIn<S> {
         let zero = S::zero();
         Self {
             variance: S::constant(DIGS_IN * DIGS_IN),
-            told_by_links: zero,
+            terrain: RememberedTerrain::unknown(),
             way_m: zero,
             deep: false,
             length: scale.length,
         }
     }
 
-    /// How much of what is known of the contact angles the links' pitches tell, 0 … 1: nothing where the wheels have dug in.
-    pub fn told_by_links(&self) -> S {
-        self.told_by_links
+    /// Variance of how fast they sink, over the speed of their rims, as they would in a soil that does not sink with slip.
+    pub fn variance(&self) -> S {
+        self.variance.min(S::constant(DIGS_IN * DIGS_IN))
     }
 
-    /// By what variance the contact angles err meanwhile, rad².
-    pub fn angle_variance(&self) -> S {
-        S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE) * self.told_by_links
+    /// Whether they have.
+    pub fn is_over(&self) -> bool {
+        self.variance == S::zero()
+    }
+
+    /// The terrain on which they stood.
+    pub fn terrain(&self) -> &RememberedTerrain<S> {
+        &self.terrain
     }
 
     /// Lets wheels dig in that have stood: the path of a hub comes back to the terrain as it travels, and so drifts against it.
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn follow(&mut self, rolled: &Rolled<S>, angles: &mut ContactAngleFilter<S>) {
         let square = |value: f64| S::constant(value * value);
-        self.told_by_links = S::zero();
+        let mut steeper = S::zero();
         if rolled.stands {
-            (self.variance, self.way_m, self.deep) = (square(DIGS_IN), S::zero(), false);
+            steeper = square(DIGS_IN);
+            (self.variance, self.way_m, self.deep) = (steeper, S::zero(), false);
+            self.terrain.ask();
         } else if self.variance > S::zero() {
             let speed = rolled.speed_m_s.max(S::constant(LEAST_SPEED));
             let over_rim = rolled.rim_speed_m_s / speed;
@@ -97,13 +106,13 @@ impl<S: Scalar> DiggingIn<S> {
             let came_back = self.variance * gone.min(S::one());
             self.variance -= came_back;
             angles.dig_in(came_back * squared);
-            let steeper = self.variance * squared;
-            self.told_by_links = steeper / (steeper + square(UNKNOWN_ANGLE));
+            steeper = self.variance * squared;
             if self.variance < square(DUG_IN) {
                 self.variance = S::zero();
                 angles.settle();
             }
         }
+        self.terrain.follow(angles, steeper);
     }
 
     /// Whether the hubs dig deep, and how fast: by how they go down, with the square of the rims' speed over that of the side.
@@ -126,27 +135,22 @@ mod tests {
     use super::{ContactAngleFilter, DiggingIn, Rolled, Scale};
     use crate::rover::Rover;
 
-    /// Over 13 mm of travel what wheels that stood sink by falls to 1/e, its variance to 1/e²; within 60 mm they have dug in, and the links
-    /// tell nothing any more.
+    const ROLLED: Rolled<f64> = Rolled { stands: false, speed_m_s: 0.01, rim_speed_m_s: 0.01, step_s: 0.001 };
+
+    /// Over 13 mm of travel what wheels that stood sink by falls to 1/e, its variance to 1/e²; within 60 mm they have dug in.
     #[test]
     fn wheels_dig_in_by_travel() {
         let rover = Rover::<f64>::assumed();
         let mut angles = ContactAngleFilter::new(&rover, 0);
         let mut digging = DiggingIn::new(&Scale::of(&rover));
-        let rolled = Rolled { stands: false, speed_m_s: 0.01, rim_speed_m_s: 0.01, step_s: 0.001 };
-        digging.follow(&rolled, &mut angles);
-        assert!(digging.told_by_links() > 0.1, "they may have stood before");
-        (0..6000).for_each(|_| digging.follow(&rolled, &mut angles));
-        assert_eq!(digging.told_by_links(), 0.0);
-        digging.follow(&Rolled { stands: true, ..rolled }, &mut angles);
-        (0..1300).for_each(|_| digging.follow(&rolled, &mut angles));
-        let (left, unknown) = (0.01 * (-2.0_f64).exp(), 0.04);
-        assert!(
-            (digging.told_by_links() / (left / (left + unknown)) - 1.0).abs() < 0.01,
-            "{}",
-            digging.told_by_links()
-        );
-        (0..4700).for_each(|_| digging.follow(&rolled, &mut angles));
-        assert_eq!(digging.told_by_links(), 0.0);
+        digging.follow(&ROLLED, &mut angles);
+        assert!(!digging.is_over(), "they may have stood before");
+        (0..6000).for_each(|_| digging.follow(&ROLLED, &mut angles));
+        assert!(digging.is_over());
+        digging.follow(&Rolled { stands: true, ..ROLLED }, &mut angles);
+        (0..1300).for_each(|_| digging.follow(&ROLLED, &mut angles));
+        assert!((digging.variance / (0.01 * (-2.0_f64).exp()) - 1.0).abs() < 0.01, "{}", digging.variance);
+        (0..4700).for_each(|_| digging.follow(&ROLLED, &mut angles));
+        assert!(digging.is_over());
     }
 }

@@ -19,8 +19,7 @@ pub(super) struct HubOnGround<S> {
 }
 
 impl<S: Scalar> SideEstimator<S> {
-    /// The wheels along their contacts, with such forces on the hubs and the paths of these corrected. While wheels dig in, the links tell
-    /// the contact angles as well as the paths do.
+    /// The wheels along their contacts, with such forces on the hubs and the paths of these corrected.
     #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn on_ground(
         &self,
@@ -28,11 +27,10 @@ impl<S: Scalar> SideEstimator<S> {
         corrections: &PerAxle<Correction<S>>,
     ) -> PerAxle<HubOnGround<S>> {
         let [_, front, middle, rear, rocker, bogie, _] = *self.angles.estimate().mean();
-        let told_by_paths = S::one() - self.digging_in.told_by_links();
         let paths = PerAxle { front: (front, rocker), middle: (middle, bogie), rear: (rear, bogie) };
         let filters = paths.zip(*corrections).zip(self.wheels.as_ref());
         forces.zip(filters).map(|(force, (((path, link), correction), filter))| {
-            let steeper = told_by_paths * (path + correction.steeper - link);
+            let steeper = path + correction.steeper - link;
             let angle = steeper.sin_cos();
             let (load_n, drawbar_pull_n) = along_contact(force, angle);
             let [rate, torque, slip] = *filter.estimate().mean();

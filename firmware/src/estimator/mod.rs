@@ -3,10 +3,11 @@
 //!
 //! What happens at the edges:
 //!
-//! - *Standing* ([`WheelActivity::Standing`], rim and hub below 1.5 mm/s): slip is undefined and absent; contact angles stay as
-//!   they were, since nothing rolls; torque follows the drive.
+//! - *Standing* ([`WheelActivity::Standing`], rim and hub below 1.5 mm/s): slip is undefined and absent; contact angles are what they
+//!   were before the wheels slowed down, since nothing rolls; torque follows the drive.
 //! - *Starting* and *stopping*: torque and forces may jump within a frame, so for eight frames they are not held to drift; how
-//!   fast they wander is learned afresh after twenty.
+//!   fast they wander is learned afresh after twenty. The terrain is remembered from where the wheels stood, until the paths of the hubs
+//!   tell it as well. What speeds a drive up or slows it down is no part of the moments that its link has to hold.
 //! - *Turning back*: rates and speeds change sign together; slip is positive when the rim is faster than the hub, in either
 //!   direction. In between the wheel stands.
 //! - *Blocked* ([`WheelActivity::Blocked`], a rim at less than a twelfth of its hub's speed): slip is −1. The side's speed is taken
@@ -24,11 +25,13 @@ mod contact_forces;
 mod digging_in;
 pub mod doubt;
 pub mod drawbar_split;
+mod drive_inertia;
 mod estimate;
 mod health;
 pub mod hub_force;
 mod hub_on_ground;
 mod joints;
+mod remembered_terrain;
 mod roughness;
 mod rover_estimator;
 mod runs;

@@ -116,8 +116,8 @@ impl<S: Scalar> SideEstimator<S> {
             [_, *torque, *slip] = filter.estimate().variances();
             let [of_angle, of_load, of_pull] = &contact.errors;
             // The same as of the others, of the one angle that it hangs on.
-            *angle =
-                of_angle.left * (path + self.digging_in.angle_variance()) + forces.variance_of_sum(&of_angle.by_forces);
+            let by_angle = of_angle.left * path + self.digging_in.terrain().beside_paths();
+            *angle = by_angle + forces.variance_of_sum(&of_angle.by_forces);
             (*load, *pull) = (self.variance(forces, of_load), self.variance(forces, of_pull));
         }
         variances
@@ -126,11 +126,13 @@ impl<S: Scalar> SideEstimator<S> {
     /// Variance of an error. While wheels dig in, each contact angle errs by itself, too.
     #[inline(never)] // flash is scarcer than the time of a call
     fn variance(&self, forces: &HubForces<S>, of: &ErrorOf<S>) -> S {
-        let [_, front, middle, rear, ..] = of.by_angles;
-        let by_themselves = front * front + middle * middle + rear * rear;
-        let by_angles =
-            self.angles.estimate().variance_of_sum(&of.by_angles) + self.digging_in.angle_variance() * by_themselves;
-        of.left * by_angles + forces.variance_of_sum(&of.by_forces) + of.by_split * of.by_split
+        let mut by_angles = of.left * self.angles.estimate().variance_of_sum(&of.by_angles);
+        let beside_paths = self.digging_in.terrain().beside_paths();
+        if beside_paths > S::zero() {
+            let [_, front, middle, rear, ..] = of.by_angles;
+            by_angles += beside_paths * (front * front + middle * middle + rear * rear);
+        }
+        by_angles + forces.variance_of_sum(&of.by_forces) + of.by_split * of.by_split
     }
 
     /// The same of two errors together.
@@ -138,11 +140,10 @@ impl<S: Scalar> SideEstimator<S> {
         let [_, front, middle, rear, ..] = one.by_angles;
         let [_, other_front, other_middle, other_rear, ..] = other.by_angles;
         let by_themselves = front * other_front + middle * other_middle + rear * other_rear;
-        let by_angles = self.angles.estimate().covariance_of_sums(&one.by_angles, &other.by_angles)
-            + self.digging_in.angle_variance() * by_themselves;
-        one.left.min(other.left) * by_angles
-            + forces.covariance_of_sums(&one.by_forces, &other.by_forces)
-            + one.by_split * other.by_split
+        let by_angles = one.left.min(other.left)
+            * self.angles.estimate().covariance_of_sums(&one.by_angles, &other.by_angles)
+            + self.digging_in.terrain().beside_paths() * by_themselves;
+        by_angles + forces.covariance_of_sums(&one.by_forces, &other.by_forces) + one.by_split * other.by_split
     }
 }
 

@@ -332,7 +332,8 @@ impl<S: Scalar> SideEstimator<S> {
             let noise = self.rover.noise.motor_torque_nm;
             // White noise of the drive's sensor comes through the filter slower, not less: what counts over time is that
             // of the sensor. Without the sensor it is what the filter does not know.
-            (motor.unwrap_or(torque), if motor.is_some() { noise * noise } else { variance + noise * noise })
+            let held = motor.map_or(torque, |motor| filter.held_by_link_nm(motor, noise));
+            (held, if motor.is_some() { noise * noise } else { variance + noise * noise })
         });
         let noise = &self.rover.noise;
         let body = body_moment_nm(&self.rover, attitude.specific_force_m_s2());

@@ -6,6 +6,7 @@
 //! A wheel that slips more meets more torque: shear stress grows with shear displacement, and a torque that drifts takes the slip
 //! with it. So the drive's torque tells of slip what the camera sees but through its noise.
 
+use super::drive_inertia::DriveInertia;
 use super::scale::Scale;
 use super::swing::Swing;
 use super::trend::{Trends, beside_trend, restlessness};
@@ -121,6 +122,7 @@ pub(super) struct SlipTorqueFilter<S> {
     slip_per_torque: S,
     scale: Scale<S>,
     swing: Swing<S>,
+    inertia: DriveInertia<S>,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
     shared_slip_variance: S,
@@ -147,6 +149,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             slip_per_torque: S::constant(6.0) / (rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m),
             scale,
             swing: Swing::new(),
+            inertia: DriveInertia::steady(),
             torque_rate: WalkRate::new(phase).forgetting(TORQUE_FORGOTTEN),
             slip_rate: WalkRate::new(phase + 2),
             shared_slip_variance: S::zero(),
@@ -178,6 +181,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.swing.swings()
     }
 
+    /// What the link has to hold of a torque that the drive gives, N·m, of one such standard deviation: all but what speeds the drive up.
+    pub fn held_by_link_nm(&self, motor_torque_nm: S, std_nm: S) -> S {
+        motor_torque_nm - self.inertia.takes_nm(std_nm)
+    }
+
     /// How often the filter fell back to its floor, and how often it gave up what it believed.
     pub fn troubles(&self) -> (u32, u32) {
         (self.filter.resets(), self.watch.relearned())
@@ -186,6 +194,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     /// The wheel stands, or has just started: its torque is not what it was a frame ago.
     pub fn unsettle(&mut self) {
         self.swing = Swing::new();
+        self.inertia.unsettle();
         self.loosen(&[0.0, UNSETTLED_TORQUE_NM, 0.0]);
     }
 
@@ -227,6 +236,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             self.watch.gate(),
         );
         self.share_camera_error(readings);
+        self.follow_inertia(readings);
         if swinging.is_none() {
             self.follow_trends(travel_m, [torque, slip], readings);
         }
@@ -335,6 +345,16 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             let slip = readings.hub_speed_m_s.map(|hub| S::one() - hub / rim);
             self.slip_rate.take(slip, Noise::white(readings.hub_speed_std_m_s / rim), of_slip, step_s);
         }
+    }
+
+    /// Without the encoder nothing tells how the wheel speeds up.
+    fn follow_inertia(&mut self, readings: &WheelReadings<S>) {
+        let [_, torque, _] = *self.filter.estimate().mean();
+        let larger = match (readings.motor_torque_nm, readings.rate_rad_s) {
+            (Some(motor), Some(_)) => motor - torque,
+            _ => S::zero(),
+        };
+        self.inertia.follow(larger, readings.motor_torque_std_nm);
     }
 
     /// Follows the camera's error through the filter: the gain g of the slip on the hub's speed takes the new error in, and

@@ -22,11 +22,11 @@ const ANGLE_UNTOLD: f64 = 0.003;
 
 impl<S: Scalar> SideEstimator<S> {
     /// Follows what compacts the soil under the front wheel and under the bogie's, while they roll and bear loads. Where they dig in, more
-    /// and more of the soil is compacted: then the links tell the angles.
+    /// and more of the soil is compacted: then the terrain tells the angles on which they stood.
     #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn follow_compaction(&mut self, travel_m: S) {
         let hubs = self.on_ground(&self.forces.forces_n(), &PerAxle::all(Correction::none()));
-        let settled = !self.swings && self.digging_in.told_by_links() == S::zero();
+        let settled = !self.swings && self.digging_in.is_over();
         let rolls = self
             .activity
             .zip(self.settled())
@@ -36,6 +36,10 @@ impl<S: Scalar> SideEstimator<S> {
         follow(of_front, travel_m, rolls.front, &[&hubs.front]);
         follow(of_bogie, travel_m, rolls.middle && rolls.rear, &[&hubs.middle, &hubs.rear]);
         self.corrections = self.corrections(&hubs);
+        if let Some((told, steeper)) = self.digging_in.terrain().tells(&self.angles) {
+            let corrections = self.corrections.as_mut().zip(steeper).into_array();
+            corrections.into_iter().for_each(|(correction, steeper)| correction.remember(told, steeper));
+        }
     }
 
     fn corrections(&self, hubs: &PerAxle<HubOnGround<S>>) -> PerAxle<Correction<S>> {

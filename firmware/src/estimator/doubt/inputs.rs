@@ -1,5 +1,7 @@
 //! What a side knows of how well it does.
 
+use core::hint::black_box;
+
 use super::OUTPUTS;
 use crate::estimator::contact_forces::ContactForces;
 use crate::estimator::side_estimator::{SENSORS, SideEstimator};
@@ -55,19 +57,20 @@ impl<S: Scalar> SideEstimator<S> {
     }
 }
 
-/// Variances, in these units in turn, to [`octaves`].
-#[inline(never)] // flash is scarcer than the time of a call, and of lists of known lengths each number would have code of its own
+/// Variances, in these units in turn, to [`octaves`]. Behind a black box, since of a list of known length each number would have code of its
+/// own.
+#[inline(never)] // flash is scarcer than the time of a call
 fn to_octaves<S: Scalar>(variances: &mut [S], units: &[S]) {
-    for (place, unit) in variances.iter_mut().zip(units.iter().cycle()) {
+    for (place, unit) in black_box(variances).iter_mut().zip(units.iter().cycle()) {
         *place = S::from_f32(octaves((*unit * *place).to_f32()));
     }
 }
 
-/// The magnitudes of the values of each part, so many times, one behind the other.
+/// The magnitudes of the values of each part, so many times, one behind the other. Behind a black box for the same reason.
 #[inline(never)] // as above
 fn magnitudes<S: Scalar>(parts: &[(&[S], f32)], magnitudes: &mut [f32]) {
     let mut places = magnitudes.iter_mut();
-    for (values, times) in parts {
+    for (values, times) in black_box(parts) {
         for (value, place) in values.iter().zip(places.by_ref()) {
             *place = times * value.to_f32().abs();
         }
