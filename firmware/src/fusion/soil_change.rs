@@ -53,6 +53,11 @@ impl SoilChangeDetector {
         self.arrivals.map_wheels(|arrival| arrival.is_some_and(|arrival| arrival.stiffness == change.stiffness))
     }
 
+    /// The rover turns back over its soil. Other wheels bear more there, and what they met before tells nothing of what they meet now.
+    pub fn turn_back(&mut self) {
+        self.watches = PerSide::both(PerAxle::all(ResistanceWatch::new()));
+    }
+
     /// Takes the wheels after some travel, m. How the soil changed, if that was noticed now.
     pub fn tick(&mut self, wheels: &PerWheel<WheelEstimate>, travel_m: f32) -> Option<Stiffness> {
         let radius_m = self.radius_m;
@@ -87,5 +92,41 @@ impl SoilChangeDetector {
         self.under_way = Some(Arrival { stiffness: noticed, travel_m: 0.0 });
         self.changes = self.changes.saturating_add(1);
         Some(noticed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SoilChangeDetector;
+    use crate::estimator::{Estimate, WheelActivity, WheelEstimate};
+    use crate::rover::{PerAxle, PerSide, PerWheel};
+
+    /// Six wheels on plane ground whose pulls are zero, and whose torques are so much of load times radius.
+    fn wheels(resistance: f32) -> PerWheel<WheelEstimate> {
+        let known = |value: f32| Estimate { value, std: 0.001 };
+        PerSide::both(PerAxle::all(WheelEstimate {
+            activity: WheelActivity::Rolling,
+            slip: Some(known(0.2)),
+            normal_load_n: known(65.0),
+            resistive_torque_nm: known(resistance * 65.0 * 0.075),
+            ..WheelEstimate::default()
+        }))
+    }
+
+    fn changes(turns_back: bool) -> u16 {
+        let mut detector = SoilChangeDetector::new(0.075, 0.5);
+        for frame in 0..400 {
+            if turns_back && frame == 200 {
+                detector.turn_back();
+            }
+            let _ = detector.tick(&wheels(if frame < 200 { 0.3 } else { 0.4 }), 0.002);
+        }
+        detector.changes()
+    }
+
+    #[test]
+    fn what_wheels_meet_on_the_way_back_is_not_held_against_what_they_met() {
+        assert_eq!(changes(false), 1);
+        assert_eq!(changes(true), 0);
     }
 }

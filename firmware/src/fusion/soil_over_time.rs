@@ -22,6 +22,8 @@ pub struct SoilOverTime {
     wheel: Wheel<f32>,
     average: SoilAverage,
     changes: SoilChangeDetector,
+    /// Which side rolled back when its front wheel last rolled.
+    backward: PerSide<bool>,
     /// Every other frame the rover network is asked what would last without noise.
     asks_what_lasts: bool,
 }
@@ -36,6 +38,7 @@ impl SoilOverTime {
             wheel: rover.wheel,
             average: SoilAverage::new(),
             changes: SoilChangeDetector::new(rover.wheel.radius_m, wheelbase_m),
+            backward: PerSide::both(false),
             asks_what_lasts: false,
         }
     }
@@ -54,12 +57,22 @@ impl SoilOverTime {
         } else {
             wheels
         };
+        self.follow_direction(wheels, backward);
         let wheel_soils = wheels.as_ref().map(|side| side.as_ref().map(|wheel| self.under_wheel(wheel)));
         if self.changes.tick(wheels, travel_m).is_some() {
             self.average = SoilAverage::new();
         }
         let rover = self.under_rover(wheels, travel_m);
         (wheel_soils, rover)
+    }
+
+    fn follow_direction(&mut self, wheels: &PerWheel<WheelEstimate>, backward: PerSide<bool>) {
+        let before = self.backward;
+        let rolls = wheels.as_ref().map(|side| side.front.activity == WheelActivity::Rolling);
+        self.backward = rolls.zip(backward.zip(before)).map(|(rolls, (now, before))| if rolls { now } else { before });
+        if self.backward != before {
+            self.changes.turn_back();
+        }
     }
 
     /// The per-wheel network is not told the slope, which would tell it what all wheels pull together: it has learned that from rovers whose
