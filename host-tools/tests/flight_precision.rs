@@ -1,6 +1,7 @@
 //! The estimators in the flight's single precision against themselves in double precision, on the same frames.
 
-use kapvik_firmware::estimator::{Estimate, RoverEstimator, SideEstimate, WheelEstimate};
+use kapvik_firmware::estimator::{Estimate, RoverEstimator, SideEstimate, SideInnovations, WheelEstimate};
+use kapvik_firmware::filter::{Fate, Innovation};
 use kapvik_firmware::rover::{PerSide, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
@@ -61,14 +62,35 @@ impl Differences {
     }
 }
 
-/// The differences over a drive, in the order of [`QUANTITIES`].
-fn differences(scenario: Scenario, seed: u64) -> [Differences; 6] {
+/// What became of the measurements of a side.
+fn fates<S>(told: &SideInnovations<S>) -> Vec<Fate> {
+    fn of<S, const M: usize>(told: &Innovation<S, M>) -> impl Iterator<Item = Fate> {
+        told.residuals.iter().map(|residual| residual.fate)
+    }
+    let wheels = told.wheels.as_array().into_iter().flat_map(of);
+    wheels.chain(of(&told.angles)).chain(of(&told.forces)).collect()
+}
+
+/// A drive in both precisions.
+struct Compared {
+    /// In the order of [`QUANTITIES`].
+    differences: [Differences; 6],
+    /// When a measurement that was at the edge of its gate was first taken in one precision and refused in the other, µs.
+    parted_us: Option<u64>,
+}
+
+fn compared(scenario: Scenario, seed: u64) -> Compared {
     let rover = Rover::<f32>::assumed();
     let mut single = RoverEstimator::<f32>::new(&rover);
     let mut double = RoverEstimator::<f64>::new(&rover.map(f64::from));
     let mut differences = [Differences::default(); 6];
+    let mut parted_us = None;
     for frame in frames(scenario, seed) {
         let _ = (single.tick(&frame), double.tick(&frame));
+        if let (None, Some(single), Some(double)) = (parted_us, single.innovations(), double.innovations()) {
+            let alike = single.map(fates) == double.map(fates);
+            parted_us = (!alike).then_some(frame.time_us);
+        }
         if frame.time_us < WARM_UP_US {
             continue;
         }
@@ -88,19 +110,35 @@ fn differences(scenario: Scenario, seed: u64) -> [Differences; 6] {
              standard deviations by {of_std:.1e}, {most_of_std:.1e}"
         );
     }
-    differences
+    if let Some(time_us) = parted_us {
+        println!(
+            "{scenario:?} {seed}: a measurement at {time_us} µs is taken in one precision and refused in the other"
+        );
+    }
+    Compared { differences, parted_us }
 }
 
 /// What is wanted, in standard deviations.
 const WANTED: f64 = 1.0e-3;
+/// Of some twenty thousand measurements of a drive one in ten million is so near the edge of its gate that rounding decides: in one drive of
+/// five hundred. Two of 32 are no chance.
+const PARTED: usize = 1;
 
-/// Asks that some measure of the differences is as wanted on sixteen drives of each kind.
+/// Asks that some measure of the differences is as wanted on sixteen drives of each kind, but where rounding decides what is measured.
 fn hold(scenarios: [Scenario; 2], measure: fn(&Differences) -> [f64; 2]) {
+    let mut parted = 0;
     for (scenario, seed) in (40..56).flat_map(|seed| scenarios.map(|scenario| (scenario, seed))) {
-        for (name, found) in QUANTITIES.into_iter().zip(differences(scenario, seed)) {
+        let compared = compared(scenario, seed);
+        if compared.parted_us.is_some() {
+            parted += 1;
+            continue;
+        }
+        for (name, found) in QUANTITIES.into_iter().zip(compared.differences) {
             assert!(measure(&found).iter().all(|part| *part <= WANTED), "{scenario:?} {seed}, {name}: {found:?}");
         }
     }
+    println!("{parted} of 32 drives part at a gate");
+    assert!(parted <= PARTED, "{parted} drives part at a gate");
 }
 
 #[test]
