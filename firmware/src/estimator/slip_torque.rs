@@ -12,7 +12,7 @@ use super::swing::Swing;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gaussian, Innovation, Prediction, SigmaPointFilter};
+use crate::filter::{Fate, Gaussian, Innovation, Prediction, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
 
@@ -101,6 +101,8 @@ const SWINGS_SLIP: f64 = 0.3;
 /// What is added to what is not known of a state that has moved, as standard deviations: where the rims change speed, torque
 /// and slip follow within a second.
 const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
+/// A slip that is known no better than this is not known at all.
+const GREATEST_JUMP: f64 = 0.4;
 /// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
 const BESIDE_TREND: f64 = 0.6;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
@@ -242,7 +244,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         }
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
-            Contradiction::Moved => self.loosen(&LOOSENED),
+            Contradiction::Moved => self.jump(&told, readings),
             Contradiction::Wrong => self.loosen(&UNKNOWN),
         }
         told
@@ -347,6 +349,28 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         }
     }
 
+    /// The state has moved: where the encoder is contradicted, by as much as the drive is from the torque; where the speed of the hub is, by
+    /// as much as the quotient of the speeds is from the slip. By less, what is believed would go on to be contradicted while they move away.
+    fn jump(&mut self, told: &Innovation<S, MEASUREMENTS>, readings: &WheelReadings<S>) {
+        let [_, torque, slip] = *self.filter.estimate().mean();
+        let [of_rate, of_hub] = told.residuals.each_ref().map(|residual| residual.fate == Fate::Rejected);
+        let [_, mut torque_off, mut slip_off] = of_rover(&LOOSENED, &self.scale);
+        let [_, unknown_torque, _] = of_rover(&UNKNOWN, &self.scale);
+        if let Some(motor) = readings.motor_torque_nm.filter(|_| of_rate) {
+            torque_off = (motor - torque).abs().max(torque_off).min(unknown_torque);
+        }
+        if let (Some(hub), Some(rate), true) = (readings.hub_speed_m_s, readings.rate_rad_s, of_hub) {
+            let quotient = S::one() - hub / (self.model.radius_m * rate);
+            slip_off = (quotient - slip).abs().max(slip_off).min(S::constant(GREATEST_JUMP));
+        }
+        self.trends.forget();
+        // What was predicted meanwhile with a torque that is off has taken the rate along.
+        if let Some(rate) = readings.rate_rad_s.filter(|_| of_rate) {
+            let _ = self.filter.forget(0, rate, readings.rate_std_rad_s);
+        }
+        let _ = self.filter.random_walk(&[S::zero(), torque_off, slip_off]);
+    }
+
     /// Without the encoder nothing tells how the wheel speeds up.
     fn follow_inertia(&mut self, readings: &WheelReadings<S>) {
         let [_, torque, _] = *self.filter.estimate().mean();
@@ -385,28 +409,34 @@ fn of_rover<S: Scalar>(&[rate, torque, slip]: &[f64; STATES], scale: &Scale<S>) 
 mod tests {
     use super::{Rover, SlipTorqueFilter, WheelReadings};
 
-    /// A wheel at slip 0.2 whose torque grows from 1.5 to 1.8 N·m, while no camera sees it: by how much it is taken to slip more.
+    /// A wheel that turns at 0.3 rad/s, one way or the other, at slip 0.2 as far as the camera sees it.
+    fn readings(direction: f64, torque: f64, seen: bool) -> WheelReadings<f64> {
+        WheelReadings {
+            rate_rad_s: Some(direction * 0.3),
+            rate_std_rad_s: 0.002,
+            hub_speed_m_s: seen.then_some(direction * 0.8 * 0.3 * 0.075),
+            hub_speed_std_m_s: 5.0e-4,
+            shared_speed_std_m_s: 5.0e-4,
+            roughness: 0.0,
+            side_swings: false,
+            motor_torque_nm: Some(direction * torque),
+            motor_torque_std_nm: 0.05,
+        }
+    }
+
+    /// Torque and slip after another frame.
+    fn after(filter: &mut SlipTorqueFilter<f64>, readings: &WheelReadings<f64>) -> (f64, f64) {
+        let _ = filter.tick(0.1, 1.8e-3, readings);
+        let [_, torque, slip] = *filter.estimate().mean();
+        (torque, slip)
+    }
+
+    /// By how much a wheel whose torque grows from 1.5 to 1.8 N·m, while no camera sees it, is taken to slip more.
     fn slips_more(direction: f64) -> f64 {
         let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
-        let slip_after = |filter: &mut SlipTorqueFilter<f64>, torque: f64, seen: bool| {
-            let readings = WheelReadings {
-                rate_rad_s: Some(direction * 0.3),
-                rate_std_rad_s: 0.002,
-                hub_speed_m_s: seen.then_some(direction * 0.8 * 0.3 * 0.075),
-                hub_speed_std_m_s: 5.0e-4,
-                shared_speed_std_m_s: 5.0e-4,
-                roughness: 0.0,
-                side_swings: false,
-                motor_torque_nm: Some(direction * torque),
-                motor_torque_std_nm: 0.05,
-            };
-            let _ = filter.tick(0.1, 1.8e-3, &readings);
-            let [_, _, slip] = *filter.estimate().mean();
-            slip
-        };
-        let before = (0..100).map(|_| slip_after(&mut filter, 1.5, true)).last().expect("slips");
-        let after =
-            (0..60).map(|frame| slip_after(&mut filter, 1.5 + 0.005 * f64::from(frame), false)).last().expect("slips");
+        let mut slip_after = |torque: f64, seen: bool| after(&mut filter, &readings(direction, torque, seen)).1;
+        let before = (0..100).map(|_| slip_after(1.5, true)).last().expect("slips");
+        let after = (0..60).map(|frame| slip_after(1.5 + 0.005 * f64::from(frame), false)).last().expect("slips");
         assert!((before - 0.2).abs() < 1.0e-3, "{before}");
         after - before
     }
@@ -417,5 +447,17 @@ mod tests {
         let (forward, backward) = (slips_more(1.0), slips_more(-1.0));
         assert!(forward > 0.03 && forward < 0.09, "{forward}");
         assert!((forward - backward).abs() < 1.0e-6, "{forward} {backward}");
+    }
+
+    /// A wheel that a rover drags over its soil from one moment to the next: its torque is there within half a second, though it is ninety
+    /// standard deviations of the drive's sensor from what it was.
+    #[test]
+    fn a_torque_that_jumps_is_followed() {
+        let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
+        (0..100).for_each(|_| {
+            let _ = after(&mut filter, &readings(1.0, 1.5, true));
+        });
+        let jumped: Vec<f64> = (0..5).map(|_| after(&mut filter, &readings(1.0, -3.0, true)).0).collect();
+        assert!(jumped.last().is_some_and(|torque| (torque + 3.0).abs() < 0.3), "{jumped:?}");
     }
 }
