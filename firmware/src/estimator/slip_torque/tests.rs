@@ -1,0 +1,53 @@
+use super::{Rover, SlipTorqueFilter, WheelReadings};
+
+/// A wheel that turns at 0.3 rad/s, one way or the other, at slip 0.2 as far as the camera sees it.
+fn readings(direction: f64, torque: f64, seen: bool) -> WheelReadings<f64> {
+    WheelReadings {
+        rate_rad_s: Some(direction * 0.3),
+        rate_std_rad_s: 0.002,
+        hub_speed_m_s: seen.then_some(direction * 0.8 * 0.3 * 0.075),
+        hub_speed_std_m_s: 5.0e-4,
+        shared_speed_std_m_s: 5.0e-4,
+        roughness: 0.0,
+        side_swings: false,
+        motor_torque_nm: Some(direction * torque),
+        motor_torque_std_nm: 0.05,
+    }
+}
+
+/// Torque and slip after another frame.
+fn after(filter: &mut SlipTorqueFilter<f64>, readings: &WheelReadings<f64>) -> (f64, f64) {
+    let _ = filter.tick(0.1, 1.8e-3, readings);
+    let [_, torque, slip] = *filter.estimate().mean();
+    (torque, slip)
+}
+
+/// By how much a wheel whose torque grows from 1.5 to 1.8 N·m, while no camera sees it, is taken to slip more.
+fn slips_more(direction: f64) -> f64 {
+    let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
+    let mut slip_after = |torque: f64, seen: bool| after(&mut filter, &readings(direction, torque, seen)).1;
+    let before = (0..100).map(|_| slip_after(1.5, true)).last().expect("slips");
+    let after = (0..60).map(|frame| slip_after(1.5 + 0.005 * f64::from(frame), false)).last().expect("slips");
+    assert!((before - 0.2).abs() < 1.0e-3, "{before}");
+    after - before
+}
+
+/// A torque that grows by a tenth of load times radius or so is a slip that grows by some hundredths, whichever way the wheel drives.
+#[test]
+fn a_torque_that_grows_takes_the_slip_along() {
+    let (forward, backward) = (slips_more(1.0), slips_more(-1.0));
+    assert!(forward > 0.03 && forward < 0.09, "{forward}");
+    assert!((forward - backward).abs() < 1.0e-6, "{forward} {backward}");
+}
+
+/// A wheel that a rover drags over its soil from one moment to the next: its torque is there within half a second, though it is ninety
+/// standard deviations of the drive's sensor from what it was.
+#[test]
+fn a_torque_that_jumps_is_followed() {
+    let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
+    (0..100).for_each(|_| {
+        let _ = after(&mut filter, &readings(1.0, 1.5, true));
+    });
+    let jumped: Vec<f64> = (0..5).map(|_| after(&mut filter, &readings(1.0, -3.0, true)).0).collect();
+    assert!(jumped.last().is_some_and(|torque| (torque + 3.0).abs() < 0.3), "{jumped:?}");
+}
