@@ -30,8 +30,8 @@ const REFERENCE_M: f32 = 1.0;
 const LEARNED_M: f32 = 0.15;
 /// A difference that matters, whatever the noise: a third of what ice does.
 const LEAST_CHANGE: f32 = 0.025;
-/// Standard deviations of a difference that is not chance: with 4 one of some 450 drives over hills claimed another soil; with 4.5 one of 80 changes was
-/// noticed beyond a rover length.
+/// Standard deviations of a difference that is not chance: with 4 one of some 450 drives over hills claimed another soil; with 4.5 one of 80
+/// changes was noticed beyond a rover length.
 const SIGNIFICANT: f32 = 4.2;
 /// Travel for which a difference must last, m.
 const LASTING_M: f32 = 0.04;
