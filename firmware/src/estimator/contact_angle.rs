@@ -252,8 +252,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// By how much the paths of the hubs are steeper than their links lie, rad: the mean, and the mean of the squares less what their
     /// errors make of it, rad².
     pub fn departure(&self) -> (S, S) {
-        let [_, front, middle, rear, rocker, bogie, _] = *self.filter.estimate().mean();
-        let departures = [front - rocker, middle - bogie, rear - bogie];
+        let departures = self.angles().zip(self.links()).map(|(angle, link)| angle - link).into_array();
         let departures = departures.into_iter().zip(self.variances.as_array());
         let third = S::constant(1.0 / 3.0);
         let sums = departures.fold((S::zero(), S::zero()), |(sum, squares), (departure, variance)| {
@@ -336,8 +335,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>, told: bool) {
         // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
-        let [_, drift] = self.drift_variances;
-        let learned = S::constant(LEARNED) * drift;
+        let learned = S::constant(LEARNED) * self.drift_variance();
         let moved = self.angles().zip(*before).zip(*variances);
         let moved = moved.map(|((now, before), variance)| (now - before, learned / variance));
         self.trends.follow(self.travel_m(step_s), &moved.into_array(), [told; 3]);

@@ -11,6 +11,10 @@ use super::slip_torque::SlipTorqueFilter;
 use crate::rover::{Axle, PerAxle};
 use crate::scalar::Scalar;
 
+/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull:
+/// one standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
+const OF_DIGGING: f64 = 0.75;
+
 /// Contact angle, load and drawbar pull of one wheel, with their errors.
 pub(super) struct ContactForces<S> {
     /// Contact angle, rad.
@@ -35,10 +39,6 @@ pub(super) struct ErrorOf<S> {
     /// It by the split between the wheels of a bogie: one standard deviation, N.
     pub by_split: S,
 }
-
-/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull: one
-/// standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
-const OF_DIGGING: f64 = 0.75;
 
 /// A quantity by the states of the contact-angle filter.
 type ByAngles<S> = [S; contact_angle::STATES];

@@ -1,10 +1,9 @@
 //! Wheels that have stood dig in as they start.
 //!
 //! Loads shift from wheel to wheel and slips grow, and the hubs sink while they travel: their paths depart from the terrain, and come back
-//! to it over some centimetres. The velocimeter tells little of the paths of hubs that creep, too. But the terrain is what it was where the
-//! wheels came to stand: what was known of it then tells the contact angles beside the paths, until these are known as well. In soil that
-//! sinks with slip wheels dig deep, over a contact length and more: then all hubs together go down more steeply than their links lie, which
-//! terrain makes them do now and then, but not from where the rover stood.
+//! to it over some centimetres. Until then the [terrain as it is remembered](RememberedTerrain) tells the contact angles beside them. In soil
+//! that sinks with slip wheels dig deep, over a contact length and more: then all hubs together go down more steeply than their links lie,
+//! which terrain makes them do now and then, but not from where the rover stood.
 
 use super::contact_angle::ContactAngleFilter;
 use super::remembered_terrain::RememberedTerrain;

@@ -26,8 +26,7 @@ impl<S: Scalar> SideEstimator<S> {
         forces: &PerAxle<Planar<S>>,
         corrections: &PerAxle<Correction<S>>,
     ) -> PerAxle<HubOnGround<S>> {
-        let [_, front, middle, rear, rocker, bogie, _] = *self.angles.estimate().mean();
-        let paths = PerAxle { front: (front, rocker), middle: (middle, bogie), rear: (rear, bogie) };
+        let paths = self.angles.angles().zip(self.angles.links());
         let filters = paths.zip(*corrections).zip(self.wheels.as_ref());
         forces.zip(filters).map(|(force, (((path, link), correction), filter))| {
             let steeper = path + correction.steeper - link;

@@ -101,8 +101,6 @@ const SWINGS_SLIP: f64 = 0.3;
 /// What is added to what is not known of a state that has moved, as standard deviations: where the rims change speed, torque
 /// and slip follow within a second.
 const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
-/// A slip that is known no better than this is not known at all.
-const GREATEST_JUMP: f64 = 0.4;
 /// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
 const BESIDE_TREND: f64 = 0.6;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
@@ -197,12 +195,12 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     pub fn unsettle(&mut self) {
         self.swing = Swing::new();
         self.inertia.unsettle();
-        self.loosen(&[0.0, UNSETTLED_TORQUE_NM, 0.0]);
+        self.loosen(&of_rover(&[0.0, UNSETTLED_TORQUE_NM, 0.0], &self.scale));
     }
 
-    fn loosen(&mut self, stds: &[f64; STATES]) {
+    fn loosen(&mut self, stds: &[S; STATES]) {
         self.trends.forget();
-        let _ = self.filter.random_walk(&of_rover(stds, &self.scale));
+        let _ = self.filter.random_walk(stds);
     }
 
     /// The wheel rolls as it will: what it was like before is of no account for how fast it wanders.
@@ -245,7 +243,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
             Contradiction::Moved => self.jump(&told, readings),
-            Contradiction::Wrong => self.loosen(&UNKNOWN),
+            Contradiction::Wrong => self.loosen(&of_rover(&UNKNOWN, &self.scale)),
         }
         told
     }
@@ -356,19 +354,19 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let [of_rate, of_hub] = told.residuals.each_ref().map(|residual| residual.fate == Fate::Rejected);
         let [_, mut torque_off, mut slip_off] = of_rover(&LOOSENED, &self.scale);
         let [_, unknown_torque, _] = of_rover(&UNKNOWN, &self.scale);
+        let [_, unknown_slip] = STARTING_SLIP.map(S::constant);
         if let Some(motor) = readings.motor_torque_nm.filter(|_| of_rate) {
             torque_off = (motor - torque).abs().max(torque_off).min(unknown_torque);
         }
         if let (Some(hub), Some(rate), true) = (readings.hub_speed_m_s, readings.rate_rad_s, of_hub) {
             let quotient = S::one() - hub / (self.model.radius_m * rate);
-            slip_off = (quotient - slip).abs().max(slip_off).min(S::constant(GREATEST_JUMP));
+            slip_off = (quotient - slip).abs().max(slip_off).min(unknown_slip);
         }
-        self.trends.forget();
         // What was predicted meanwhile with a torque that is off has taken the rate along.
         if let Some(rate) = readings.rate_rad_s.filter(|_| of_rate) {
             let _ = self.filter.forget(0, rate, readings.rate_std_rad_s);
         }
-        let _ = self.filter.random_walk(&[S::zero(), torque_off, slip_off]);
+        self.loosen(&[S::zero(), torque_off, slip_off]);
     }
 
     /// Without the encoder nothing tells how the wheel speeds up.

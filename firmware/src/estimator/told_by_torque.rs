@@ -22,7 +22,8 @@ const ANGLE_UNTOLD: f64 = 0.003;
 
 impl<S: Scalar> SideEstimator<S> {
     /// Follows what compacts the soil under the front wheel and under the bogie's, while they roll and bear loads. Where they dig in, more
-    /// and more of the soil is compacted: then the terrain tells the angles on which they stood.
+    /// and more of the soil is compacted: then the terrain tells the angles on which they stood,
+    /// and as long as it is asked its memory corrects the same paths.
     #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn follow_compaction(&mut self, travel_m: S) {
         let hubs = self.on_ground(&self.forces.forces_n(), &PerAxle::all(Correction::none()));
