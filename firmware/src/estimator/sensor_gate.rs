@@ -33,6 +33,19 @@ impl SensorGate {
         Self { limit, last_bits: 0, repeats: 0, allowed: STUCK_FRAMES, regulated: false, bad: 0, good: 0 }
     }
 
+    /// One for each wheel, alike. A drive that holds its rate is regulated.
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn of_wheels(limit: f32, regulated: bool) -> PerWheel<Self> {
+        PerSide::both(PerAxle::all(Self { regulated, ..Self::new(limit) }))
+    }
+
+    /// One for each axis, alike.
+    #[inline(never)] // as above
+    fn of_axes(limit: f32) -> Axes<Self> {
+        let gate = Self::new(limit);
+        Axes { x: gate, y: gate, z: gate }
+    }
+
     /// The reading, if it can be used.
     fn admit(&mut self, reading: Option<f32>, health: &mut SensorHealth) -> Option<f32> {
         let Some(value) = reading else {
@@ -105,23 +118,17 @@ impl SensorGates {
     /// and drives that hold its whole weight several times over.
     pub fn new(rover: &Rover<f32>) -> Self {
         let weight_n = rover.mass_kg * rover.gravity_m_s2;
-        let wheels = |limit: f32| PerSide::both(PerAxle::all(SensorGate::new(limit)));
-        let rate = SensorGate { regulated: true, ..SensorGate::new(2.0 / rover.wheel.radius_m) };
-        let axes = |limit: f32| {
-            let gate = SensorGate::new(limit);
-            Axes { x: gate, y: gate, z: gate }
-        };
         let angle = SensorGate::new(1.6);
         Self {
             gates: PerSensor {
-                wheel_rate: PerSide::both(PerAxle::all(rate)),
-                motor_torque: wheels(3.0 * weight_n * rover.wheel.radius_m),
-                load_cell: wheels(3.0 * weight_n),
+                wheel_rate: SensorGate::of_wheels(2.0 / rover.wheel.radius_m, true),
+                motor_torque: SensorGate::of_wheels(3.0 * weight_n * rover.wheel.radius_m, false),
+                load_cell: SensorGate::of_wheels(3.0 * weight_n, false),
                 bogie_angle: PerSide::both(angle),
                 rocker_angle: angle,
-                accel: axes(5.0 * rover.gravity_m_s2),
-                gyro: axes(5.0),
-                velocity: axes(2.0),
+                accel: SensorGate::of_axes(5.0 * rover.gravity_m_s2),
+                gyro: SensorGate::of_axes(5.0),
+                velocity: SensorGate::of_axes(2.0),
             },
         }
     }

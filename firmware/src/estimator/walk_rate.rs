@@ -67,6 +67,7 @@ struct Trial<S> {
 impl<S: Scalar> WalkRate<S> {
     /// A rate of which nothing is known yet. Of many, each should have another `phase`: the costly part of the work is done
     /// in one of so many frames, and phases spread it.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn new(phase: usize) -> Self {
         let filter = ScalarFilter { mean: S::zero(), variance: S::constant(1.0e6) };
         let trial = Trial { filter, log_variance: S::zero(), misfit: S::zero() };
