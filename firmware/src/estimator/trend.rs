@@ -33,20 +33,20 @@ pub(super) fn beside_trend<S: Scalar>(left: f64, restless: S) -> S {
 pub(super) struct Trends<S, const N: usize> {
     per_m: [S; N],
     restless: [S; N],
-    /// Travel since each quantity was told of last, m.
+    /// Travel since each quantity was told of last, m; infinite where it was not since the trends were forgotten.
     untold_m: [S; N],
 }
 
 impl<S: Scalar, const N: usize> Trends<S, N> {
     /// None is known.
     pub fn new() -> Self {
-        Self { per_m: [S::zero(); N], restless: [S::zero(); N], untold_m: [S::zero(); N] }
+        Self { per_m: [S::zero(); N], restless: [S::zero(); N], untold_m: [S::constant(f64::INFINITY); N] }
     }
 
-    /// Forgets them: what was seen last was not the ground's doing.
+    /// Forgets them: what was seen last was not the ground's doing. Nor is what the next update makes good.
     pub fn forget(&mut self) {
         self.per_m = [S::zero(); N];
-        self.untold_m = [S::zero(); N];
+        self.untold_m = [S::constant(f64::INFINITY); N];
     }
 
     /// Takes how restless each quantity is.
@@ -119,10 +119,23 @@ mod tests {
     fn where_nothing_rolls_there_is_no_trend() {
         let mut trends = Trends::<f64, 1>::new();
         trends.expect([1.0]);
-        trends.follow(0.002, &[(0.01, 0.1)], [true]);
+        (0..2).for_each(|_| trends.follow(0.002, &[(0.01, 0.1)], [true]));
         assert!(trends.per_m() > [0.1]);
         trends.follow(0.0, &[(0.01, 0.1)], [true]);
         assert_eq!(trends.per_m(), [0.0]);
+    }
+
+    /// A filter that has let go of what it believed comes back to it in one update: the ground has not turned by that.
+    #[test]
+    fn what_is_made_good_after_forgetting_is_no_trend() {
+        let mut trends = Trends::<f64, 1>::new();
+        trends.expect([1.0]);
+        (0..20).for_each(|_| trends.follow(0.002, &[(0.01, 0.1)], [true]));
+        trends.forget();
+        trends.follow(0.002, &[(70.0, 0.5)], [true]);
+        assert_eq!(trends.per_m(), [0.0]);
+        trends.follow(0.002, &[(0.01, 0.1)], [true]);
+        assert!(trends.per_m() > [0.1]);
     }
 
     /// What one measurement of five makes good is the way of five frames.
@@ -130,6 +143,7 @@ mod tests {
     fn what_is_told_late_is_no_steeper() {
         let mut trends = Trends::<f64, 2>::new();
         trends.expect([1.0; 2]);
+        trends.follow(0.002, &[(0.0, 0.1); 2], [true; 2]);
         trends.follow(0.002, &[(0.01, 0.1), (0.0, 0.1)], [true, false]);
         (0..3).for_each(|_| trends.follow(0.002, &[(0.0, 0.1); 2], [false; 2]));
         trends.follow(0.002, &[(0.0, 0.1), (0.05, 0.1)], [false, true]);
