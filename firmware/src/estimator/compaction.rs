@@ -6,6 +6,7 @@
 //! sinks deeper, or less deep, in another soil, and whose path is then not the terrain. Of a bogie's two wheels only the sum of the pulls
 //! is known, and so only their share together: (ΣT/r − ΣDP)/ΣW, smaller by the mean of their angles' errors, weighted by load.
 
+use super::drawbar_split::BogieWheel;
 use crate::scalar::Scalar;
 
 /// Travel over which that mean is taken, m: soil that is another for so long is what there is.
@@ -20,18 +21,29 @@ pub(super) struct Compaction<S> {
     mean: S,
     /// Travel that the mean was learned over, m, up to [`REMEMBERED_M`].
     way_m: S,
-    departure: S,
+    /// How far it is from its mean now; none where no share of now is known.
+    departure: Option<S>,
 }
 
 impl<S: Scalar> Compaction<S> {
     /// Nothing is known.
     pub fn new() -> Self {
-        Self { mean: S::zero(), way_m: S::zero(), departure: S::zero() }
+        Self { mean: S::zero(), way_m: S::zero(), departure: None }
     }
 
     /// Forgets it: a wheel does not roll under a load, or digs in.
     pub fn forget(&mut self) {
         self.way_m = S::zero();
+    }
+
+    /// Nothing tells what it is now: pulls are not known.
+    pub fn pause(&mut self) {
+        self.departure = None;
+    }
+
+    /// Whether it has been learned.
+    pub fn is_known(&self) -> bool {
+        self.way_m > S::zero()
     }
 
     /// Takes the share after so much travel, m, more than none. No soil's is beyond one; that of a load near nothing may be anything.
@@ -43,14 +55,20 @@ impl<S: Scalar> Compaction<S> {
         self.way_m = (self.way_m + travel_m).min(S::constant(REMEMBERED_M));
         let within = |greatest: f64| (share - self.mean).max(-S::constant(greatest)).min(S::constant(greatest));
         let (learned, departure) = (within(GREATEST), within(GREATEST_TOLD));
-        self.departure = departure;
+        self.departure = Some(departure);
         self.mean += travel_m / self.way_m * learned;
+    }
+
+    /// The pull of such wheels together where they compact the soil as they did, N.
+    pub fn pull_n(&self, wheels: &[&BogieWheel<S>]) -> S {
+        wheels.iter().fold(S::zero(), |sum, wheel| sum + wheel.rim_force_n - self.mean * wheel.load_n)
     }
 
     /// How far the share is from its mean, and what of it is an error of the contact angle, over the variance by which that is known, rad²:
     /// the gain of Kalman's filter, less its last factor. On one soil the share departs from its mean by another variance.
     pub fn tells(&self, variance: S, by_itself: S) -> (S, S) {
-        (self.departure, self.way_m / (variance * self.way_m + S::constant(REMEMBERED_M) * by_itself))
+        let Some(departure) = self.departure else { return (S::zero(), S::zero()) };
+        (departure, self.way_m / (variance * self.way_m + S::constant(REMEMBERED_M) * by_itself))
     }
 }
 
@@ -124,7 +142,7 @@ impl<S: Scalar> Known<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Compaction, Known, Together};
+    use super::{BogieWheel, Compaction, Known, Together};
 
     /// An angle that is too small by 0.05 rad for a moment, of a wheel that has rolled for long: known to 0.015 rad, it is half made good.
     #[test]
@@ -172,6 +190,20 @@ mod tests {
         (0..600).for_each(|_| compaction.follow(0.002, 0.3));
         let (departure, _) = compaction.tells(1.0, 1.0e-4);
         assert!(departure.abs() < 0.001, "{departure}");
+    }
+
+    /// Where pulls are not known the share is nobody's: nothing is told, and what was learned stays for the time after.
+    #[test]
+    fn a_pause_tells_nothing_and_forgets_nothing() {
+        let mut compaction = Compaction::<f64>::new();
+        assert!(!compaction.is_known());
+        (0..300).for_each(|_| compaction.follow(0.002, 0.2));
+        compaction.pause();
+        assert_eq!(compaction.tells(1.0, 1.0e-4), (0.0, 0.0));
+        let wheel = BogieWheel { load_n: 100.0, rim_force_n: 30.0, slip: 0.1, direction: 1.0 };
+        assert!(compaction.is_known() && (compaction.pull_n(&[&wheel]) - 10.0).abs() < 1.0e-9);
+        compaction.follow(0.002, 0.25);
+        assert!((compaction.tells(1.0, 1.0e-4).0 - 0.05).abs() < 1.0e-9);
     }
 
     /// A load near nothing makes a share of any size, and that tells no angle.

@@ -2,7 +2,7 @@
 
 use super::compaction::Correction;
 use super::contact_angle;
-use super::drawbar_split::{DrawbarSplit, OF_TORQUE};
+use super::drawbar_split::OF_TORQUE;
 use super::hub_force;
 use super::hub_on_ground::HubOnGround;
 use super::side_estimate::HubForces;
@@ -10,10 +10,6 @@ use super::side_estimator::SideEstimator;
 use super::slip_torque::SlipTorqueFilter;
 use crate::rover::{Axle, PerAxle};
 use crate::scalar::Scalar;
-
-/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull:
-/// one standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
-const OF_DIGGING: f64 = 0.75;
 
 /// Contact angle, load and drawbar pull of one wheel, with their errors.
 pub(super) struct ContactForces<S> {
@@ -49,17 +45,14 @@ impl<S: Scalar> SideEstimator<S> {
     pub(super) fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let corrections = &self.corrections;
         let PerAxle { front, middle, rear } = self.on_ground(&self.forces.forces_at(estimate), corrections);
-        let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
-        let form = DrawbarSplit::by_torque(&middle.wheel, &rear.wheel, sum).std_n;
+        let form = self.split_of_pull(&middle, &rear).std_n;
         let torque_variance = |filter: &SlipTorqueFilter<S>| {
             let [_, torque, _] = filter.estimate().variances();
             torque
         };
         let per_torque = S::constant(OF_TORQUE) / self.rover.wheel.radius_m;
         let of_torques = torque_variance(&self.wheels.middle) + torque_variance(&self.wheels.rear);
-        let load_n = S::constant(OF_DIGGING) * (middle.wheel.load_n + rear.wheel.load_n);
-        let digging = load_n * load_n * self.digging_in.variance();
-        let split = S::constant(0.5) * (form * form + digging + per_torque * per_torque * of_torques).sqrt();
+        let split = S::constant(0.5) * (form * form + per_torque * per_torque * of_torques).sqrt();
         let (of_middle, of_rear) = share_along_bogie(&middle, &rear);
         PerAxle {
             front: contact_forces(Axle::Front, &front, &corrections.front, of_front(&front), S::zero()),

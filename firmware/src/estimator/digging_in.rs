@@ -24,6 +24,8 @@ const DIGS_DEEP: f64 = 0.05;
 const HARDLY_DIGS: f64 = 0.02;
 /// The way of the rims after which deep digging is down to a third, m: a contact length.
 const DIGGING_DEEP_M: f64 = 0.065;
+/// Wheels whose rims are faster than the rover by this factor spin on the spot: they dig in, and meet no other terrain.
+const SPINS: f64 = 8.0;
 /// The least speed that paths are told by while wheels dig in, m/s.
 const LEAST_SPEED: f64 = 3.0e-5;
 
@@ -86,15 +88,19 @@ impl<S: Scalar> DiggingIn<S> {
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn follow(&mut self, rolled: &Rolled<S>, angles: &mut ContactAngleFilter<S>) {
         let square = |value: f64| S::constant(value * value);
+        let speed = rolled.speed_m_s.max(S::constant(LEAST_SPEED));
+        let over_rim = rolled.rim_speed_m_s / speed;
+        let squared = over_rim * over_rim;
+        let spins = squared > square(SPINS);
         let mut steeper = S::zero();
-        if rolled.stands {
+        if rolled.stands || spins {
             steeper = square(DIGS_IN);
             (self.variance, self.way_m, self.deep) = (steeper, S::zero(), false);
             self.terrain.ask();
+            if spins {
+                steeper = steeper * squared;
+            }
         } else if self.variance > S::zero() {
-            let speed = rolled.speed_m_s.max(S::constant(LEAST_SPEED));
-            let over_rim = rolled.rim_speed_m_s / speed;
-            let squared = over_rim * over_rim;
             self.follow_deep(rolled, angles, squared);
             let per_step = rolled.step_s / self.length;
             let gone = if self.deep {
@@ -151,5 +157,19 @@ mod tests {
         assert!((digging.variance / (0.01 * (-2.0_f64).exp()) - 1.0).abs() < 0.01, "{}", digging.variance);
         (0..4700).for_each(|_| digging.follow(&ROLLED, &mut angles));
         assert!(digging.is_over());
+    }
+
+    /// Wheels that spin on the spot dig in for as long as they do, and the terrain is what it was.
+    #[test]
+    fn wheels_that_spin_on_the_spot_dig_in() {
+        let rover = Rover::<f64>::assumed();
+        let mut angles = ContactAngleFilter::new(&rover, 0);
+        let mut digging = DiggingIn::new(&Scale::of(&rover));
+        (0..6000).for_each(|_| digging.follow(&ROLLED, &mut angles));
+        assert!(digging.is_over() && digging.terrain().tells(&angles).is_none());
+        let spins = Rolled { speed_m_s: 0.001, ..ROLLED };
+        (0..6000).for_each(|_| digging.follow(&spins, &mut angles));
+        let (told, _) = digging.terrain().tells(&angles).expect("the terrain is asked");
+        assert!(!digging.is_over() && told > 0.9, "{told}");
     }
 }

@@ -23,6 +23,11 @@ const SPREAD_OF_SLIP: f64 = 0.042;
 const SPREAD_OF_SKID: f64 = 0.15;
 const LEAST_SPREAD_N: f64 = 0.08;
 
+/// One standard deviation of what the seed's rule leaves of the difference of two pulls, over the sum of the loads, and over that and the
+/// difference of the slips.
+const BY_LOAD_SPREAD: f64 = 0.03;
+const BY_LOAD_SPREAD_OF_SLIP: f64 = 0.3;
+
 /// One wheel of a bogie as its share is told from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BogieWheel<S> {
@@ -66,6 +71,21 @@ impl<S: Scalar> DrawbarSplit<S> {
         let skid = S::constant(SPREAD_OF_SKID) * middle.slip.min(rear.slip).min(S::zero()) * mean_load;
         let least = S::constant(LEAST_SPREAD_N);
         Self { difference_n, std_n: (load * load + slip * slip + skid * skid + least * least).sqrt() }
+    }
+
+    /// The split of wheels that dig in, where what their torques tell errs by this variance more, N²: what the seed's rule tells counts as
+    /// well, as far as it is surer.
+    pub fn while_digging(self, (middle, rear): (&BogieWheel<S>, &BogieWheel<S>), sum_n: S, digging: S) -> Self {
+        let loads_n = middle.load_n + rear.load_n;
+        let by_load_n = Self::by_load_n(middle.load_n, rear.load_n, sum_n);
+        let of_slip = S::constant(BY_LOAD_SPREAD_OF_SLIP) * (middle.slip - rear.slip).abs();
+        let by_load_std = (S::constant(BY_LOAD_SPREAD) + of_slip) * loads_n;
+        let of_load = by_load_std * by_load_std;
+        let by_torque = of_load / (of_load + digging);
+        Self {
+            difference_n: by_load_n + by_torque * (self.difference_n - by_load_n),
+            std_n: (self.std_n * self.std_n + by_torque * digging).sqrt(),
+        }
     }
 
     /// The seed's rule: each wheel pulls in proportion to its load. The difference of the two, N.

@@ -1,10 +1,8 @@
 //! Filter 2, second half: the forces on the hubs of a side, from load cells and moments.
 //!
 //! State: the force along each cell's axis on front, middle and rear hub, the force along the rocker on the front hub, and
-//! that along the bogie on its two hubs together. In these directions everything that is measured is a sum of states: the
-//! cells, the moment on the bogie and the moment on the rocker. What the two hubs of a bogie have of their joint force
-//! is not observable where they hang at the same height, so it is no state: it comes in as a split with a spread.
-//! Normal load and drawbar pull are these forces seen along the contact ([`super::drawbar_split`]).
+//! that along the bogie on its two hubs together ([`HubForceModel`]). Normal load and drawbar pull are these forces seen
+//! along the contact ([`super::drawbar_split`]).
 //!
 //! All this is linear, so that the filter need not know the forces, but what they have beyond those of a rover at rest: in single precision
 //! the moments of some 67 N on each arm, which nearly balance, would leave little of what the drives' noise allows to be told.
@@ -13,94 +11,17 @@
 //! the moments on them stay what torques and body make them, so that a cell's force that changes takes the forces along the
 //! links with it, and so does a bogie that turns against its rocker. The drift of the state is therefore correlated.
 
+use super::bogie_stop::AlongLinks;
+pub use super::hub_force_model::{HubForceModel, MEASUREMENTS, STATES};
 use super::runs::Runs;
 use super::scale::Scale;
 use super::slip_torque::TORQUE_DRIFT_NM;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Gaussian, Innovation, SigmaPointFilter};
-use crate::rover::{PerAxle, Planar, Rover, Suspension};
+use crate::filter::{Fate, Gaussian, Innovation, SigmaPointFilter};
+use crate::rover::{PerAxle, Planar, Rover};
 use crate::scalar::Scalar;
-
-/// States: cell forces of front, middle and rear; along the rocker on the front hub; along the bogie on both its hubs, N.
-pub const STATES: usize = 5;
-/// Measurements: three cells, N; moment on the bogie; moment on the rocker, N·m.
-pub const MEASUREMENTS: usize = 5;
-
-/// What ties the forces to the measurements.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HubForceModel<S> {
-    /// Front hub from the differential axis, in the rocker's coordinates, m.
-    pub front_hub: Planar<S>,
-    /// Bogie pivot from the differential axis, in the rocker's coordinates, m.
-    pub bogie_pivot: Planar<S>,
-    /// Middle hub from the pivot, in the bogie's coordinates, m.
-    pub middle_hub: Planar<S>,
-    /// Rear hub from the pivot, in the bogie's coordinates, m.
-    pub rear_hub: Planar<S>,
-    /// Sine and cosine of the bogie's angle against the rocker.
-    pub bogie_angle: (S, S),
-    /// Force along the bogie on the middle hub less that on the rear hub, N: the split, an input.
-    pub difference_n: S,
-}
-
-impl<S: Scalar> HubForceModel<S> {
-    /// The model of either side, with its bogie at an angle to the rocker of which sine and cosine are given, and no
-    /// difference between its wheels.
-    pub fn new(suspension: &Suspension<S>, bogie_angle: (S, S)) -> Self {
-        Self {
-            front_hub: suspension.front_hub,
-            bogie_pivot: suspension.bogie_pivot,
-            middle_hub: suspension.middle_hub,
-            rear_hub: suspension.rear_hub,
-            bogie_angle,
-            difference_n: S::zero(),
-        }
-    }
-
-    /// What the sensors see of the forces: the cells, then the moments of the soil's forces on bogie and rocker about pivot
-    /// and axis, positive nose-down.
-    pub fn measure(&self, state: &[S; STATES]) -> [S; MEASUREMENTS] {
-        let forces = self.forces(state);
-        let bogie = self.middle_hub.moment_nm(forces.middle) + self.rear_hub.moment_nm(forces.rear);
-        let on_pivot = (forces.middle + forces.rear).turned(self.bogie_angle);
-        let rocker = self.front_hub.moment_nm(forces.front) + self.bogie_pivot.moment_nm(on_pivot);
-        let [front, middle, rear, _, _] = *state;
-        [front, middle, rear, bogie, rocker]
-    }
-
-    /// Moments on bogie and rocker, N·m, of this force along each cell and none along the links: what [`Self::measure`] gives, without the
-    /// difference of large arms, of which single precision would keep little.
-    fn moments_of(&self, force_n: S) -> [S; 2] {
-        let two = S::constant(2.0);
-        let (sine, cosine) = self.bogie_angle;
-        let (pivot, level) = (self.bogie_pivot, self.front_hub.x + two * self.bogie_pivot.x);
-        let turned = pivot.x * sine * sine / (S::one() + cosine) - pivot.z * sine;
-        [-(self.middle_hub.x + self.rear_hub.x) * force_n, (two * turned - level) * force_n]
-    }
-
-    /// The state that such cells' forces, N, and moments on bogie and rocker, N·m, make necessary: [`Self::measure`] turned round.
-    fn state_of(&self, &[front, middle, rear, bogie_nm, rocker_nm]: &[S; MEASUREMENTS]) -> [S; STATES] {
-        let (zero, one) = (S::zero(), S::one());
-        let straight = Self { difference_n: zero, ..*self };
-        let [.., arm_of_bogie, of_bogie] = straight.measure(&[zero, zero, zero, zero, one]);
-        let [.., arm_of_rocker] = straight.measure(&[zero, zero, zero, one, zero]);
-        let [.., bogie_by_cells, rocker_by_cells] = self.measure(&[front, middle, rear, zero, zero]);
-        let along_bogie = (bogie_nm - bogie_by_cells) / arm_of_bogie;
-        [front, middle, rear, (rocker_nm - rocker_by_cells - of_bogie * along_bogie) / arm_of_rocker, along_bogie]
-    }
-
-    /// The force on each hub in the coordinates of its link, N.
-    pub fn forces(&self, [front, middle, rear, along_rocker, along_bogie]: &[S; STATES]) -> PerAxle<Planar<S>> {
-        let half = S::constant(0.5);
-        PerAxle {
-            front: Planar { x: *along_rocker, z: *front },
-            middle: Planar { x: half * (*along_bogie + self.difference_n), z: *middle },
-            rear: Planar { x: half * (*along_bogie - self.difference_n), z: *rear },
-        }
-    }
-}
 
 /// What is measured of a side.
 #[derive(Debug, Clone, Copy)]
@@ -109,8 +30,10 @@ pub(super) struct ForceReadings<S> {
     pub cells_n: PerAxle<Option<S>>,
     /// One standard deviation of a cell, N.
     pub cell_std_n: S,
-    /// Whether a wheel of the bogie hangs in the air. Then a stop holds the bogie, and no moment about its pivot is known.
-    pub bogie_is_held: bool,
+    /// Whether a wheel of the bogie hangs in the air.
+    pub bogie_hangs: bool,
+    /// Whether the wheels of the side roll: none stands, and none is blocked.
+    pub all_roll: bool,
     /// Moment of the soil's forces on the bogie, N·m, with one standard deviation: what its resistive torques balance.
     pub bogie_moment_nm: (S, S),
     /// Moment of the soil's forces on the rocker, N·m, with one standard deviation: what the front wheel's torque and half
@@ -133,11 +56,8 @@ const BESIDE_TREND: f64 = 0.4;
 const LEARNED: f64 = 0.4;
 /// What wheels that stand or have just started leave unknown of the forces of their side in each frame, N.
 const UNSETTLED_N: f64 = 3.0;
-
-/// The greatest force along a bogie over the forces on its cells: more is no soil's doing.
-const GREATEST_SHARE: f64 = 0.8;
-/// What is known of a pull of which nothing is told: none, give or take this much, N.
-const FORGOTTEN_PULL_N: f64 = 15.0;
+/// One standard deviation of what the torques tell of the force along a link, N.
+const TOLD_BY_TORQUE_N: f64 = 8.0;
 
 /// The filter of one side. It knows the cells' forces, and what is measured, less what a level rover at rest has: these are an order of
 /// magnitude smaller, and so is what single precision rounds off them.
@@ -158,6 +78,7 @@ pub(super) struct HubForceFilter<S> {
     runs: Runs<S, MEASUREMENTS>,
     /// Of the cells' forces. The moments have none that would be worth following.
     trends: Trends<S, 3>,
+    held: bool,
 }
 
 impl<S: Scalar> HubForceFilter<S> {
@@ -181,6 +102,7 @@ impl<S: Scalar> HubForceFilter<S> {
             watch: Watch::new(),
             runs: Runs::new(),
             trends: Trends::new(),
+            held: false,
         }
     }
 
@@ -214,6 +136,11 @@ impl<S: Scalar> HubForceFilter<S> {
         PerAxle { front, middle, rear }
     }
 
+    /// Whether a stop held the bogie in the last frame: then its moments are nobody's.
+    pub fn bogie_is_held(&self) -> bool {
+        self.held
+    }
+
     /// How often the filter fell back to its floor, and how often it gave up what it believed.
     pub fn troubles(&self) -> (u32, u32) {
         (self.filter.resets(), self.watch.relearned())
@@ -221,12 +148,23 @@ impl<S: Scalar> HubForceFilter<S> {
 
     /// A wheel stands or has just started: the forces are not what they were a frame ago.
     pub fn unsettle(&mut self) {
-        self.trends.forget();
-        self.loosen(self.scale.force_n(UNSETTLED_N));
+        self.loosen(&[self.scale.force_n(UNSETTLED_N); STATES]);
     }
 
-    fn loosen(&mut self, std_n: S) {
-        let _ = self.filter.random_walk(&[std_n; STATES]);
+    /// The forces have moved: one whose cell is contradicted, by as far as the cell is from it. By less, it would go on to be contradicted
+    /// while a wheel loses the ground, or comes down on it.
+    fn jump(&mut self, told: &Innovation<S, MEASUREMENTS>) {
+        let mut stds_n = [self.scale.force_n(UNSETTLED_N); STATES];
+        let cells = stds_n.iter_mut().zip(&told.residuals).take(3);
+        for (std_n, residual) in cells.filter(|(_, residual)| residual.fate == Fate::Rejected) {
+            *std_n = residual.innovation.abs().max(*std_n).min(self.unknown_n);
+        }
+        self.loosen(&stds_n);
+    }
+
+    fn loosen(&mut self, stds_n: &[S; STATES]) {
+        self.trends.forget();
+        let _ = self.filter.random_walk(stds_n);
     }
 
     /// The wheels roll as they will.
@@ -242,17 +180,18 @@ impl<S: Scalar> HubForceFilter<S> {
         &mut self,
         (step_s, travel_m): (S, S),
         bogie_angle_rad: S,
-        difference_n: S,
+        along: &AlongLinks<S>,
         readings: &ForceReadings<S>,
     ) -> Innovation<S, MEASUREMENTS> {
         let before = self.model;
         self.model.bogie_angle = bogie_angle_rad.sin_cos();
-        self.model.difference_n = difference_n;
+        self.model.difference_n = along.difference_n;
         let [_, before_nm] = self.at_rest_nm;
         self.at_rest_nm = self.model.moments_of(self.at_rest_n);
-        let held = readings.bogie_is_held || self.is_impossible(readings);
+        let held = readings.all_roll && (readings.bogie_hangs || self.is_held(along, readings));
+        self.held = held;
         if held {
-            self.give_up_moments();
+            self.give_up_moments(along);
         }
         self.learn_rates((step_s, travel_m), readings, held);
         let drifts = self.drift(&before, before_nm, travel_m, held);
@@ -282,8 +221,8 @@ impl<S: Scalar> HubForceFilter<S> {
         self.follow_trends(travel_m, &expected, &drifts, readings);
         match self.watch.judge(&told) {
             Contradiction::Passing => {}
-            Contradiction::Moved => self.unsettle(),
-            Contradiction::Wrong => self.loosen(self.unknown_n),
+            Contradiction::Moved => self.jump(&told),
+            Contradiction::Wrong => self.loosen(&[self.unknown_n; STATES]),
         }
         told
     }
@@ -338,23 +277,24 @@ impl<S: Scalar> HubForceFilter<S> {
         [front, middle, rear, of_bogie, of_rocker]
     }
 
-    /// Whether the moment on the bogie and its cells make a force along it necessary that no two wheels under such loads can have:
-    /// then something else holds the bogie.
-    fn is_impossible(&self, readings: &ForceReadings<S>) -> bool {
-        let PerAxle { middle: Some(middle), rear: Some(rear), .. } = readings.cells_n else { return false };
-        let [bogie_at_rest, _] = self.at_rest_nm;
+    /// Whether a stop holds the bogie, by the forces along the links that cells and moments of this frame make necessary.
+    fn is_held(&self, along: &AlongLinks<S>, readings: &ForceReadings<S>) -> bool {
+        let PerAxle { front: Some(front), middle: Some(middle), rear: Some(rear) } = readings.cells_n else {
+            return false;
+        };
+        let [bogie_at_rest, rocker_at_rest] = self.at_rest_nm;
         let beyond = |force: S| force - self.at_rest_n;
         let bogie_nm = readings.bogie_moment_nm.0 - bogie_at_rest;
-        let told = [S::zero(), beyond(middle), beyond(rear), bogie_nm, S::zero()];
-        let [.., along_bogie] = self.model.state_of(&told);
-        let loads = middle.abs() + rear.abs();
-        along_bogie.abs() > S::constant(GREATEST_SHARE) * loads.max(self.scale.force_n(FORGOTTEN_PULL_N))
+        let rocker_nm = readings.rocker_moment_nm.0 - rocker_at_rest;
+        let [.., rocker_n, bogie_n] =
+            self.model.state_of(&[beyond(front), beyond(middle), beyond(rear), bogie_nm, rocker_nm]);
+        along.tell_a_stop([rocker_n, bogie_n], middle.abs() + rear.abs())
     }
 
-    /// Forgets the forces that only the moments tell.
-    fn give_up_moments(&mut self) {
-        for index in [3, 4] {
-            let _ = self.filter.forget(index, S::zero(), self.scale.force_n(FORGOTTEN_PULL_N));
+    /// Forgets the forces that only the moments tell: the torques tell them less well.
+    fn give_up_moments(&mut self, along: &AlongLinks<S>) {
+        for (index, force_n) in [(3, along.rocker_n), (4, along.bogie_n)] {
+            let _ = self.filter.forget(index, force_n, self.scale.force_n(TOLD_BY_TORQUE_N));
         }
     }
 
@@ -377,30 +317,4 @@ impl<S: Scalar> HubForceFilter<S> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::HubForceModel;
-    use crate::rover::Rover;
-
-    /// The state that cells and moments make necessary must be measured as just these.
-    #[test]
-    fn cells_and_moments_make_one_state_necessary() {
-        let rover = Rover::<f64>::assumed();
-        let bogie_angle: f64 = 0.2;
-        let model = HubForceModel { difference_n: 3.0, ..HubForceModel::new(&rover.suspension, bogie_angle.sin_cos()) };
-        let told = [70.0, 55.0, 80.0, 3.0, -1.5];
-        let measured = model.measure(&model.state_of(&told));
-        assert!(measured.iter().zip(told).all(|(found, told)| (found - told).abs() < 1.0e-9), "{measured:?}");
-    }
-
-    #[test]
-    fn a_force_at_rest_has_the_moments_that_are_measured_of_it() {
-        let rover = Rover::<f64>::assumed();
-        let mut suspension = rover.suspension;
-        (suspension.front_hub.x, suspension.rear_hub.x) = (0.31, -0.2);
-        let bogie_angle: f64 = -0.3;
-        let model = HubForceModel::new(&suspension, bogie_angle.sin_cos());
-        let [.., bogie, rocker] = model.measure(&[67.0, 67.0, 67.0, 0.0, 0.0]);
-        let [of_bogie, of_rocker] = model.moments_of(67.0);
-        assert!((of_bogie - bogie).abs() < 1.0e-12 && (of_rocker - rocker).abs() < 1.0e-12, "{of_bogie} {of_rocker}");
-    }
-}
+mod tests;

@@ -11,14 +11,18 @@
 //! - *Turning back*: rates and speeds change sign together; slip is positive when the rim is faster than the hub, in either
 //!   direction. In between the wheel stands.
 //! - *Blocked* ([`WheelActivity::Blocked`], a rim at less than a twelfth of its hub's speed): slip is −1. The side's speed is taken
-//!   from the median of its rims, so that one blocked wheel does not matter.
+//!   from the median of its rims, so that one blocked wheel does not matter. It is blocked until its rim moves faster than an encoder's noise.
+//! - *Spinning on the spot* (rims eight times as fast as the rover): wheels dig in and meet no other terrain, which is remembered as where
+//!   they start.
 //! - *Swinging* (torques that go to and fro as grousers come to bear in turn): torque follows the drive, forces are not held to drift, and
 //!   what a hub's speed tells of the slip counts for less, on all of a side.
 //! - *Lifted* ([`WheelActivity::Lifted`], a cell that cannot tell its load from none): load and pull are zero, as surely as the cell
-//!   says. A bogie with a wheel in the air, or one whose balance would take more pull than there is load, is held by a stop, and
-//!   its moments tell nothing until it is free.
+//!   says. A bogie with a wheel in the air, or whose moments make forces along its links necessary that no torque knows, is held by a
+//!   stop. Until it is free its moments tell nothing, and the torques tell its pulls.
 
+mod activity;
 mod attitude;
+mod bogie_stop;
 mod compaction;
 pub mod contact_angle;
 mod contact_forces;
@@ -29,6 +33,7 @@ mod drive_inertia;
 mod estimate;
 mod health;
 pub mod hub_force;
+mod hub_force_model;
 mod hub_on_ground;
 mod joints;
 mod remembered_terrain;
@@ -41,7 +46,9 @@ mod sensor;
 mod sensor_gate;
 mod side_estimate;
 mod side_estimator;
+mod side_frame;
 mod sinking;
+mod slip_by_speeds;
 pub mod slip_torque;
 mod surprise;
 mod swing;

@@ -1,11 +1,12 @@
 //! What the filters of a side say together: forces along the contacts, with the errors of force and angle.
 
+use super::activity::BLOCKED;
 use super::contact_forces::{ContactForces, ErrorOf};
 use super::doubt::{INPUTS, OUTPUTS, QUANTITIES, of_wheels};
 use super::drawbar_split::DrawbarSplit;
 use super::estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 use super::hub_force;
-use super::side_estimator::{BLOCKED, SideEstimator};
+use super::side_estimator::SideEstimator;
 use super::slip_torque::SlipTorqueFilter;
 use super::whole_balance::SideForces;
 use crate::filter::Gaussian;

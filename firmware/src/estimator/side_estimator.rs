@@ -1,6 +1,8 @@
 //! The filters of one side, and what they say together.
 
+use super::activity::what_it_does;
 use super::attitude::Attitude;
+use super::bogie_stop::AlongLinks;
 use super::compaction::{Compaction, Correction};
 use super::contact_angle::{self, ContactAngleFilter, SideReadings};
 use super::digging_in::{DiggingIn, Rolled};
@@ -10,7 +12,9 @@ use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::hub_on_ground::HubOnGround;
 use super::scale::Scale;
+use super::side_frame::{SENSORS, SideFrame};
 use super::sinking::Sinking;
+use super::slip_by_speeds::SpeedReadings;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use super::turn::Turn;
@@ -18,35 +22,6 @@ use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
-/// What the sensors of a side, and those of the body, say in a frame; what cannot be used is absent.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct SideFrame<S> {
-    /// Encoders, rad/s.
-    pub wheel_rate_rad_s: PerAxle<Option<S>>,
-    /// Which of them say the same over and over.
-    pub wheel_rate_repeats: PerAxle<bool>,
-    /// Drive torques, N·m.
-    pub motor_torque_nm: PerAxle<Option<S>>,
-    /// Load cells, N.
-    pub load_cell_n: PerAxle<Option<S>>,
-    /// Bogie against rocker, rad.
-    pub bogie_angle_rad: Option<S>,
-    /// This side's rocker against the body, rad.
-    pub rocker_angle_rad: Option<S>,
-    /// Velocity of the midpoint of the differential axis, m/s.
-    pub velocity_m_s: Axes<Option<S>>,
-    /// Gyro, rad/s.
-    pub gyro_rad_s: Axes<Option<S>>,
-}
-
-/// Of a side and the body, those whose silence makes estimates worse: encoders, drive torques and cells of the three wheels, front to rear,
-/// bogie, rocker and the velocimeter.
-pub(super) const SENSORS: usize = 12;
-
-/// Below this speed of rim and hub a wheel stands, m/s.
-const STANDING: f64 = 1.5e-3;
-/// A wheel whose rim moves at less than this part of its hub's speed is blocked.
-pub(super) const BLOCKED: f64 = 0.08;
 /// Below this force on its cell a wheel is lifted, N, of set K0; or below three standard deviations, but not above the other.
 const LIFTED_N: f64 = 2.0;
 const GREATEST_LIFTED_N: f64 = 6.0;
@@ -60,6 +35,9 @@ const STEADY_S: f64 = 1.95;
 const SWINGS_HUB: f64 = 0.08;
 /// An encoder that says the same over and over is off by so many times its noise.
 const REPEATING: f64 = 10.0;
+/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull:
+/// one standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
+const OF_DIGGING: f64 = 0.75;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// The estimators of one side.
@@ -115,6 +93,7 @@ struct WheelFrame<S> {
 
 impl<S: Scalar> SideEstimator<S> {
     /// Estimators that know the rover alone. `phase` spreads costly work over frames.
+    #[inline(never)] // where it is written to is at hand then, which shortens each store; flash is scarce
     pub fn new(rover: &Rover<S>, side: Side, phase: usize) -> Self {
         let wheel = |place: usize| SlipTorqueFilter::new(rover, phase + place);
         let angles = ContactAngleFilter::new(rover, phase);
@@ -280,10 +259,16 @@ impl<S: Scalar> SideEstimator<S> {
         for (((filter, (activity, rolling)), (told, surprise)), (wheel, ((rate, repeats), torque))) in
             filters.zip(told).zip(inputs).into_array()
         {
-            let rim = self.rover.wheel.radius_m * filter.rate_before(rate.map(|rate| rate - wheel.link_rate_rad_s));
-            let now = what_it_does(rim, wheel.hub_speed_m_s);
+            let rate = rate.map(|rate| rate - wheel.link_rate_rad_s);
+            let rim = self.rover.wheel.radius_m * filter.rate_before(rate);
+            let now = what_it_does(rim, wheel.hub_speed_m_s, *activity);
+            let speeds = SpeedReadings {
+                rate_rad_s: rate,
+                hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| now == WheelActivity::Rolling),
+                hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
+            };
             if now != *activity {
-                filter.start();
+                filter.start(&speeds);
             }
             *activity = now;
             stands |= now == WheelActivity::Standing;
@@ -298,12 +283,9 @@ impl<S: Scalar> SideEstimator<S> {
                 settles = true;
             }
             let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
-            let rolls = now == WheelActivity::Rolling;
             let readings = WheelReadings {
-                rate_rad_s: rate.map(|rate| rate - wheel.link_rate_rad_s),
+                speeds,
                 rate_std_rad_s: if repeats { S::constant(REPEATING) } else { S::one() } * noise.wheel_rate_rad_s,
-                hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| rolls),
-                hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
                 side_swings: self.swings,
                 shared_speed_std_m_s: noise.velocity_m_s,
                 roughness,
@@ -345,7 +327,8 @@ impl<S: Scalar> SideEstimator<S> {
         let readings = ForceReadings {
             cells_n: frame.load_cell_n,
             cell_std_n: noise.load_cell_n,
-            bogie_is_held: lifted.middle || lifted.rear,
+            bogie_hangs: lifted.middle || lifted.rear,
+            all_roll: self.activity.into_array().into_iter().all(|activity| activity == WheelActivity::Rolling),
             bogie_moment_nm: (torques.middle.0 + torques.rear.0, (torques.middle.1 + torques.rear.1).sqrt()),
             rocker_moment_nm: (
                 torques.front.0 - half * body,
@@ -353,9 +336,9 @@ impl<S: Scalar> SideEstimator<S> {
             ),
         };
         let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
-        let split = self.split_along_bogie_n();
+        let told = self.told_along_links();
         let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
-        self.told.forces = self.forces.tick((step_s, travel), bogie_pitch - rocker_pitch, split, &readings);
+        self.told.forces = self.forces.tick((step_s, travel), bogie_pitch - rocker_pitch, &told, &readings);
         surprises.of_cells(&self.told.forces);
         self.lifted = self.lifted();
     }
@@ -367,40 +350,34 @@ impl<S: Scalar> SideEstimator<S> {
         })
     }
 
-    /// The force along the bogie on its middle hub less that on its rear hub, N, by the split of their drawbar pulls.
-    fn split_along_bogie_n(&self) -> S {
-        let PerAxle { middle, rear, .. } = self.on_ground(&self.forces.forces_n(), &self.corrections);
-        let split = DrawbarSplit::by_torque(&middle.wheel, &rear.wheel, middle.drawbar_pull_n + rear.drawbar_pull_n);
-        let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
-        let half = S::constant(0.5);
+    /// What torques and loads tell of the forces along the links: by the split of a bogie's pull, and by what of the torques has not compacted
+    /// the soil before.
+    fn told_along_links(&self) -> AlongLinks<S> {
+        let PerAxle { front, middle, rear } = self.on_ground(&self.forces.forces_n(), &self.corrections);
+        let [of_front, of_bogie] = &self.compaction;
         let along = |pull: S, wheel: &HubOnGround<S>| pull * wheel.angle.1 - wheel.wheel.load_n * wheel.angle.0;
-        along(half * (sum + split.difference_n), &middle) - along(half * (sum - split.difference_n), &rear)
-    }
-}
-
-impl<S: Scalar> SideFrame<S> {
-    /// One for each sensor that cannot be used, in the order of [`SENSORS`]; with what of the velocity can be.
-    fn silent(&self, velocity_m_s: &Planar<Option<S>>) -> [S; SENSORS] {
-        let Self { wheel_rate_rad_s: rates, motor_torque_nm: torques, load_cell_n: cells, .. } = self;
-        let of_wheels = [rates, torques, cells].map(|sensors| [sensors.front, sensors.middle, sensors.rear]);
-        let of_side = [self.bogie_angle_rad, self.rocker_angle_rad, velocity_m_s.x.and(velocity_m_s.z)];
-        let mut silent = [S::zero(); SENSORS];
-        let readings = of_wheels.as_flattened().iter().chain(&of_side);
-        for (silent, _) in silent.iter_mut().zip(readings).filter(|(_, reading)| reading.is_none()) {
-            *silent = S::one();
+        let split = self.split_of_pull(&middle, &rear);
+        let half = S::constant(0.5);
+        let both = |sum: S| {
+            [along(half * (sum + split.difference_n), &middle), along(half * (sum - split.difference_n), &rear)]
+        };
+        let [of_middle, of_rear] = both(middle.drawbar_pull_n + rear.drawbar_pull_n);
+        let [told_of_middle, told_of_rear] = both(of_bogie.pull_n(&[&middle.wheel, &rear.wheel]));
+        AlongLinks {
+            are_known: of_front.is_known() && of_bogie.is_known(),
+            difference_n: of_middle - of_rear,
+            rocker_n: along(of_front.pull_n(&[&front.wheel]), &front),
+            bogie_n: told_of_middle + told_of_rear,
         }
-        silent
     }
-}
 
-/// What a wheel does, by the speeds of its rim and its hub, m/s.
-fn what_it_does<S: Scalar>(rim: S, hub: S) -> WheelActivity {
-    let standing = S::constant(STANDING);
-    if rim.abs() < standing && hub.abs() < standing {
-        WheelActivity::Standing
-    } else if rim.abs() < S::constant(BLOCKED) * hub.abs() {
-        WheelActivity::Blocked
-    } else {
-        WheelActivity::Rolling
+    /// How the wheels of the bogie share their pull.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub(super) fn split_of_pull(&self, middle: &HubOnGround<S>, rear: &HubOnGround<S>) -> DrawbarSplit<S> {
+        let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
+        let (middle, rear) = (&middle.wheel, &rear.wheel);
+        let digging = S::constant(OF_DIGGING) * (middle.load_n + rear.load_n);
+        let by_torque = DrawbarSplit::by_torque(middle, rear, sum);
+        by_torque.while_digging((middle, rear), sum, digging * digging * self.digging_in.variance())
     }
 }

@@ -8,6 +8,7 @@
 
 use super::drive_inertia::DriveInertia;
 use super::scale::Scale;
+use super::slip_by_speeds::SpeedReadings;
 use super::swing::Swing;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::walk_rate::{Noise, WalkRate};
@@ -55,14 +56,10 @@ fn travel_over_rim<S: Scalar>(slip: S) -> S {
 /// What is measured of a wheel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WheelReadings<S> {
-    /// Absolute rate, rad/s: encoder and link.
-    pub rate_rad_s: Option<S>,
-    /// One standard deviation of that, rad/s.
+    /// How fast rim and hub move.
+    pub speeds: SpeedReadings<S>,
+    /// One standard deviation of the rate, rad/s.
     pub rate_std_rad_s: S,
-    /// Speed of the hub along its contact, m/s.
-    pub hub_speed_m_s: Option<S>,
-    /// One standard deviation of that, m/s.
-    pub hub_speed_std_m_s: S,
     /// The part of it that all wheels share: the velocimeter is one camera, m/s.
     pub shared_speed_std_m_s: S,
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift, as a variance.
@@ -210,9 +207,13 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.slip_rate.restart();
     }
 
-    /// The wheel starts, stops or turns back: its slip is not what it was.
-    pub fn start(&mut self) {
-        let [mean, std] = STARTING_SLIP.map(S::constant);
+    /// The wheel starts, stops or turns back: its slip is what the speeds of rim and hub say, if they do.
+    pub fn start(&mut self, told: &SpeedReadings<S>) {
+        let (mean, std) = told.slip(self.model.radius_m).unwrap_or_else(|| STARTING_SLIP.map(S::constant).into());
+        self.restart_slip(mean, std);
+    }
+
+    fn restart_slip(&mut self, mean: S, std: S) {
         let _ = self.filter.forget(2, mean, std);
         self.trends.forget();
         self.shared_slip_variance = S::zero();
@@ -231,8 +232,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let model = self.model;
         let told = self.filter.update(
             |state| model.measure(state),
-            &[readings.rate_rad_s, readings.hub_speed_m_s],
-            &[readings.rate_std_rad_s, readings.hub_speed_std_m_s],
+            &[readings.speeds.rate_rad_s, readings.speeds.hub_speed_m_s],
+            &[readings.rate_std_rad_s, readings.speeds.hub_speed_std_m_s],
             self.watch.gate(),
         );
         self.share_camera_error(readings);
@@ -300,7 +301,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let [_, of_slip] = self.nominal_variances(travel_m);
         let slip_factor = self.slip_factor(readings);
         let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * (motor_torque_nm - torque_before);
-        let turned = readings.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
+        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
         let turned = (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero());
         let per_torque = step_s * self.model.inverse_inertia;
         let unseen = square(S::constant(UNSEEN_TORQUE_NM) * self.scale.torque);
@@ -331,7 +332,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let [torque_before, slip_before] = before;
         let moved =
             [(torque - torque_before, of_torque / torque_variance), (slip - slip_before, of_slip / slip_variance)];
-        self.trends.follow(travel_m, &moved, [readings.rate_rad_s.is_some(), readings.hub_speed_m_s.is_some()]);
+        self.trends.follow(
+            travel_m,
+            &moved,
+            [readings.speeds.rate_rad_s.is_some(), readings.speeds.hub_speed_m_s.is_some()],
+        );
     }
 
     /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds.
@@ -341,38 +346,36 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.torque_rate.take(readings.motor_torque_nm, noise, of_torque, step_s);
         let [rate, _, _] = *self.filter.estimate().mean();
         let rim = self.model.radius_m * rate;
-        if rim.abs() > S::constant(2.0e-3) || readings.hub_speed_m_s.is_none() {
-            let slip = readings.hub_speed_m_s.map(|hub| S::one() - hub / rim);
-            self.slip_rate.take(slip, Noise::white(readings.hub_speed_std_m_s / rim), of_slip, step_s);
+        if rim.abs() > S::constant(2.0e-3) || readings.speeds.hub_speed_m_s.is_none() {
+            let slip = readings.speeds.hub_speed_m_s.map(|hub| S::one() - hub / rim);
+            self.slip_rate.take(slip, Noise::white(readings.speeds.hub_speed_std_m_s / rim), of_slip, step_s);
         }
     }
 
-    /// The state has moved: where the encoder is contradicted, by as much as the drive is from the torque; where the speed of the hub is, by
-    /// as much as the quotient of the speeds is from the slip. By less, what is believed would go on to be contradicted while they move away.
+    /// The state has moved: where the encoder is contradicted, by as much as the drive is from the torque; where the speed of the hub is, the
+    /// slip is what the speeds say. By less, what is believed would go on to be contradicted while they move away.
     fn jump(&mut self, told: &Innovation<S, MEASUREMENTS>, readings: &WheelReadings<S>) {
-        let [_, torque, slip] = *self.filter.estimate().mean();
+        let [_, torque, _] = *self.filter.estimate().mean();
         let [of_rate, of_hub] = told.residuals.each_ref().map(|residual| residual.fate == Fate::Rejected);
-        let [_, mut torque_off, mut slip_off] = of_rover(&LOOSENED, &self.scale);
+        let [_, mut torque_off, slip_off] = of_rover(&LOOSENED, &self.scale);
         let [_, unknown_torque, _] = of_rover(&UNKNOWN, &self.scale);
-        let [_, unknown_slip] = STARTING_SLIP.map(S::constant);
         if let Some(motor) = readings.motor_torque_nm.filter(|_| of_rate) {
             torque_off = (motor - torque).abs().max(torque_off).min(unknown_torque);
         }
-        if let (Some(hub), Some(rate), true) = (readings.hub_speed_m_s, readings.rate_rad_s, of_hub) {
-            let quotient = S::one() - hub / (self.model.radius_m * rate);
-            slip_off = (quotient - slip).abs().max(slip_off).min(unknown_slip);
-        }
         // What was predicted meanwhile with a torque that is off has taken the rate along.
-        if let Some(rate) = readings.rate_rad_s.filter(|_| of_rate) {
+        if let Some(rate) = readings.speeds.rate_rad_s.filter(|_| of_rate) {
             let _ = self.filter.forget(0, rate, readings.rate_std_rad_s);
         }
         self.loosen(&[S::zero(), torque_off, slip_off]);
+        if let Some((slip, std)) = readings.speeds.slip(self.model.radius_m).filter(|_| of_hub) {
+            self.restart_slip(slip, std);
+        }
     }
 
     /// Without the encoder nothing tells how the wheel speeds up.
     fn follow_inertia(&mut self, readings: &WheelReadings<S>) {
         let [_, torque, _] = *self.filter.estimate().mean();
-        let larger = match (readings.motor_torque_nm, readings.rate_rad_s) {
+        let larger = match (readings.motor_torque_nm, readings.speeds.rate_rad_s) {
             (Some(motor), Some(_)) => motor - torque,
             _ => S::zero(),
         };
@@ -382,7 +385,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     /// Follows the camera's error through the filter: the gain g of the slip on the hub's speed takes the new error in, and
     /// 1 − g h of the old one stays, h being the slope of the speed in the slip.
     fn share_camera_error(&mut self, readings: &WheelReadings<S>) {
-        if readings.hub_speed_m_s.is_none() {
+        if readings.speeds.hub_speed_m_s.is_none() {
             return;
         }
         let [rate, _, slip] = *self.filter.estimate().mean();
@@ -390,7 +393,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let ratio = travel_over_rim(slip);
         let rim = self.model.radius_m * rate;
         let slope = if slip >= S::zero() { rim } else { rim * ratio * ratio };
-        let noise = readings.hub_speed_std_m_s;
+        let noise = readings.speeds.hub_speed_std_m_s;
         let gain = slope * slip_variance / (noise * noise);
         let kept = S::one() - gain * slope;
         let taken = gain * readings.shared_speed_std_m_s;

@@ -14,6 +14,8 @@ const BOGIE_SHARE: f64 = 0.011;
 /// The variance of a contact angle by the path of its hub, over what the filter states, for the weight of what the torques tell. It errs the
 /// same way for many frames, the share is new in each: so it is above one.
 const OF_STATED: f64 = 1.4;
+/// A wheel that skids by more than this slip pushes soil instead of compacting it.
+const GREATEST_SKID: f64 = -0.3;
 /// How far an angle lags behind one that turns, rad for each rad/m.
 const ANGLE_LAG: f64 = 0.0205;
 /// One standard deviation of what a wheel's path departs from the terrain by on rough ground, rad: slips and loads that change make it
@@ -33,9 +35,15 @@ impl<S: Scalar> SideEstimator<S> {
             .zip(self.settled())
             .zip(self.lifted)
             .map(|((activity, steady), lifted)| activity == WheelActivity::Rolling && steady && !lifted && settled);
+        let skids = hubs.as_array().into_iter().any(|hub| hub.wheel.slip < S::constant(GREATEST_SKID));
         let [of_front, of_bogie] = &mut self.compaction;
-        follow(of_front, travel_m, rolls.front, &[&hubs.front]);
-        follow(of_bogie, travel_m, rolls.middle && rolls.rear, &[&hubs.middle, &hubs.rear]);
+        if skids || self.forces.bogie_is_held() {
+            of_front.pause();
+            of_bogie.pause();
+        } else {
+            follow(of_front, travel_m, rolls.front, &[&hubs.front]);
+            follow(of_bogie, travel_m, rolls.middle && rolls.rear, &[&hubs.middle, &hubs.rear]);
+        }
         self.corrections = self.corrections(&hubs);
         if let Some((told, steeper)) = self.digging_in.terrain().tells(&self.angles) {
             let corrections = self.corrections.as_mut().zip(steeper).into_array();

@@ -4,7 +4,8 @@ use core::hint::black_box;
 
 use super::OUTPUTS;
 use crate::estimator::contact_forces::ContactForces;
-use crate::estimator::side_estimator::{SENSORS, SideEstimator};
+use crate::estimator::side_estimator::SideEstimator;
+use crate::estimator::side_frame::SENSORS;
 use crate::math::octaves;
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;

@@ -1,12 +1,14 @@
-use super::{Rover, SlipTorqueFilter, WheelReadings};
+use super::{Rover, SlipTorqueFilter, SpeedReadings, WheelReadings};
 
 /// A wheel that turns at 0.3 rad/s, one way or the other, at slip 0.2 as far as the camera sees it.
 fn readings(direction: f64, torque: f64, seen: bool) -> WheelReadings<f64> {
     WheelReadings {
-        rate_rad_s: Some(direction * 0.3),
+        speeds: SpeedReadings {
+            rate_rad_s: Some(direction * 0.3),
+            hub_speed_m_s: seen.then_some(direction * 0.8 * 0.3 * 0.075),
+            hub_speed_std_m_s: 5.0e-4,
+        },
         rate_std_rad_s: 0.002,
-        hub_speed_m_s: seen.then_some(direction * 0.8 * 0.3 * 0.075),
-        hub_speed_std_m_s: 5.0e-4,
         shared_speed_std_m_s: 5.0e-4,
         roughness: 0.0,
         side_swings: false,

@@ -1,0 +1,40 @@
+//! What a wheel does: whether it stands, is blocked, or rolls.
+
+use super::estimate::WheelActivity;
+use crate::scalar::Scalar;
+
+/// Below this speed of rim and hub a wheel stands, m/s.
+const STANDING: f64 = 1.5e-3;
+/// A wheel whose rim moves at less than this part of its hub's speed is blocked.
+pub(super) const BLOCKED: f64 = 0.08;
+
+/// What a wheel does, by the speeds of its rim and its hub, m/s, and by what it did before: one that is blocked turns again when its rim is
+/// faster than the noise of an encoder makes it seem.
+pub(super) fn what_it_does<S: Scalar>(rim: S, hub: S, before: WheelActivity) -> WheelActivity {
+    let standing = S::constant(STANDING);
+    let blocked = S::constant(BLOCKED) * hub.abs();
+    let least = if before == WheelActivity::Blocked { (blocked + blocked).max(standing) } else { blocked };
+    if rim.abs() < standing && hub.abs() < standing {
+        WheelActivity::Standing
+    } else if rim.abs() < least {
+        WheelActivity::Blocked
+    } else {
+        WheelActivity::Rolling
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{WheelActivity, what_it_does};
+
+    /// A wheel that is dragged at 20 mm/s is blocked while its rim moves at less than 1.6 mm/s, and then until it moves at 3.2; one that
+    /// hardly moves at all, until its rim is faster than the 1.5 mm/s at which it would stand.
+    #[test]
+    fn a_blocked_wheel_is_blocked_until_its_rim_is_faster_than_noise() {
+        let rolls = |rim: f64, hub: f64, before| what_it_does(rim, hub, before) == WheelActivity::Rolling;
+        assert!(!rolls(0.0015, 0.02, WheelActivity::Rolling) && rolls(0.0017, 0.02, WheelActivity::Rolling));
+        assert!(!rolls(-0.0031, 0.02, WheelActivity::Blocked) && rolls(0.0033, 0.02, WheelActivity::Blocked));
+        assert!(!rolls(0.001, 0.003, WheelActivity::Blocked) && rolls(0.001, 0.003, WheelActivity::Standing));
+        assert_eq!(what_it_does(0.001, 0.001, WheelActivity::Blocked), WheelActivity::Standing);
+    }
+}
