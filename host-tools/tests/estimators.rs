@@ -68,6 +68,22 @@ fn while_wheels_start_and_stop_nothing_errs_by_more_than_the_raw_sensors() {
     }
 }
 
+/// A wheel that does not turn while the rover drags it, or is held by it, and one over a hole, whose bogie hangs on its stop.
+#[test]
+fn where_a_wheel_is_blocked_or_in_the_air_nothing_but_its_angle_errs_by_more_than_the_raw_sensors() {
+    for (scenario, of_pulls) in [(Scenario::WheelBlocked, 0.2), (Scenario::WheelLift, 0.75)] {
+        let trial = drives(scenario);
+        for quantity in [Quantity::Slip, Quantity::Torque, Quantity::Load] {
+            let ratio = ratio(&trial, quantity);
+            assert!(ratio <= 1.0, "{scenario:?} {quantity:?}: {ratio}");
+        }
+        for quantity in [Quantity::FrontPull, Quantity::BogiePull] {
+            let ratio = ratio(&trial, quantity);
+            assert!(ratio <= of_pulls, "{scenario:?} {quantity:?}: {ratio}");
+        }
+    }
+}
+
 /// One and two standard deviations of a normal error cover 68 and 95 %; drives differ, so that 63–73 and 92–98 % will do.
 #[test]
 fn with_slips_spread_on_the_level_the_filters_are_as_sure_as_they_may_be() {

@@ -23,7 +23,7 @@ use crate::trial::WARM_UP_S;
 pub const NOMINAL: [Scenario; 6] =
     [Scenario::Level, Scenario::Spread, Scenario::Slope, Scenario::Hills, Scenario::Rock, Scenario::Dropout];
 /// What it has to be right on, too, though less often.
-const OTHER: [Scenario; 2] = [Scenario::StartStop, Scenario::SoilChange];
+const OTHER: [Scenario; 4] = [Scenario::StartStop, Scenario::SoilChange, Scenario::WheelBlocked, Scenario::WheelLift];
 
 /// The simulation draws from the first two streams of a drive's seed.
 const DEVIATION_STREAM: usize = 2;
