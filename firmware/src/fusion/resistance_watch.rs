@@ -33,6 +33,9 @@ const LEAST_CHANGE: f32 = 0.025;
 /// Standard deviations of a difference that is not chance: with 4 one of some 450 drives over hills claimed another soil; with 4.5 one of 80
 /// changes was noticed beyond a rover length.
 const SIGNIFICANT: f32 = 4.2;
+/// What the reference learns of a difference that matters and may be chance: this share. Where a soil begins, pulls are not known well for some
+/// decimetres, and a reference that took them all for its soil would miss the other.
+const IN_DOUBT: f32 = 0.2;
 /// Travel for which a difference must last, m.
 const LASTING_M: f32 = 0.04;
 /// Least load, N, on which a resistance says something.
@@ -71,9 +74,11 @@ impl ResistanceWatch {
         self.recent.take(resistance.value, travel_m);
         let difference = self.recent.mean() - self.reference.mean();
         let noise = SIGNIFICANT * resistance.std;
-        let matters = math::abs(difference) > if noise > LEAST_CHANGE { noise } else { LEAST_CHANGE };
-        if self.reference.travel_m() < LEARNED_M || !matters {
-            self.reference.take(resistance.value, travel_m);
+        let (differs, is_sure) = (math::abs(difference) > LEAST_CHANGE, math::abs(difference) > noise);
+        let is_learned = self.reference.travel_m() >= LEARNED_M;
+        if !is_learned || !differs || !is_sure {
+            let share = if is_learned && differs { IN_DOUBT } else { 1.0 };
+            self.reference.take(resistance.value, share * travel_m);
             self.beyond_m = 0.0;
             return None;
         }
@@ -84,5 +89,33 @@ impl ResistanceWatch {
         self.beyond_m = 0.0;
         self.reference = self.reference.restarted_as(&self.recent);
         Some(if difference < 0.0 { Stiffness::Rises } else { Stiffness::Falls })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Estimate, ResistanceWatch, Stiffness};
+
+    /// What a watch says while a resistance of such a standard deviation holds over a travel of so many centimetres.
+    fn see(watch: &mut ResistanceWatch, value: f32, std: f32, travel_cm: u16) -> Option<Stiffness> {
+        (0..travel_cm).fold(None, |said, _| said.or(watch.see(Estimate { value, std }, 0.01)))
+    }
+
+    /// Where a soil begins pulls are not known well; half a metre on they are, and then the change is plain, though for all that way it may
+    /// have been chance.
+    #[test]
+    fn a_change_is_noticed_after_half_a_metre_in_doubt() {
+        let mut watch = ResistanceWatch::new();
+        assert_eq!(see(&mut watch, 0.35, 0.005, 80), None);
+        assert_eq!(see(&mut watch, 0.43, 0.03, 50), None);
+        assert_eq!(see(&mut watch, 0.43, 0.012, 8), Some(Stiffness::Falls));
+    }
+
+    /// Soil that becomes other by little and little is the soil that there is.
+    #[test]
+    fn what_drifts_slowly_is_learned() {
+        let mut watch = ResistanceWatch::new();
+        let drifts = (0..40_u8).find_map(|step| see(&mut watch, 0.3 + 0.002 * f32::from(step), 0.005, 10));
+        assert_eq!(drifts, None);
     }
 }
