@@ -296,7 +296,7 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 6 * (16 + 7 * 3) + 2 * 3);
+        assert_eq!(training.len(), 6 * (16 + 7 * 3) + 4 * 3);
         let held_out = plan.held_out();
         assert!(held_out.iter().all(|journeys| journeys.len() == 3));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();
