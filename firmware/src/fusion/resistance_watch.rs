@@ -30,8 +30,8 @@ const REFERENCE_M: f32 = 1.0;
 const LEARNED_M: f32 = 0.15;
 /// A difference that matters, whatever the noise: a third of what ice does.
 const LEAST_CHANGE: f32 = 0.025;
-/// Standard deviations of a difference that is not chance: with 4 one of some 450 drives over hills claimed another soil; with 4.5 one of 80
-/// changes was noticed beyond a rover length.
+/// Standard deviations of a difference that is not chance: with 4.6 six of a hundred changes on rough ground are not noticed that are with
+/// this, and one of 140 drives over hills claims another soil with either.
 const SIGNIFICANT: f32 = 4.2;
 /// What the reference learns of a difference that matters and may be chance: this share. Where a soil begins, pulls are not known well for some
 /// decimetres, and a reference that took them all for its soil would miss the other.
