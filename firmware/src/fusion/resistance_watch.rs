@@ -30,11 +30,12 @@ const REFERENCE_M: f32 = 1.0;
 const LEARNED_M: f32 = 0.15;
 /// A difference that matters, whatever the noise: a third of what ice does.
 const LEAST_CHANGE: f32 = 0.025;
-/// Standard deviations of a difference that is not chance: with 4.6 six of a hundred changes on rough ground are not noticed that are with
-/// this, and one of 140 drives over hills claims another soil with either.
+/// Standard deviations of a difference that is not chance: with 4 one of some 450 drives over hills claimed another soil.
 const SIGNIFICANT: f32 = 4.2;
-/// What the reference learns of a difference that matters and may be chance: this share. Where a soil begins, pulls are not known well for some
-/// decimetres, and a reference that took them all for its soil would miss the other.
+/// Where chance alone may make so much of a difference, it tells neither that the soil is another nor that it is the same: the reference learns
+/// this share of it. Where a soil begins pulls are not known well for some decimetres, and a reference that took all for its soil would
+/// miss the other. On hills, where they are known, shares drift by as much from metre to metre, and are learned.
+const DOUBTFUL: f32 = 0.06;
 const IN_DOUBT: f32 = 0.2;
 /// Travel for which a difference must last, m.
 const LASTING_M: f32 = 0.04;
@@ -77,7 +78,8 @@ impl ResistanceWatch {
         let (differs, is_sure) = (math::abs(difference) > LEAST_CHANGE, math::abs(difference) > noise);
         let is_learned = self.reference.travel_m() >= LEARNED_M;
         if !is_learned || !differs || !is_sure {
-            let share = if is_learned && differs { IN_DOUBT } else { 1.0 };
+            let in_doubt = is_learned && differs && noise > DOUBTFUL;
+            let share = if in_doubt { IN_DOUBT } else { 1.0 };
             self.reference.take(resistance.value, share * travel_m);
             self.beyond_m = 0.0;
             return None;
