@@ -4,7 +4,7 @@ use super::estimate::WheelActivity;
 use crate::scalar::Scalar;
 
 /// Below this speed of rim and hub a wheel stands, m/s.
-const STANDING: f64 = 1.5e-3;
+pub(super) const STANDING: f64 = 1.5e-3;
 /// A wheel whose rim moves at less than this part of its hub's speed is blocked.
 pub(super) const BLOCKED: f64 = 0.08;
 

@@ -7,6 +7,7 @@
 //! the same error in many frames of the rocker's angle, which this filter would take for what the rocker does. So the
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
+use super::activity::STANDING;
 use super::attitude::Attitude;
 use super::joints::Joints;
 use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_front_alone, of_unlike};
@@ -109,8 +110,6 @@ const FIRST_IN_RUNS: usize = 1;
 const RUNS: usize = MEASUREMENTS - 1 - FIRST_IN_RUNS;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
-/// Rims slower than this stand, m/s: where nothing rolls, nothing is learned of the contacts.
-const STANDING: f64 = 1.5e-3;
 
 /// The filter of one side.
 #[derive(Debug, Clone)]
@@ -291,6 +290,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let (rate, rate_std) = attitude.rate_rad_s();
         self.model.body_rate_rad_s = rate;
         self.model.sinking_rad = *sinking_rad;
+        // Where nothing rolls, nothing is learned of the contacts.
         let stands = rim_speed_m_s.abs() < S::constant(STANDING);
         self.model.rim_speed_m_s = if stands { S::zero() } else { rim_speed_m_s };
         let joints = [readings.rocker_angle_rad, readings.bogie_angle_rad];

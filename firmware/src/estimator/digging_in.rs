@@ -92,14 +92,11 @@ impl<S: Scalar> DiggingIn<S> {
         let over_rim = rolled.rim_speed_m_s / speed;
         let squared = over_rim * over_rim;
         let spins = squared > square(SPINS);
-        let mut steeper = S::zero();
-        if rolled.stands || spins {
-            steeper = square(DIGS_IN);
-            (self.variance, self.way_m, self.deep) = (steeper, S::zero(), false);
+        let steeper = if rolled.stands || spins {
+            let starts = square(DIGS_IN);
+            (self.variance, self.way_m, self.deep) = (starts, S::zero(), false);
             self.terrain.ask();
-            if spins {
-                steeper = steeper * squared;
-            }
+            if spins { starts * squared } else { starts }
         } else if self.variance > S::zero() {
             self.follow_deep(rolled, angles, squared);
             let per_step = rolled.step_s / self.length;
@@ -111,12 +108,15 @@ impl<S: Scalar> DiggingIn<S> {
             let came_back = self.variance * gone.min(S::one());
             self.variance -= came_back;
             angles.dig_in(came_back * squared);
-            steeper = self.variance * squared;
+            let steeper = self.variance * squared;
             if self.variance < square(DUG_IN) {
                 self.variance = S::zero();
                 angles.settle();
             }
-        }
+            steeper
+        } else {
+            S::zero()
+        };
         self.terrain.follow(angles, steeper);
     }
 

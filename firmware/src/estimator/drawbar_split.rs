@@ -23,6 +23,9 @@ const SPREAD_OF_SLIP: f64 = 0.042;
 const SPREAD_OF_SKID: f64 = 0.15;
 const LEAST_SPREAD_N: f64 = 0.08;
 
+/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull:
+/// one standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
+const OF_DIGGING: f64 = 0.75;
 /// One standard deviation of what the seed's rule leaves of the difference of two pulls, over the sum of the loads, and over that and the
 /// difference of the slips.
 const BY_LOAD_SPREAD: f64 = 0.03;
@@ -73,10 +76,12 @@ impl<S: Scalar> DrawbarSplit<S> {
         Self { difference_n, std_n: (load * load + slip * slip + skid * skid + least * least).sqrt() }
     }
 
-    /// The split of wheels that dig in, where what their torques tell errs by this variance more, N²: what the seed's rule tells counts as
-    /// well, as far as it is surer.
-    pub fn while_digging(self, (middle, rear): (&BogieWheel<S>, &BogieWheel<S>), sum_n: S, digging: S) -> Self {
+    /// The split of wheels that dig in, of which this variance is known of how fast they sink, over the speed of their rims: what the seed's
+    /// rule tells counts as well, as far as it is surer.
+    pub fn while_digging(self, (middle, rear): (&BogieWheel<S>, &BogieWheel<S>), sum_n: S, sinking: S) -> Self {
         let loads_n = middle.load_n + rear.load_n;
+        let digging_std = S::constant(OF_DIGGING) * loads_n;
+        let digging = digging_std * digging_std * sinking;
         let by_load_n = Self::by_load_n(middle.load_n, rear.load_n, sum_n);
         let of_slip = S::constant(BY_LOAD_SPREAD_OF_SLIP) * (middle.slip - rear.slip).abs();
         let by_load_std = (S::constant(BY_LOAD_SPREAD) + of_slip) * loads_n;

@@ -78,6 +78,7 @@ pub(super) struct HubForceFilter<S> {
     runs: Runs<S, MEASUREMENTS>,
     /// Of the cells' forces. The moments have none that would be worth following.
     trends: Trends<S, 3>,
+    /// Whether a stop holds the bogie: then its moments are nobody's.
     held: bool,
 }
 
@@ -188,15 +189,14 @@ impl<S: Scalar> HubForceFilter<S> {
         self.model.difference_n = along.difference_n;
         let [_, before_nm] = self.at_rest_nm;
         self.at_rest_nm = self.model.moments_of(self.at_rest_n);
-        let held = readings.all_roll && (readings.bogie_hangs || self.is_held(along, readings));
-        self.held = held;
-        if held {
+        self.held = readings.all_roll && (readings.bogie_hangs || self.is_held(along, readings));
+        if self.held {
             self.give_up_moments(along);
         }
-        self.learn_rates((step_s, travel_m), readings, held);
-        let drifts = self.drift(&before, before_nm, travel_m, held);
+        self.learn_rates((step_s, travel_m), readings);
+        let drifts = self.drift(&before, before_nm, travel_m);
         let expected = self.beyond_rest_n();
-        let model = self.model;
+        let (model, held) = (self.model, self.held);
         let cells = readings.cells_n.map(|cell| cell.map(|force| force - self.at_rest_n));
         let [bogie_at_rest, rocker_at_rest] = self.at_rest_nm;
         let told = self.filter.update(
@@ -230,7 +230,7 @@ impl<S: Scalar> HubForceFilter<S> {
     /// Carries the forces to the model of this frame: what lasts as a bogie turns is what the cells feel, which goes on by its trend, and
     /// the moments, not the forces along the links. Where a stop holds the bogie, its moments are nobody's. Gives one standard
     /// deviation of how far each may drift beside that.
-    fn drift(&mut self, before: &HubForceModel<S>, before_nm: S, travel_m: S, held: bool) -> [S; MEASUREMENTS] {
+    fn drift(&mut self, before: &HubForceModel<S>, before_nm: S, travel_m: S) -> [S; MEASUREMENTS] {
         let restless = self.cell_rates.as_ref().map(|rate| restlessness(rate.factor()));
         self.trends.expect(restless.into_array());
         let (now, mean) = (self.model, *self.filter.estimate().mean());
@@ -239,7 +239,7 @@ impl<S: Scalar> HubForceFilter<S> {
         let ([.., of_rocker], [_, now_nm]) = (&mut expected, self.at_rest_nm);
         *of_rocker += before_nm - now_nm;
         expected.iter_mut().zip(self.trends.per_m()).for_each(|(force, trend)| *force += travel_m * trend);
-        let mean = if held { mean } else { now.state_of(&expected) };
+        let mean = if self.held { mean } else { now.state_of(&expected) };
         let straight = |model: &HubForceModel<S>| HubForceModel { difference_n: S::zero(), ..*model };
         let (before, now) = (straight(before), straight(&now));
         let drifts = self.drifts(travel_m);
@@ -299,7 +299,7 @@ impl<S: Scalar> HubForceFilter<S> {
     }
 
     /// Learns how fast the cells' forces and the moments wander. Where a stop holds the bogie the moments are not the soil's.
-    fn learn_rates(&mut self, (step_s, travel_m): (S, S), readings: &ForceReadings<S>, held: bool) {
+    fn learn_rates(&mut self, (step_s, travel_m): (S, S), readings: &ForceReadings<S>) {
         let nominal = |drift: f64, travel_m: S| S::constant(drift * drift) * travel_m;
         let [of_cells, of_moments] = self.scale.travels_m(travel_m);
         let of_cell = nominal(CELL_DRIFT_N, of_cells);
@@ -311,7 +311,7 @@ impl<S: Scalar> HubForceFilter<S> {
             (&mut self.rocker_rate, readings.rocker_moment_nm, nominal(ROCKER_DRIFT_NM, of_moments)),
         ];
         for (rate, (moment, std), nominal) in moments {
-            rate.take(Some(moment).filter(|_| !held), Noise::white(std), nominal, step_s);
+            rate.take(Some(moment).filter(|_| !self.held), Noise::white(std), nominal, step_s);
         }
     }
 }

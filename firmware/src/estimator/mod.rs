@@ -48,7 +48,7 @@ mod side_estimate;
 mod side_estimator;
 mod side_frame;
 mod sinking;
-mod slip_by_speeds;
+pub mod slip_by_speeds;
 pub mod slip_torque;
 mod surprise;
 mod swing;

@@ -35,9 +35,6 @@ const STEADY_S: f64 = 1.95;
 const SWINGS_HUB: f64 = 0.08;
 /// An encoder that says the same over and over is off by so many times its noise.
 const REPEATING: f64 = 10.0;
-/// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull:
-/// one standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
-const OF_DIGGING: f64 = 0.75;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 /// The estimators of one side.
@@ -376,8 +373,6 @@ impl<S: Scalar> SideEstimator<S> {
     pub(super) fn split_of_pull(&self, middle: &HubOnGround<S>, rear: &HubOnGround<S>) -> DrawbarSplit<S> {
         let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
         let (middle, rear) = (&middle.wheel, &rear.wheel);
-        let digging = S::constant(OF_DIGGING) * (middle.load_n + rear.load_n);
-        let by_torque = DrawbarSplit::by_torque(middle, rear, sum);
-        by_torque.while_digging((middle, rear), sum, digging * digging * self.digging_in.variance())
+        DrawbarSplit::by_torque(middle, rear, sum).while_digging((middle, rear), sum, self.digging_in.variance())
     }
 }

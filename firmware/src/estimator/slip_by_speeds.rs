@@ -28,7 +28,7 @@ impl<S: Scalar> SpeedReadings<S> {
 }
 
 /// The slip that speeds of rim and hub make, m/s, one of which is not zero, −1 … 1: 1 − v/(r ω) when driving, r ω/v − 1 when braking.
-fn slip_by<S: Scalar>(rim: S, hub: S) -> S {
+pub fn slip_by<S: Scalar>(rim: S, hub: S) -> S {
     let one = S::one();
     let slip = if hub.abs() <= rim.abs() { one - hub / rim } else { rim / hub - one };
     slip.max(-one).min(one)

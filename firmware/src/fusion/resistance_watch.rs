@@ -75,11 +75,9 @@ impl ResistanceWatch {
         self.recent.take(resistance.value, travel_m);
         let difference = self.recent.mean() - self.reference.mean();
         let noise = SIGNIFICANT * resistance.std;
-        let (differs, is_sure) = (math::abs(difference) > LEAST_CHANGE, math::abs(difference) > noise);
-        let is_learned = self.reference.travel_m() >= LEARNED_M;
-        if !is_learned || !differs || !is_sure {
-            let in_doubt = is_learned && differs && noise > DOUBTFUL;
-            let share = if in_doubt { IN_DOUBT } else { 1.0 };
+        let differs = self.reference.travel_m() >= LEARNED_M && math::abs(difference) > LEAST_CHANGE;
+        if !differs || math::abs(difference) <= noise {
+            let share = if differs && noise > DOUBTFUL { IN_DOUBT } else { 1.0 };
             self.reference.take(resistance.value, share * travel_m);
             self.beyond_m = 0.0;
             return None;

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use kapvik_firmware::estimator::slip_by_speeds::slip_by;
 use kapvik_firmware::rover::{PerAxle, PerSide, PerWheel, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
@@ -30,21 +31,16 @@ pub fn naive(rover: &Rover<f64>, frame: &SensorFrame) -> PerWheel<NaiveWheel> {
     let angles = link_pitch(frame);
     frame.wheels.zip_wheels(angles).map_wheels(|(wheel, angle)| {
         let load = wide(wheel.load_cell_n);
+        let rim = wide(wheel.rate_rad_s).map(|rate| rover.wheel.radius_m * rate);
+        let moves = |(rim, hub): &(f64, f64)| *rim != 0.0 || *hub != 0.0;
         NaiveWheel {
-            slip: slip(wide(wheel.rate_rad_s).map(|rate| rover.wheel.radius_m * rate), speed),
+            slip: rim.zip(speed).filter(moves).map(|(rim, hub)| slip_by(rim, hub)),
             resistive_torque_nm: wide(wheel.motor_torque_nm),
             contact_angle_rad: angle,
             normal_load_n: load,
             drawbar_pull_n: pull.zip(carried).zip(load).map(|((pull, carried), load)| pull * load / carried),
         }
     })
-}
-
-/// 1 − v/(rω) where the rim is faster than the hub, rω/v − 1 where it is slower; none where neither moves.
-fn slip(rim_m_s: Option<f64>, hub_m_s: Option<f64>) -> Option<f64> {
-    let (rim, hub) = (rim_m_s?, hub_m_s?);
-    let slip = if rim.abs() >= hub.abs() { 1.0 - hub / rim } else { rim / hub - 1.0 };
-    slip.is_finite().then(|| slip.clamp(-1.0, 1.0))
 }
 
 /// Pitch of the rocker for the front wheels, of the bogies for the others, against the horizontal.
