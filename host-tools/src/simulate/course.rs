@@ -88,15 +88,23 @@ impl Demand {
     }
 }
 
-/// Number of hills on a side.
-const WAVES: usize = 3;
+/// What the hills of a side are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub struct Hills {
+    /// Number of waves.
+    pub waves: usize,
+    /// The shortest and the longest of them, m.
+    pub wavelengths_m: (f64, f64),
+    /// The slope of the steepest place is drawn from these, rad.
+    pub steepest_rad: (f64, f64),
+}
 
-/// Hills of a side between two places: three sine waves of 1 … 4 m whose steepest place is that of a slope drawn from
-/// `steepest`.
-pub fn draw_hills(random: &mut ChaCha8Rng, between_m: (f64, f64), steepest: (f64, f64)) -> Vec<Shape> {
+/// Hills of a side between two places: sine waves, scaled to the slope of their steepest place.
+pub fn draw_hills(random: &mut ChaCha8Rng, between_m: (f64, f64), hills: &Hills) -> Vec<Shape> {
+    let (shortest_m, longest_m) = hills.wavelengths_m;
     let mut waves = Vec::new();
-    for _ in 0..WAVES {
-        let wavelength_m = 1.0 * libm::pow(4.0, random.random::<f64>());
+    for _ in 0..hills.waves {
+        let wavelength_m = shortest_m * libm::pow(longest_m / shortest_m, random.random::<f64>());
         // Equal slopes on average, so that the longer waves are the higher.
         let amplitude_m = wavelength_m * random.random_range(0.3..1.0);
         let phase_rad = random.random_range(0.0..std::f64::consts::TAU);
@@ -111,7 +119,7 @@ pub fn draw_hills(random: &mut ChaCha8Rng, between_m: (f64, f64), steepest: (f64
         };
         waves.iter().map(shape).collect()
     };
-    let wanted = random.random_range(steepest.0..steepest.1);
+    let wanted = random.random_range(hills.steepest_rad.0..hills.steepest_rad.1);
     shapes(libm::tan(wanted) / steepest_slope(&shapes(1.0), between_m))
 }
 

@@ -35,6 +35,7 @@ mod sliding;
 mod stepper;
 pub mod terrain;
 mod traverse;
+mod varied_ground;
 pub mod wheel_soil;
 
 pub use scenario::Scenario;

@@ -7,12 +7,13 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::course::{
-    Course, Demand, draw_equal_speeds, draw_hills, draw_programme, draw_soil, draw_spread_speeds, on_both_sides,
+    Course, Demand, Hills, draw_equal_speeds, draw_hills, draw_programme, draw_soil, draw_spread_speeds, on_both_sides,
 };
 use super::faults::{Failure, Fault};
 use super::ground_soils::{Becomes, Change};
 use super::programme::Command;
 use super::terrain::{Shape, Terrain};
+use super::varied_ground::draw_varied_ground;
 use crate::data::sensor_channels::WHEEL_NAMES;
 
 /// A kind of drive.
@@ -40,6 +41,8 @@ pub enum Scenario {
     WheelBlocked,
     /// Level ground, slips spread, and a soil that becomes ice-cemented or sublimated
     SoilChange,
+    /// Ground and speeds of any kind: nearly level or steep, long hills or a rough surface, a ramp, stones
+    Varied,
 }
 
 /// When the rover starts, s.
@@ -70,6 +73,7 @@ impl Scenario {
             Self::WheelLift => draw.wheel_lift(),
             Self::WheelBlocked => draw.wheel_blocked(),
             Self::SoilChange => draw.soil_change(),
+            Self::Varied => draw.varied(),
         }
     }
 }
@@ -125,11 +129,9 @@ impl Draw<'_> {
     }
 
     fn hills_between(&mut self, between_m: (f64, f64)) -> PerSide<Vec<Shape>> {
-        let steepest = (9.0_f64.to_radians(), 15.0_f64.to_radians());
-        PerSide {
-            left: draw_hills(self.random, between_m, steepest),
-            right: draw_hills(self.random, between_m, steepest),
-        }
+        let steepest_rad = (9.0_f64.to_radians(), 15.0_f64.to_radians());
+        let hills = Hills { waves: 3, wavelengths_m: (1.0, 4.0), steepest_rad };
+        PerSide { left: draw_hills(self.random, between_m, &hills), right: draw_hills(self.random, between_m, &hills) }
     }
 
     fn slope(&mut self) -> Option<Course> {
@@ -243,6 +245,18 @@ impl Draw<'_> {
         let mut course = self.spread_course(0.10, 120.0)?;
         let becomes = if self.random.random::<f64>() < 0.5 { Becomes::IceCemented } else { Becomes::Sublimated };
         course.changes = vec![Change { from_m: self.uniform(0.75, 0.85), becomes }];
+        Some(course)
+    }
+
+    fn varied(&mut self) -> Option<Course> {
+        let pull_ratio = self.uniform(0.05, 0.22);
+        let spread = self.random.random::<f64>() < 0.5;
+        let mut course = if spread { self.spread_course(pull_ratio, 90.0)? } else { self.course(pull_ratio, 90.0)? };
+        let pace = self.uniform(0.5, 1.1);
+        for command in &mut course.programme.commands {
+            command.rim_speed_m_s = command.rim_speed_m_s.map_wheels(|speed| pace * speed);
+        }
+        course.terrain.sides = draw_varied_ground(self.random);
         Some(course)
     }
 

@@ -52,6 +52,17 @@ fn hills_and_rocks_are_as_steep_as_they_should_be() {
 }
 
 #[test]
+fn varied_ground_is_gentle_and_steep() {
+    let steepest = |seed| {
+        let (least, greatest) = range(&truths(Scenario::Varied, seed), |wheel| wheel.contact_angle_rad.to_degrees());
+        greatest.max(-least)
+    };
+    let steepest: Vec<f64> = (40..52).map(steepest).collect();
+    assert!(steepest.iter().any(|angle| *angle < 4.0) && steepest.iter().any(|angle| *angle > 12.0), "{steepest:?}");
+    assert!(steepest.iter().all(|angle| *angle < 45.0), "{steepest:?}");
+}
+
+#[test]
 fn a_wheel_over_its_hole_carries_nothing_and_slips_all_the_same() {
     for seed in 40..44 {
         let truths = truths(Scenario::WheelLift, seed);
