@@ -93,18 +93,17 @@ impl Demand {
 pub struct Hills {
     /// Number of waves.
     pub waves: usize,
-    /// The shortest and the longest of them, m.
-    pub wavelengths_m: (f64, f64),
+    /// How long they are, m.
+    pub wavelengths_m: prior::Range,
     /// The slope of the steepest place is drawn from these, rad.
     pub steepest_rad: (f64, f64),
 }
 
 /// Hills of a side between two places: sine waves, scaled to the slope of their steepest place.
 pub fn draw_hills(random: &mut ChaCha8Rng, between_m: (f64, f64), hills: &Hills) -> Vec<Shape> {
-    let (shortest_m, longest_m) = hills.wavelengths_m;
     let mut waves = Vec::new();
     for _ in 0..hills.waves {
-        let wavelength_m = shortest_m * libm::pow(longest_m / shortest_m, random.random::<f64>());
+        let wavelength_m = hills.wavelengths_m.at(random.random::<f64>());
         // Equal slopes on average, so that the longer waves are the higher.
         let amplitude_m = wavelength_m * random.random_range(0.3..1.0);
         let phase_rad = random.random_range(0.0..std::f64::consts::TAU);

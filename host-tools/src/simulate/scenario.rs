@@ -15,6 +15,7 @@ use super::programme::Command;
 use super::terrain::{Shape, Terrain};
 use super::varied_ground::draw_varied_ground;
 use crate::data::sensor_channels::WHEEL_NAMES;
+use crate::train::prior::Range;
 
 /// A kind of drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, ValueEnum)]
@@ -130,7 +131,8 @@ impl Draw<'_> {
 
     fn hills_between(&mut self, between_m: (f64, f64)) -> PerSide<Vec<Shape>> {
         let steepest_rad = (9.0_f64.to_radians(), 15.0_f64.to_radians());
-        let hills = Hills { waves: 3, wavelengths_m: (1.0, 4.0), steepest_rad };
+        let wavelengths_m = Range::logarithmic(1.0, 4.0);
+        let hills = Hills { waves: 3, wavelengths_m, steepest_rad };
         PerSide { left: draw_hills(self.random, between_m, &hills), right: draw_hills(self.random, between_m, &hills) }
     }
 

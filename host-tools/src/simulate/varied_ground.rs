@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::course::{Hills, draw_hills};
 use super::terrain::Shape;
+use crate::train::prior::Range;
 
 /// From where on the ground is uneven, m: the front wheels stand at 0.35 m.
 const FROM_M: f64 = 0.4;
@@ -16,8 +17,8 @@ const WAVES: std::ops::RangeInclusive<usize> = 1..=6;
 /// The shortest of the waves is drawn from these, m; from there on they are as long as [`LONGEST_M`].
 const SHORTEST_M: (f64, f64) = (0.3, 1.5);
 const LONGEST_M: f64 = 4.0;
-/// The steepest place of the waves is drawn from these, evenly in the logarithm, degrees.
-const STEEPEST_DEG: (f64, f64) = (0.5, 14.0);
+/// The steepest place of the waves, degrees.
+const STEEPEST_DEG: Range = Range::logarithmic(0.5, 14.0);
 /// Shares of drives whose sides are alike, that have a ramp, and that have stones.
 const SIDES_ALIKE: f64 = 0.3;
 const WITH_RAMP: f64 = 0.3;
@@ -48,11 +49,10 @@ pub fn draw_varied_ground(random: &mut ChaCha8Rng) -> PerSide<Vec<Shape>> {
 }
 
 fn draw_waves(random: &mut ChaCha8Rng) -> Vec<Shape> {
-    let (gentlest, steepest) = STEEPEST_DEG;
-    let slope_rad = (gentlest * libm::pow(steepest / gentlest, random.random::<f64>())).to_radians();
+    let slope_rad = STEEPEST_DEG.at(random.random::<f64>()).to_radians();
     let hills = Hills {
         waves: random.random_range(WAVES),
-        wavelengths_m: (random.random_range(SHORTEST_M.0..SHORTEST_M.1), LONGEST_M),
+        wavelengths_m: Range::logarithmic(random.random_range(SHORTEST_M.0..SHORTEST_M.1), LONGEST_M),
         steepest_rad: (0.9 * slope_rad, slope_rad),
     };
     draw_hills(random, (FROM_M, BEYOND_M), &hills)

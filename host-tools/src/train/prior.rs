@@ -22,7 +22,9 @@ impl Range {
     const fn linear(low: f64, high: f64) -> Self {
         Self { low, high, logarithmic: false }
     }
-    const fn logarithmic(low: f64, high: f64) -> Self {
+
+    /// Uniform in the logarithm.
+    pub const fn logarithmic(low: f64, high: f64) -> Self {
         Self { low, high, logarithmic: true }
     }
 
