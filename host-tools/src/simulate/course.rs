@@ -38,6 +38,15 @@ pub struct Demand {
     /// Whether five wheels at a slip of [`EASY_SLIP`] must resist more than one at [`HARD_SLIP`] pulls, so that slips can
     /// spread without any wheel braking.
     pub spread: bool,
+    /// Between which slips a rover goes on level ground: there the pull of its wheels vanishes.
+    pub level_slip: (f64, f64),
+}
+
+impl Default for Demand {
+    /// Any pull will do.
+    fn default() -> Self {
+        Self { pull_ratio: 0.0, spread: false, level_slip: (LEAST_SLIP, HARD_SLIP) }
+    }
 }
 
 /// How deep a wheel may sink under its share of the weight, over its radius.
@@ -48,7 +57,7 @@ const LEAST_SLIP: f64 = 0.02;
 /// A slip at which wheels resist more than they pull.
 const EASY_SLIP: f64 = 0.05;
 /// A slip at which a rover still makes way.
-const HARD_SLIP: f64 = 0.6;
+pub const HARD_SLIP: f64 = 0.6;
 
 /// Pull over load and sinkage over radius of a wheel on level ground that carries its share of the weight.
 pub fn pull_ratio(rover: &Rover<f64>, soil: &Soil<f64>, slip: f64) -> Option<(f64, f64)> {
@@ -82,9 +91,10 @@ impl Demand {
     fn is_met_by(&self, rover: &Rover<f64>, soil: &Soil<f64>) -> Option<bool> {
         let (hard, depth) = pull_ratio(rover, soil, HARD_SLIP)?;
         let (easy, _) = pull_ratio(rover, soil, EASY_SLIP)?;
-        let (least, _) = pull_ratio(rover, soil, LEAST_SLIP)?;
+        let (least, _) = pull_ratio(rover, soil, self.level_slip.0)?;
+        let (most, _) = pull_ratio(rover, soil, self.level_slip.1)?;
         let strong_enough = hard >= self.pull_ratio && depth <= DEEPEST;
-        Some(strong_enough && least < 0.0 && !(self.spread && 5.0 * easy + hard > 0.0))
+        Some(strong_enough && least < 0.0 && most > 0.0 && !(self.spread && 5.0 * easy + hard > 0.0))
     }
 }
 

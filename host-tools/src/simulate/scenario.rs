@@ -7,7 +7,8 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::course::{
-    Course, Demand, Hills, draw_equal_speeds, draw_hills, draw_programme, draw_soil, draw_spread_speeds, on_both_sides,
+    Course, Demand, HARD_SLIP, Hills, draw_equal_speeds, draw_hills, draw_programme, draw_soil, draw_spread_speeds,
+    on_both_sides, pull_ratio,
 };
 use super::faults::{Failure, Fault};
 use super::ground_soils::{Becomes, Change};
@@ -42,7 +43,8 @@ pub enum Scenario {
     WheelBlocked,
     /// Level ground, slips spread, and a soil that becomes ice-cemented or sublimated
     SoilChange,
-    /// Ground and speeds of any kind: nearly level or steep, long hills or a rough surface, a ramp, stones
+    /// Ground, soils and speeds of any kind: nearly level or steep, long hills or a rough surface, a ramp, stones; wheels slip
+    /// little or much
     Varied,
 }
 
@@ -86,12 +88,12 @@ impl Draw<'_> {
 
     /// A level drive at equal speeds, to be changed, on a soil where each wheel can pull so much of its load.
     fn course(&mut self, pull_ratio: f64, duration_s: f64) -> Option<Course> {
-        self.course_on(&Demand { pull_ratio, spread: false }, duration_s)
+        self.course_on(&Demand { pull_ratio, ..Demand::default() }, duration_s)
     }
 
     /// A level drive at slips that are spread, to be changed.
     fn spread_course(&mut self, pull_ratio: f64, duration_s: f64) -> Option<Course> {
-        let mut course = self.course_on(&Demand { pull_ratio, spread: true }, duration_s)?;
+        let mut course = self.course_on(&Demand { pull_ratio, spread: true, ..Demand::default() }, duration_s)?;
         let fastest = self.uniform(0.030, 0.036);
         let rim_speed_m_s = draw_spread_speeds(self.random, self.rover, &course.soil, fastest);
         course.programme.commands = vec![Command { from_s: START_S, rim_speed_m_s }];
@@ -251,14 +253,23 @@ impl Draw<'_> {
     }
 
     fn varied(&mut self) -> Option<Course> {
-        let pull_ratio = self.uniform(0.05, 0.22);
+        const DURATION_S: f64 = 90.0;
         let spread = self.random.random::<f64>() < 0.5;
-        let mut course = if spread { self.spread_course(pull_ratio, 90.0)? } else { self.course(pull_ratio, 90.0)? };
+        let mut course = if spread {
+            let pull_ratio = self.uniform(0.05, 0.22);
+            self.spread_course(pull_ratio, DURATION_S)?
+        } else {
+            // A soil of the prior seldom makes wheels slip much, so that slips are drawn instead of soils.
+            let slip = self.uniform(0.03, 0.5);
+            let demand = Demand { pull_ratio: 0.05, level_slip: (0.85 * slip, 1.15 * slip), ..Demand::default() };
+            self.course_on(&demand, DURATION_S)?
+        };
         let pace = self.uniform(0.5, 1.1);
         for command in &mut course.programme.commands {
             command.rim_speed_m_s = command.rim_speed_m_s.map_wheels(|speed| pace * speed);
         }
-        course.terrain.sides = draw_varied_ground(self.random);
+        let (climbs, _) = pull_ratio(self.rover, &course.soil, HARD_SLIP)?;
+        course.terrain.sides = draw_varied_ground(self.random, climbs);
         Some(course)
     }
 
