@@ -15,7 +15,7 @@ use crate::train::moments::Moments;
 use crate::train::trainable::{change_each, flatten};
 
 /// Passes over all sides.
-const PASSES: u64 = 50;
+const PASSES: u64 = 100;
 /// Sides of a step.
 const BATCH: usize = 2 * LANES;
 /// Step size at the beginning; it falls to zero along a half-wave of the cosine.
