@@ -5,6 +5,8 @@ use crate::scalar::Scalar;
 /// One standard deviation of how far such a slip may be from that of the frame, and the greatest with which it tells one.
 const JUMPS: f64 = 0.1;
 const GREATEST_STD: f64 = 0.2;
+/// A rim that turns with less than this share of the hub's speed may stand, by its encoder's noise.
+const TURNS: f64 = 0.1;
 
 /// How fast rim and hub of a wheel are said to move.
 #[derive(Debug, Clone, Copy)]
@@ -27,18 +29,22 @@ impl<S: Scalar> SpeedReadings<S> {
     }
 }
 
-/// The slip that speeds of rim and hub make, m/s, one of which is not zero, −1 … 1: 1 − v/(r ω) when driving, r ω/v − 1 when braking.
+/// The slip that speeds of rim and hub make, m/s, one of which is not zero, −1 … 1: 1 − v/(r ω) when driving, r ω/v − 1 when braking. Where
+/// they move oppositely it is 1 of a rim that drives forward, and −1 of one that turns back or hardly turns.
 pub fn slip_by<S: Scalar>(rim: S, hub: S) -> S {
     let one = S::one();
-    let slip = if hub.abs() <= rim.abs() { one - hub / rim } else { rim / hub - one };
-    slip.max(-one).min(one)
+    if rim * hub < S::zero() {
+        return if rim > S::constant(TURNS) * hub.abs() { one } else { -one };
+    }
+    if hub.abs() <= rim.abs() { one - hub / rim } else { rim / hub - one }
 }
 
 #[cfg(test)]
 mod tests {
     use super::SpeedReadings;
 
-    /// A wheel of 75 mm that drives, brakes, is dragged while it turns back a little, drives backward, or is too slow.
+    /// A wheel of 75 mm that drives, brakes, is dragged while it turns back a little, drives backward, slides back while it drives, is
+    /// dragged backward, turns back while it rolls on, or is too slow.
     #[test]
     fn a_slip_is_the_quotient_of_the_speeds() {
         let slip = |rate_rad_s: f64, hub_m_s: f64| {
@@ -52,6 +58,9 @@ mod tests {
         assert!(is(slip(0.2, 0.03), -0.5, 0.1 + 5.0e-4 / 0.03));
         assert!(is(slip(-0.01, 0.03), -1.0, 0.1 + 5.0e-4 / 0.03));
         assert!(is(slip(-0.4, -0.024), 0.2, 0.1 + 5.0e-4 / 0.03));
+        assert!(is(slip(0.3, -0.03), 1.0, 0.1 + 5.0e-4 / 0.03));
+        assert!(is(slip(0.01, -0.03), -1.0, 0.1 + 5.0e-4 / 0.03));
+        assert!(is(slip(-0.4, 0.024), -1.0, 0.1 + 5.0e-4 / 0.03));
         assert!(slip(0.04, 0.003).is_none());
         assert!(
             SpeedReadings { rate_rad_s: None, hub_speed_m_s: Some(0.03), hub_speed_std_m_s: 0.0 }.slip(0.075).is_none()

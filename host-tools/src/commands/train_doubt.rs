@@ -22,7 +22,8 @@ pub struct Arguments {
     /// Seed of the first drive, from which all others follow; the same seed gives the same bytes
     #[arg(long, default_value_t = 20_000)]
     seed: u32,
-    /// Drives of each scenario on uneven ground; twice as many on plane ground; some more have other noise, sensors that fail or effects of the soil, and some are held out
+    /// Drives of each scenario on uneven ground; there are twice as many of each on plane ground, some more have other noise, sensors that
+    /// fail or effects of the soil, and some are held out
     #[arg(long, default_value_t = 200, value_parser = value_parser!(u32).range(1..=10_000))]
     drives: u32,
 }

@@ -63,6 +63,19 @@ fn varied_ground_is_gentle_and_steep() {
 }
 
 #[test]
+fn on_varied_ground_wheels_slip_little_and_much() {
+    let mean_slip = |seed| {
+        let truths = truths(Scenario::Varied, seed);
+        let slips: Vec<f64> =
+            truths[100..].iter().flat_map(|truth| truth.wheels.iter_wheels()).filter_map(|wheel| wheel.slip).collect();
+        slips.iter().sum::<f64>() / slips.len() as f64
+    };
+    let slips: Vec<f64> = (40..52).map(mean_slip).collect();
+    assert!(slips.iter().any(|slip| *slip < 0.1) && slips.iter().any(|slip| *slip > 0.35), "{slips:?}");
+    assert!(slips.iter().all(|slip| *slip < 0.8), "nothing is stuck: {slips:?}");
+}
+
+#[test]
 fn a_wheel_over_its_hole_carries_nothing_and_slips_all_the_same() {
     for seed in 40..44 {
         let truths = truths(Scenario::WheelLift, seed);
