@@ -29,10 +29,6 @@ pub const NOMINAL: [Scenario; 7] = [
     Scenario::Dropout,
     Scenario::Varied,
 ];
-/// Those of them whose ground does not curve. There are more of these drives: they are shorter, and without them so much uneven
-/// ground would make the network doubt plane ground as well.
-const ON_PLANE_GROUND: [Scenario; 3] = [Scenario::Level, Scenario::Spread, Scenario::Slope];
-const PLANE_GROUND_TIMES: u32 = 2;
 /// What it has to be right on, too, though less often.
 const OTHER: [Scenario; 4] = [Scenario::StartStop, Scenario::SoilChange, Scenario::WheelBlocked, Scenario::WheelLift];
 
@@ -98,16 +94,15 @@ enum Deviation {
     GrouserRipple,
 }
 
-/// All of them but that there is none, and how many times as many drives each has: links that swing with the grousers are hardest to tell
-/// from ground.
-const DEVIATIONS: [(Deviation, u32); 7] = [
-    (Deviation::Noise, 1),
-    (Deviation::Failures, 1),
-    (Deviation::Seldom, 1),
-    (Deviation::Silent, 1),
-    (Deviation::Mass, 1),
-    (Deviation::SlipSinkage, 1),
-    (Deviation::GrouserRipple, 2),
+/// All of them but that there is none.
+const DEVIATIONS: [Deviation; 7] = [
+    Deviation::Noise,
+    Deviation::Failures,
+    Deviation::Seldom,
+    Deviation::Silent,
+    Deviation::Mass,
+    Deviation::SlipSinkage,
+    Deviation::GrouserRipple,
 ];
 
 /// So many drives of a kind.
@@ -148,19 +143,28 @@ impl Plan {
 
     fn training_sets(&self) -> Vec<Set> {
         let nominal = NOMINAL.map(|scenario| {
-            let times = if ON_PLANE_GROUND.contains(&scenario) { PLANE_GROUND_TIMES } else { 1 };
-            Set { scenario, deviation: Deviation::None, drives: times * self.drives }
+            let drives = times_of_nominal(scenario) * self.drives;
+            Set { scenario, deviation: Deviation::None, drives }
         });
         let drives = self.less_often();
-        let deviations = DEVIATIONS
-            .into_iter()
-            .flat_map(|(deviation, times)| NOMINAL.map(|scenario| Set { scenario, deviation, drives: times * drives }));
+        let deviations = DEVIATIONS.into_iter().flat_map(|deviation| {
+            NOMINAL.map(|scenario| Set { scenario, deviation, drives: deviation.times() * drives })
+        });
         let others = OTHER.into_iter().map(|scenario| Set { scenario, deviation: Deviation::None, drives });
         nominal.into_iter().chain(deviations).chain(others).collect()
     }
 
     fn less_often(&self) -> u32 {
         self.drives.div_ceil(LESS_OFTEN)
+    }
+}
+
+/// How many times as many drives a nominal scenario has: more on ground that does not curve, where they are shorter, and without which so
+/// much uneven ground would make the network doubt plane ground as well.
+fn times_of_nominal(scenario: Scenario) -> u32 {
+    match scenario {
+        Scenario::Level | Scenario::Spread | Scenario::Slope => 2,
+        _ => 1,
     }
 }
 
@@ -227,6 +231,11 @@ impl Journey {
 }
 
 impl Deviation {
+    /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground.
+    fn times(self) -> u32 {
+        if self == Self::GrouserRipple { 2 } else { 1 }
+    }
+
     /// The rover, and what acts on it.
     fn draw(self, random: &mut ChaCha8Rng) -> Result<(Rover<f64>, Options), String> {
         let mut rover = RoverFile::assumed().rover;
@@ -322,7 +331,7 @@ mod tests {
 
     #[test]
     fn a_drive_that_deviates_gives_the_same_rows_again() {
-        for deviation in DEVIATIONS.map(|(deviation, _)| deviation).into_iter().chain([Deviation::None]) {
+        for deviation in DEVIATIONS.into_iter().chain([Deviation::None]) {
             let journey = Journey { scenario: Scenario::Level, seed: 3, deviation };
             let sides = journey.sides().expect("a drive on the level");
             let known = sides.as_ref().map(|rows| rows.iter().filter(|row| row.known.is_some()).count());
