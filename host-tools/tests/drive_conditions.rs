@@ -79,3 +79,32 @@ fn a_rover_that_turns_back_stays_on_its_soil() {
         assert!((f64::from(estimate.value) - truth).abs() < 3.0 * f64::from(estimate.std), "seed {seed}");
     }
 }
+
+/// As wheels start, load shifts to the rear of a bogie, which turns, and its hubs go forward by that. What they are then said to slip, from
+/// the second frame on in which they do, is as sure as is said: by the terrain alone they would slip by a sixth of the rims' speed more.
+#[test]
+fn wheels_of_a_bogie_that_start_slip_as_surely_as_they_say() {
+    const STARTING: std::ops::Range<usize> = 1..8;
+    let (mut starting, mut within, mut squares) = (0_u32, 0_u32, 0.0);
+    for seed in 1000..1020 {
+        let mut rolling = [0; 4];
+        for (estimate, truth) in drive(Scenario::StartStop, seed) {
+            let bogies = estimate.wheels.as_ref().zip(truth.wheels.as_ref());
+            let bogies = [bogies.left, bogies.right]
+                .map(|(said, true_one)| [(&said.middle, &true_one.middle), (&said.rear, &true_one.rear)]);
+            for (frames, (said, true_one)) in rolling.iter_mut().zip(bogies.into_iter().flatten()) {
+                *frames = if true_one.slip.is_some() { *frames + 1 } else { 0 };
+                let (Some(slip), Some(said)) = (true_one.slip, said.slip) else { continue };
+                if STARTING.contains(frames) {
+                    let off = f64::from(said.value) - slip;
+                    starting += 1;
+                    within += u32::from(off.abs() < 2.0 * f64::from(said.std));
+                    squares += off * off;
+                }
+            }
+        }
+    }
+    let (rms, share) = ((squares / f64::from(starting)).sqrt(), f64::from(within) / f64::from(starting));
+    println!("{starting} frames: slips err by {rms:.3}, {:.1} % within 2 σ", 100.0 * share);
+    assert!(starting > 1000 && rms < 0.15 && share > 0.9, "{starting} frames: {rms}, {share}");
+}

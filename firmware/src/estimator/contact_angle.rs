@@ -10,64 +10,16 @@
 use super::activity::STANDING;
 use super::attitude::Attitude;
 use super::joints::Joints;
+use super::load_shift::LoadShift;
 use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_front_alone, of_unlike};
 use super::runs::Runs;
 use super::trend::{Trends, beside_trend, restlessness};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, SigmaPointFilter};
-use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, RollingState, Rover, SensorNoise, hub_speed_slopes};
+use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, Rover, SensorNoise, hub_speed_slopes};
 use crate::scalar::Scalar;
 
-/// States: κ, γ front, γ middle, γ rear, pitch of rocker, bogie and body.
-pub const STATES: usize = 7;
-/// Measurements: velocity of the axis forward and up, rocker against body, bogie against rocker, pitch of the body.
-pub const MEASUREMENTS: usize = 5;
-
-/// The process model: how the state changes by itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactAngleModel<S> {
-    /// The side's shape.
-    pub side: RollingSide<S>,
-    /// Speed that a ratio of one stands for: that of the rims, m/s.
-    pub rim_speed_m_s: S,
-    /// Sine and cosine of the body's pitch in the plane of the side.
-    pub body_pitch: (S, S),
-    /// Rate of the body's pitch that the gyro tells, rad/s, nose-up.
-    pub body_rate_rad_s: S,
-    /// How steeply each wheel sinks below the terrain that its hub travels along, rad: by so much less than the contact angle its
-    /// hub rises.
-    pub sinking_rad: PerAxle<S>,
-}
-
-impl<S: Scalar> ContactAngleModel<S> {
-    /// The motion that a state stands for.
-    pub fn motion(&self, state: &[S; STATES]) -> RollingMotion<S> {
-        let [ratio, front, middle, rear, rocker_pitch_rad, bogie_pitch_rad, _] = *state;
-        let sinking = &self.sinking_rad;
-        let path_angles_rad =
-            PerAxle { front: front - sinking.front, middle: middle - sinking.middle, rear: rear - sinking.rear };
-        self.side.motion(&RollingState {
-            speed_m_s: ratio * self.rim_speed_m_s,
-            contact_angles_rad: path_angles_rad,
-            rocker_pitch_rad,
-            bogie_pitch_rad,
-        })
-    }
-
-    /// Rates of change of the state, per second.
-    pub fn rates(&self, state: &[S; STATES]) -> [S; STATES] {
-        let motion = self.motion(state);
-        let zero = S::zero();
-        [zero, zero, zero, zero, motion.rocker_rate_rad_s, motion.bogie_rate_rad_s, self.body_rate_rad_s]
-    }
-
-    /// What the sensors see of a state: velocity of the axis in the body's axes, the joints' angles, and the body's pitch.
-    pub fn measure(&self, state: &[S; STATES]) -> [S; MEASUREMENTS] {
-        let velocity = self.motion(state).axis_velocity_m_s.turned_back(self.body_pitch);
-        let [_, _, _, _, rocker, bogie, body] = *state;
-        [velocity.x, velocity.z, rocker - body, bogie - rocker, body]
-    }
-}
+pub use super::contact_angle_model::{ContactAngleModel, MEASUREMENTS, STATES};
 
 /// What is measured of a side.
 #[derive(Debug, Clone, Copy)]
@@ -82,12 +34,17 @@ pub(super) struct SideReadings<S> {
     pub bogie_angle_rad: Option<S>,
     /// How far the innovations of the side's forces come in runs, above chance.
     pub runs_of_forces: S,
+    /// Whether one of its wheels stands, or has just started.
+    pub starts: bool,
 }
 
 /// One standard deviation of a ratio that is not known at all, and of contact angles about the pitch of their link, rad:
 /// wider, and the filter might take a wheel that rolls forward for one that hangs from a ceiling and rolls back.
 const UNKNOWN_RATIO: f64 = 0.3;
-pub(super) const UNKNOWN_ANGLE: f64 = 0.2;
+const UNKNOWN_ANGLE: f64 = 0.2;
+/// One standard deviation by which the terrain under a wheel that stands is steeper than its link, rad: some 0.07 on hills, 0.13 about
+/// rocks.
+pub(super) const STEEPER_THAN_LINK: f64 = 0.1;
 /// The part of that which is added where the state has moved faster than it drifts.
 const LOOSENED: f64 = 0.2;
 /// A contact angle farther from the pitch of its link is given up, rad; and one whose variance is this many times that of one that
@@ -119,6 +76,7 @@ pub(super) struct ContactAngleFilter<S> {
     joints: Joints<S>,
     roughness: Roughness<S>,
     watch: Watch<MEASUREMENTS>,
+    load_shift: LoadShift<S>,
     begun: bool,
     runs: Runs<S, RUNS>,
     trends: Trends<S, 3>,
@@ -151,6 +109,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
             joints: Joints::new(),
             roughness: Roughness::new(phase),
             watch: Watch::new(),
+            load_shift: LoadShift::none(),
             begun: false,
             runs: Runs::new(),
             trends: Trends::new(),
@@ -163,7 +122,12 @@ impl<S: Scalar> ContactAngleFilter<S> {
     }
 
     fn unknown_std() -> [S; STATES] {
-        let angle = S::constant(UNKNOWN_ANGLE);
+        Self::unknown_but_for(UNKNOWN_ANGLE)
+    }
+
+    /// Standard deviations of a state of which no more is known than its angles, each to so many rad.
+    fn unknown_but_for(angle_std_rad: f64) -> [S; STATES] {
+        let angle = S::constant(angle_std_rad);
         [S::constant(UNKNOWN_RATIO), angle, angle, angle, angle, angle, angle]
     }
 
@@ -172,9 +136,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let (Some(rocker), Some(bogie)) = (rocker, bogie) else { return };
         let rocker = body_pitch_rad + rocker;
         let bogie = rocker + bogie;
-        if let Ok(start) =
-            Gaussian::independent([S::one(), rocker, bogie, bogie, rocker, bogie, body_pitch_rad], Self::unknown_std())
-        {
+        let mean = [S::one(), rocker, bogie, bogie, rocker, bogie, body_pitch_rad];
+        if let Ok(start) = Gaussian::independent(mean, Self::unknown_but_for(STEEPER_THAN_LINK)) {
             self.filter.restart(start);
             self.begun = true;
         }
@@ -201,6 +164,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// Sine and cosine of the body's pitch that the last frame was taken with.
     pub fn body_pitch(&self) -> (S, S) {
         self.model.body_pitch
+    }
+
+    /// How load that shifts turns the bogie.
+    pub fn load_shift(&self) -> &LoadShift<S> {
+        &self.load_shift
     }
 
     /// The runs of its innovations: of the velocity up, the rocker and the bogie.
@@ -298,8 +266,10 @@ impl<S: Scalar> ContactAngleFilter<S> {
         if !self.begun {
             self.begin(body_pitch_rad, [rocker.0, bogie.0]);
         }
-        self.predict(step_s, rate_std, readings.runs_of_forces);
-        let before = self.angles();
+        let starts = readings.starts && !stands;
+        let shifts_rad = self.load_shift.begin(starts, step_s);
+        self.predict(step_s, [rate_std, shifts_rad], readings.runs_of_forces);
+        let (before, bogie_before) = (self.angles(), self.links().middle);
         self.model.body_pitch = body_pitch_rad.sin_cos();
         let ContactAngleModel { rim_speed_m_s: speed_m_s, body_pitch, .. } = self.model;
         if !stands {
@@ -311,6 +281,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let measured = [velocity.x, velocity.z, rocker.0, bogie.0, attitude.felt_rad()];
         let model = self.model;
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
+        self.load_shift.follow(self.links().middle - bogie_before, step_s);
         let loosened = match self.watch.judge(&told) {
             Contradiction::Passing => None,
             Contradiction::Moved => Some(Self::unknown_std().map(|std| std * S::constant(LOOSENED))),
@@ -333,6 +304,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         told
     }
 
+    #[inline(never)] // flash is scarcer than the time of a call
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>, told: bool) {
         // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
         let learned = S::constant(LEARNED) * self.drift_variance();
@@ -353,7 +325,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         (ratio * self.model.rim_speed_m_s).abs() * step_s
     }
 
-    fn predict(&mut self, step_s: S, rate_std_rad_s: S, runs_of_forces: S) {
+    fn predict(&mut self, step_s: S, [rate_std_rad_s, shifts_rad]: [S; 2], runs_of_forces: S) {
         let model = self.model;
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
@@ -385,7 +357,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.drift_variances = [left * (factor + alone) + nominal * met, left * factor];
         let truly = self.turned_back;
         let [front, others] = self.drift_variances.map(|drift| (drift + truly).sqrt());
-        let pitch = S::constant(PITCH_DRIFT) * travel.sqrt();
+        let pitch = S::constant(PITCH_DRIFT) * travel.sqrt() + shifts_rad;
         let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
         let _ = self.filter.predict(process, &noise);
     }

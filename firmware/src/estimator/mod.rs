@@ -5,9 +5,10 @@
 //!
 //! - *Standing* ([`WheelActivity::Standing`], rim and hub below 1.5 mm/s): slip is undefined and absent; contact angles are what they
 //!   were before the wheels slowed down, since nothing rolls; torque follows the drive.
-//! - *Starting* and *stopping*: torque and forces may jump within a frame, so for eight frames they are not held to drift; how
-//!   fast they wander is learned afresh after twenty. The terrain is remembered from where the wheels stood, until the paths of the hubs
-//!   tell it as well. What speeds a drive up or slows it down is no part of the moments that its link has to hold.
+//! - *Starting* and *stopping*: torque and forces may jump within a frame, so for eight frames they are not held to drift, nor are the
+//!   pitches of the links to rolling: load shifts to the rear wheel of the bogie, which turns as it sinks. How fast torque and forces wander
+//!   is learned afresh after twenty. The terrain is remembered from where the wheels stood, until the paths of the hubs tell it as well.
+//!   What speeds a drive up or slows it down is no part of the moments that its link has to hold.
 //! - *Turning back*: rates and speeds change sign together; slip is positive when the rim is faster than the hub, in either
 //!   direction. In between the wheel stands.
 //! - *Blocked* ([`WheelActivity::Blocked`], a rim at less than a twelfth of its hub's speed): slip is −1. The side's speed is taken
@@ -25,6 +26,7 @@ mod attitude;
 mod bogie_stop;
 mod compaction;
 pub mod contact_angle;
+mod contact_angle_model;
 mod contact_forces;
 mod digging_in;
 pub mod doubt;
@@ -36,6 +38,7 @@ pub mod hub_force;
 mod hub_force_model;
 mod hub_on_ground;
 mod joints;
+mod load_shift;
 mod remembered_terrain;
 mod roughness;
 mod rover_estimator;
@@ -50,6 +53,7 @@ mod side_frame;
 mod sinking;
 pub mod slip_by_speeds;
 pub mod slip_torque;
+mod slip_torque_model;
 mod surprise;
 mod swing;
 mod told_by_torque;

@@ -4,7 +4,7 @@
 //! what it was where the wheels came to stand. On the way on, the memory is lost at the rate by which contact angles drift, until no more is
 //! known than that the terrain is about as steep as the links; once the paths tell as much, it is what they say.
 
-use super::contact_angle::{ContactAngleFilter, UNKNOWN_ANGLE};
+use super::contact_angle::{ContactAngleFilter, STEEPER_THAN_LINK};
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
@@ -26,7 +26,7 @@ impl<S: Scalar> RememberedTerrain<S> {
     /// Nothing is remembered, and whether the wheels have stood is not known.
     pub fn unknown() -> Self {
         let zero = S::zero();
-        let variance = S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE);
+        let variance = S::constant(STEEPER_THAN_LINK * STEEPER_THAN_LINK);
         Self { slopes_rad: PerAxle::all(zero), variance, is_asked: true, told: zero, beside_paths: zero }
     }
 
@@ -57,7 +57,7 @@ impl<S: Scalar> RememberedTerrain<S> {
             *self = Self { slopes_rad, variance: of_paths, is_asked: false, told: zero, beside_paths: zero };
             return;
         }
-        let unknown = S::constant(UNKNOWN_ANGLE * UNKNOWN_ANGLE);
+        let unknown = S::constant(STEEPER_THAN_LINK * STEEPER_THAN_LINK);
         let lost = if self.variance < unknown { (drift / unknown).min(S::one()) } else { S::one() };
         self.variance += lost * (unknown - self.variance);
         for (slope, link) in self.slopes_rad.as_mut().zip(angles.links()).into_array() {

@@ -11,6 +11,7 @@ use super::drawbar_split::DrawbarSplit;
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::hub_on_ground::HubOnGround;
+use super::load_shift::HubShift;
 use super::scale::Scale;
 use super::side_frame::{SENSORS, SideFrame};
 use super::sinking::Sinking;
@@ -53,6 +54,8 @@ pub(super) struct SideEstimator<S> {
     rim_speed_m_s: S,
     /// Which wheels bear no load that their cells can tell from none.
     pub(super) lifted: PerAxle<bool>,
+    /// Whether a wheel stands, or has just started.
+    starts: bool,
     /// Whether the torque of a wheel swings.
     pub(super) swings: bool,
     pub(super) digging_in: DiggingIn<S>,
@@ -110,6 +113,7 @@ impl<S: Scalar> SideEstimator<S> {
             rolling_s: PerAxle::all(S::zero()),
             rim_speed_m_s: S::zero(),
             lifted: PerAxle::all(false),
+            starts: true,
             swings: false,
             digging_in: DiggingIn::new(&scale),
             sinking: Sinking::new(&scale),
@@ -192,6 +196,7 @@ impl<S: Scalar> SideEstimator<S> {
             rocker_angle_rad: frame.rocker_angle_rad,
             bogie_angle_rad: frame.bogie_angle_rad,
             runs_of_forces: self.forces.runs().above(contact_angle::RUN_OF_FORCES),
+            starts: self.starts,
         }
     }
 
@@ -219,21 +224,23 @@ impl<S: Scalar> SideEstimator<S> {
         };
         let velocity_variance = readings.velocity_std_m_s.x * readings.velocity_std_m_s.x;
         let variances = self.angles.hub_speed_variances(self.speed_m_s());
-        let frame = |hub: Planar<S>, tangent: Planar<S>, link_rate_rad_s: S, variance: S| {
-            let hub_speed_m_s = hub.dot(tangent);
+        let shifts = self.angles.load_shift().hubs(&self.rover.suspension);
+        let frame = |hub: Planar<S>, tangent: Planar<S>, link_rate_rad_s: S, variance: S, shift: HubShift<S>| {
+            let hub_speed_m_s = hub.dot(tangent) + shift.faster_m_s;
             let correction = measured.map(|axis| (axis - motion.axis_velocity_m_s).dot(tangent));
             WheelFrame {
                 link_rate_rad_s,
                 hub_speed_m_s,
                 measured_hub_speed_m_s: correction.map(|correction| hub_speed_m_s + correction),
-                hub_speed_std_m_s: (velocity_variance + variance).sqrt(),
+                hub_speed_std_m_s: (velocity_variance + variance + shift.std_m_s * shift.std_m_s).sqrt(),
             }
         };
         let (hubs, tangents) = (&motion.hub_velocities_m_s, &motion.tangents);
+        let (of_rocker, of_bogie) = (motion.rocker_rate_rad_s, motion.bogie_rate_rad_s);
         PerAxle {
-            front: frame(hubs.front, tangents.front, motion.rocker_rate_rad_s, variances.front),
-            middle: frame(hubs.middle, tangents.middle, motion.bogie_rate_rad_s, variances.middle),
-            rear: frame(hubs.rear, tangents.rear, motion.bogie_rate_rad_s, variances.rear),
+            front: frame(hubs.front, tangents.front, of_rocker, variances.front, shifts.front),
+            middle: frame(hubs.middle, tangents.middle, of_bogie, variances.middle, shifts.middle),
+            rear: frame(hubs.rear, tangents.rear, of_bogie, variances.rear, shifts.rear),
         }
     }
 
@@ -248,7 +255,7 @@ impl<S: Scalar> SideEstimator<S> {
         let roughness = self.angles.roughness();
         let steady = S::constant(STEADY_S);
         let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
-        let [mut unsettles, mut settles, mut stands, mut swings] = [false; 4];
+        let [mut starts, mut settles, mut stands, mut swings] = [false; 4];
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.rolling_s.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let rates = frame.wheel_rate_rad_s.zip(frame.wheel_rate_repeats);
@@ -273,7 +280,7 @@ impl<S: Scalar> SideEstimator<S> {
             *rolling = if now == WheelActivity::Standing { S::zero() } else { (before + step_s).min(steady) };
             if *rolling < S::constant(SETTLING_S) {
                 filter.unsettle();
-                unsettles = true;
+                starts = true;
             }
             if before < S::constant(SETTLED_S) && *rolling >= S::constant(SETTLED_S) {
                 filter.settle();
@@ -293,8 +300,8 @@ impl<S: Scalar> SideEstimator<S> {
             surprise.of_wheel(told);
             swings |= filter.swings();
         }
-        self.swings = swings;
-        if unsettles || swings {
+        (self.starts, self.swings) = (starts, swings);
+        if starts || swings {
             self.forces.unsettle();
         }
         if settles {
