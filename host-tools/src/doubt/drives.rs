@@ -17,6 +17,7 @@ use crate::simulate::effects::RoverEffects;
 use crate::simulate::faults::{Failure, Fault};
 use crate::simulate::{Options, Scenario, Traverse};
 use crate::train::dataset::stream;
+use crate::train::prior;
 use crate::trial::WARM_UP_S;
 
 /// What the network has to be right on.
@@ -35,7 +36,7 @@ const OTHER: [Scenario; 4] = [Scenario::StartStop, Scenario::SoilChange, Scenari
 /// The simulation draws from the first two streams of a drive's seed.
 const DEVIATION_STREAM: usize = 2;
 /// What noises are multiplied by.
-const NOISE_FACTORS: Range<f64> = 0.5..2.0;
+const NOISE_FACTORS: prior::Range = prior::Range::logarithmic(0.5, 2.0);
 /// How sensors fail, for how long, s, and how long until the next one does.
 const FAILURES: [Failure; 4] = [Failure::Nan, Failure::Outlier, Failure::Stuck, Failure::Dropout];
 const FAILING_S: Range<f64> = 1.0..6.0;
@@ -53,8 +54,8 @@ const LESS_OFTEN: u32 = 6;
 /// No drive is longer, s.
 const LONGEST_S: f64 = 120.0;
 /// Other rovers, and radii of their wheels.
-const MASSES_KG: Range<f64> = 8.0..900.0;
-const RADII_M: Range<f64> = 0.06..0.15;
+const MASSES_KG: prior::Range = prior::Range::logarithmic(8.0, 900.0);
+const RADII_M: prior::Range = prior::Range::logarithmic(0.06, 0.15);
 
 /// How many drives, and from which seed on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -248,8 +249,8 @@ impl Deviation {
             Self::Seldom => faults = silences(random)?,
             Self::Silent => faults.push(silence(random)?),
             Self::Mass => {
-                rover.mass_kg = log_uniform(&MASSES_KG, random);
-                rover.wheel.radius_m = log_uniform(&RADII_M, random);
+                rover.mass_kg = MASSES_KG.at(random.random());
+                rover.wheel.radius_m = RADII_M.at(random.random());
                 rover.wheel.width_m = rover.wheel.radius_m;
             }
             Self::SlipSinkage => effects.set("slip-sinkage", random.random_range(0.0..0.3))?,
@@ -257,10 +258,6 @@ impl Deviation {
         }
         Ok((rover, Options { effects, faults, ..Options::default() }))
     }
-}
-
-fn log_uniform(range: &Range<f64>, random: &mut ChaCha8Rng) -> f64 {
-    libm::exp(random.random_range(libm::log(range.start)..libm::log(range.end)))
 }
 
 /// One sensor at a time fails, in one of its columns.
@@ -299,7 +296,7 @@ fn silence(random: &mut ChaCha8Rng) -> Result<Fault, String> {
 
 /// Each noise by itself is better or worse.
 fn other_noise(noise: &SensorNoise<f64>, random: &mut ChaCha8Rng) -> SensorNoise<f64> {
-    let mut other = |std: f64| std * log_uniform(&NOISE_FACTORS, random);
+    let mut other = |std: f64| std * NOISE_FACTORS.at(random.random());
     SensorNoise {
         wheel_rate_rad_s: other(noise.wheel_rate_rad_s),
         motor_torque_nm: other(noise.motor_torque_nm),
