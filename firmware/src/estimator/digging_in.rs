@@ -138,9 +138,29 @@ impl<S: Scalar> DiggingIn<S> {
 #[cfg(test)]
 mod tests {
     use super::{ContactAngleFilter, DiggingIn, Rolled, Scale};
-    use crate::rover::Rover;
+    use crate::estimator::attitude::Attitude;
+    use crate::estimator::contact_angle::SideReadings;
+    use crate::rover::{PerAxle, Planar, Rover};
 
     const ROLLED: Rolled<f64> = Rolled { stands: false, speed_m_s: 0.01, rim_speed_m_s: 0.01, step_s: 0.001 };
+
+    /// A filter that was told 0.3 m of level ground.
+    fn on_the_level(rover: &Rover<f64>) -> ContactAngleFilter<f64> {
+        let mut angles = ContactAngleFilter::new(rover, 0);
+        let attitude = Attitude::new(rover.gravity_m_s2);
+        let readings = SideReadings {
+            axis_velocity_m_s: Planar { x: Some(ROLLED.speed_m_s), z: Some(0.0) },
+            velocity_std_m_s: Planar { x: rover.noise.velocity_m_s, z: rover.noise.velocity_m_s },
+            rocker_angle_rad: Some(0.0),
+            bogie_angle_rad: Some(0.0),
+            runs_of_forces: 0.0,
+            starts: false,
+        };
+        for _ in 0..300 {
+            let _ = angles.tick(0.1, ROLLED.rim_speed_m_s, &PerAxle::all(0.0), &attitude, &readings, &rover.noise);
+        }
+        angles
+    }
 
     /// Over 13 mm of travel what wheels that stood sink by falls to 1/e, its variance to 1/e²; within 60 mm they have dug in.
     #[test]
@@ -163,10 +183,10 @@ mod tests {
     #[test]
     fn wheels_that_spin_on_the_spot_dig_in() {
         let rover = Rover::<f64>::assumed();
-        let mut angles = ContactAngleFilter::new(&rover, 0);
+        let mut angles = on_the_level(&rover);
         let mut digging = DiggingIn::new(&Scale::of(&rover));
         (0..6000).for_each(|_| digging.follow(&ROLLED, &mut angles));
-        assert!(digging.is_over());
+        assert!(digging.is_over() && digging.terrain().tells(&angles).is_none());
         let spins = Rolled { speed_m_s: 0.001, ..ROLLED };
         (0..6000).for_each(|_| digging.follow(&spins, &mut angles));
         let (told, _) = digging.terrain().tells(&angles).expect("the terrain is asked");
