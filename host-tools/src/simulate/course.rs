@@ -83,18 +83,20 @@ pub fn draw_soil(random: &mut ChaCha8Rng, rover: &Rover<f64>, demand: &Demand) -
             peak_stress_c2: draw(&prior::PEAK_STRESS_C2),
             rebound_ratio: 0.0,
         };
-        demand.is_met_by(rover, &soil)?.then_some(soil)
+        demand.is_met_by(rover, &soil).then_some(soil)
     })
 }
 
 impl Demand {
-    fn is_met_by(&self, rover: &Rover<f64>, soil: &Soil<f64>) -> Option<bool> {
-        let (hard, depth) = pull_ratio(rover, soil, HARD_SLIP)?;
-        let (easy, _) = pull_ratio(rover, soil, EASY_SLIP)?;
-        let (least, _) = pull_ratio(rover, soil, self.level_slip.0)?;
-        let (most, _) = pull_ratio(rover, soil, self.level_slip.1)?;
-        let strong_enough = hard >= self.pull_ratio && depth <= DEEPEST;
-        Some(strong_enough && least < 0.0 && most > 0.0 && !(self.spread && 5.0 * easy + hard > 0.0))
+    fn is_met_by(&self, rover: &Rover<f64>, soil: &Soil<f64>) -> bool {
+        let Some((hard, depth)) = pull_ratio(rover, soil, HARD_SLIP) else { return false };
+        let pull_at = |slip: f64| pull_ratio(rover, soil, slip).map(|(pull, _)| pull);
+        let (least_slip, most_slip) = self.level_slip;
+        hard >= self.pull_ratio
+            && depth <= DEEPEST
+            && pull_at(EASY_SLIP).is_some_and(|easy| !self.spread || 5.0 * easy + hard <= 0.0)
+            && pull_at(least_slip).is_some_and(|pull| pull < 0.0)
+            && pull_at(most_slip).is_some_and(|pull| pull > 0.0)
     }
 }
 
