@@ -22,8 +22,8 @@ pub fn source(network: &DoubtNetwork, provenance: &Provenance<'_>) -> String {
     format!(
         "//! The weights of the network that tells how much larger errors are than the filters know.\n\
          //!\n\
-         //! Made by `cargo kapvik train-doubt --seed {seed} --drives {drives} --output FILE`; the same command gives the\n\
-         //! same bytes. Loss of a row on held-out drives: {after:.4}, where the filters are believed {before:.4}.\n\
+         //! Made by `cargo kapvik train-doubt --seed {seed} --drives {drives} --output FILE`; with the same estimators and\n\
+         //! simulator it gives the same bytes. Loss of a row on held-out drives: {after:.4}, where the filters are believed {before:.4}.\n\
          \n\
          use super::DoubtNetwork;\n\
          use crate::network::fixed_point::{{FixedLayer, Pair}};\n\

@@ -1,7 +1,7 @@
 //! The weights of the network that tells how much larger errors are than the filters know.
 //!
-//! Made by `cargo kapvik train-doubt --seed 20000 --drives 200 --output FILE`; the same command gives the
-//! same bytes. Loss of a row on held-out drives: 21.5098, where the filters are believed 24.4254.
+//! Made by `cargo kapvik train-doubt --seed 20000 --drives 200 --output FILE`; with the same estimators and
+//! simulator it gives the same bytes. Loss of a row on held-out drives: 21.5098, where the filters are believed 24.4254.
 
 use super::DoubtNetwork;
 use crate::network::fixed_point::{FixedLayer, Pair};
