@@ -119,11 +119,26 @@ fn mistakes_in_the_table_are_told_by_line_and_column() {
 }
 
 #[test]
+fn what_a_description_says_besides_does_not_matter() {
+    let more = TOML.replace("source =", "date = 2024-05-17\noperator = \"NN\"\nsource =") + "[truth]\nphi = 0.5\n";
+    let campaign = parse(CSV, &more).expect("a campaign whose file says more");
+    let plain = parse(CSV, TOML).expect("a good campaign");
+    assert_eq!((campaign.gravity_m_s2, campaign.notes), (plain.gravity_m_s2, plain.notes));
+    for (notes, expected) in [("\"wet\"", vec!["wet"]), ("[\"wet\", \"cold\"]", vec!["wet", "cold"])] {
+        let noted = TOML.replace("source =", &format!("notes = {notes}\nsource ="));
+        assert_eq!(parse(CSV, &noted).expect("a campaign with notes").notes, expected);
+    }
+}
+
+#[test]
 fn mistakes_in_the_description_are_told_by_line_and_column() {
     let cases = [
         ("\"digitised\"", "\"guessed\"", "test.toml:2:8: unknown variant `guessed`, expected one of `measured`"),
         ("name = \"Test\"\n", "", "test.toml:1:1: missing field `name`"),
         ("[wheel]", "[wheels]", "test.toml:5:2: unknown field `wheels`"),
+        ("gravity_m_s2", "gravity", "test.toml:4:1: unknown field `gravity`: is `gravity_m_s2` meant?"),
+        ("radius_m = 0.15", "radius_m = 0.15\ncolour = 1", "test.toml:7:1: unknown field `colour`"),
+        ("source =", "notes =  7\nsource =", "test.toml:3:10: expected a text or a list of texts"),
         ("radius_m = 0.15", "radius_m = -0.15", "test.toml:6:12: radius_m = -0.15: expected a length above 0 m"),
         ("radius_m = 0.15", "radius_m = \"wide\"", "test.toml:6:12: invalid type: string"),
         ("gravity_m_s2 = 1.62", "gravity_m_s2 = 0.0", "test.toml:4:16: gravity_m_s2 = 0: expected a number above 0"),

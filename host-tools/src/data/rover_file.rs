@@ -113,7 +113,7 @@ impl RoverFile {
     /// # Errors
     /// As [`Self::read`].
     pub fn parse(file: &TomlFile) -> Result<Self, HostError> {
-        let table: RoverTable = file.whole()?;
+        let table: RoverTable = file.whole_and_more()?;
         table.check_units(file)?;
         let rover = table.rover();
         rover.check().map_err(|error| {

@@ -3,11 +3,16 @@
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
+use serde_aux::serde_introspection::serde_introspect;
+use strsim::jaro_winkler;
 use toml::Spanned;
-use toml::de::{DeTable, Error, ValueDeserializer};
+use toml::de::{DeTable, Deserializer, Error, ValueDeserializer};
 
 use super::text::TextFile;
 use crate::error::HostError;
+
+/// From this likeness of two names on, of 1, one is taken for a misspelling of the other.
+const MISSPELLED: f64 = 0.85;
 
 /// A TOML file.
 #[derive(Debug, Clone)]
@@ -35,6 +40,26 @@ impl TomlFile {
     /// Where the file is not TOML, or not a `T`.
     pub fn whole<T: DeserializeOwned>(&self) -> Result<T, HostError> {
         toml::from_str(self.file.text()).map_err(|error| self.error(&error))
+    }
+
+    /// The whole file as a `T`, a struct; keys and tables at its top that `T` has not are told on standard error and not used, for who
+    /// keeps a file may note more in it than this program reads.
+    ///
+    /// # Errors
+    /// Where the file is not TOML, or not a `T`, or has such a key whose name is nearly one of `T`'s.
+    pub fn whole_and_more<T: DeserializeOwned>(&self) -> Result<T, HostError> {
+        let mut document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
+        let fields = serde_introspect::<T>();
+        let further = document.get_ref().keys().filter(|key| !fields.contains(&key.get_ref().as_ref()));
+        for key in further.cloned().collect::<Vec<_>>() {
+            let name = key.get_ref();
+            if let Some(meant) = fields.iter().find(|field| jaro_winkler(name, field) >= MISSPELLED) {
+                return Err(self.error_at(&key, format!("unknown field `{name}`: is `{meant}` meant?")));
+            }
+            eprintln!("kapvik: {}", self.error_at(&key, format!("`{name}` is not used")));
+            document.get_mut().remove(&key);
+        }
+        T::deserialize(Deserializer::from(document)).map_err(|error| self.error(&error))
     }
 
     /// The table `[name]` as a `T`; without such a table, the whole file as a `T`.

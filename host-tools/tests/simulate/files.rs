@@ -31,6 +31,7 @@ fn frames(text: impl AsRef<[u8]>) -> Result<Vec<SensorFrame>, String> {
 #[test]
 fn what_a_rover_file_leaves_out_is_assumed() {
     assert_eq!(rover(""), Ok(Rover::assumed()));
+    assert_eq!(rover("title = \"K0\"\n[author]\nname = \"NN\"\n"), Ok(Rover::assumed()), "it may say more");
     let lighter =
         rover("mass_kg = 30\n[suspension]\nfront_hub = [0.40, -0.20]\n[noise]\nload_cell_n = 1.5\n").expect("a rover");
     assert_eq!((lighter.mass_kg, lighter.noise.load_cell_n), (30.0, 1.5));

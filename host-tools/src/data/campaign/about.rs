@@ -35,6 +35,29 @@ impl fmt::Display for Provenance {
     }
 }
 
+/// What the file says besides.
+#[derive(Debug, Deserialize)]
+#[serde(untagged, expecting = "expected a text or a list of texts")]
+pub(super) enum Notes {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl Default for Notes {
+    fn default() -> Self {
+        Self::Several(Vec::new())
+    }
+}
+
+impl From<Notes> for Vec<String> {
+    fn from(notes: Notes) -> Self {
+        match notes {
+            Notes::One(note) => vec![note],
+            Notes::Several(notes) => notes,
+        }
+    }
+}
+
 /// The file, table by table.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,7 +67,7 @@ pub(super) struct About {
     #[serde(default)]
     pub source: String,
     #[serde(default)]
-    pub notes: Vec<String>,
+    pub notes: Notes,
     #[serde(default = "standard_gravity")]
     pub gravity_m_s2: Spanned<f64>,
     pub wheel: WheelTable,
@@ -62,7 +85,7 @@ fn standard_gravity() -> Spanned<f64> {
 
 impl About {
     pub fn read(file: &TomlFile) -> Result<Self, HostError> {
-        let about: Self = file.whole()?;
+        let about: Self = file.whole_and_more()?;
         about.wheel.check(file)?;
         let gravity = *about.gravity_m_s2.get_ref();
         if !(gravity > 0.0 && gravity.is_finite()) {

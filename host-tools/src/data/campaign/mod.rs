@@ -126,7 +126,7 @@ impl Campaign {
             name: about.name,
             provenance: about.kind,
             source: about.source,
-            notes: about.notes,
+            notes: about.notes.into(),
             gravity_m_s2: about.gravity_m_s2.into_inner(),
             header: table.header().to_vec(),
             rows,
