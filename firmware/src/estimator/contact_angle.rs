@@ -267,7 +267,8 @@ impl<S: Scalar> ContactAngleFilter<S> {
             self.begin(body_pitch_rad, [rocker.0, bogie.0]);
         }
         let starts = readings.starts && !stands;
-        let shifts_rad = self.load_shift.begin(starts, step_s);
+        let turns = starts.then(|| (rate - self.motion().rocker_rate_rad_s, rate_std));
+        let shifts_rad = self.load_shift.begin(turns, step_s);
         self.predict(step_s, [rate_std, shifts_rad], readings.runs_of_forces);
         let (before, bogie_before) = (self.angles(), self.links().middle);
         self.model.body_pitch = body_pitch_rad.sin_cos();

@@ -279,7 +279,7 @@ impl<S: Scalar> SideEstimator<S> {
             let before = *rolling;
             *rolling = if now == WheelActivity::Standing { S::zero() } else { (before + step_s).min(steady) };
             if *rolling < S::constant(SETTLING_S) {
-                filter.unsettle();
+                filter.unsettle(step_s);
                 starts = true;
             }
             if before < S::constant(SETTLED_S) && *rolling >= S::constant(SETTLED_S) {

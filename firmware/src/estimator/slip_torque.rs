@@ -56,8 +56,9 @@ const SLIP_BY_ITSELF: f64 = 0.6;
 /// What the torque of a drive may be off by when its sensor is silent, N·m.
 const UNSEEN_TORQUE_NM: f64 = 2.0;
 /// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose
-/// within one frame.
+/// within one frame. And of its slip in a second, as a random walk.
 const UNSETTLED_TORQUE_NM: f64 = 1.0;
+const UNSETTLED_SLIP: f64 = 0.2;
 /// Where a torque swings: a change of rate, squared, up to this many variances of its measurement is taken for noise, and the slip changes by
 /// about this part of what would go with the torque, one way or the other.
 const RATE_NOISE: f64 = 16.0;
@@ -155,11 +156,12 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         (self.filter.resets(), self.watch.relearned())
     }
 
-    /// The wheel stands, or has just started: its torque is not what it was a frame ago.
-    pub fn unsettle(&mut self) {
+    /// The wheel stands, or has just started: torque and slip are not what they were a frame ago.
+    pub fn unsettle(&mut self, step_s: S) {
         self.swing = Swing::new();
         self.inertia.unsettle();
-        self.loosen(&of_rover(&[0.0, UNSETTLED_TORQUE_NM, 0.0], &self.scale));
+        let torque_nm = S::constant(UNSETTLED_TORQUE_NM) * self.scale.torque;
+        self.loosen(&[S::zero(), torque_nm, S::constant(UNSETTLED_SLIP) * step_s.sqrt()]);
     }
 
     fn loosen(&mut self, stds: &[S; STATES]) {
