@@ -137,6 +137,7 @@ fn mistakes_in_the_description_are_told_by_line_and_column() {
         ("name = \"Test\"\n", "", "test.toml:1:1: missing field `name`"),
         ("[wheel]", "[wheels]", "test.toml:5:2: unknown field `wheels`"),
         ("gravity_m_s2", "gravity", "test.toml:4:1: unknown field `gravity`: is `gravity_m_s2` meant?"),
+        ("source =", "k_phi = 2.4e6\nsource =", "test.toml:3:1: unknown field `k_phi`: is `k_phi` of a table meant?"),
         ("radius_m = 0.15", "radius_m = 0.15\ncolour = 1", "test.toml:7:1: unknown field `colour`"),
         ("source =", "notes =  7\nsource =", "test.toml:3:10: expected a text or a list of texts"),
         ("radius_m = 0.15", "radius_m = -0.15", "test.toml:6:12: radius_m = -0.15: expected a length above 0 m"),

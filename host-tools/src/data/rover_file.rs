@@ -5,6 +5,7 @@ use std::path::Path;
 
 use kapvik_firmware::rover::{Axes, GeometryError, Planar, Rover};
 use serde::Deserialize;
+use serde_aux::serde_introspection::serde_introspect;
 use toml::Spanned;
 
 use super::toml_file::TomlFile;
@@ -113,7 +114,13 @@ impl RoverFile {
     /// # Errors
     /// As [`Self::read`].
     pub fn parse(file: &TomlFile) -> Result<Self, HostError> {
-        let table: RoverTable = file.whole_and_more()?;
+        let in_tables = [
+            serde_introspect::<WheelKeys>(),
+            serde_introspect::<SuspensionKeys>(),
+            serde_introspect::<DriveKeys>(),
+            serde_introspect::<NoiseKeys>(),
+        ];
+        let table: RoverTable = file.whole_and_more(&in_tables)?;
         table.check_units(file)?;
         let rover = table.rover();
         rover.check().map_err(|error| {

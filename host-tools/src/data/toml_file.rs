@@ -46,15 +46,18 @@ impl TomlFile {
     /// keeps a file may note more in it than this program reads.
     ///
     /// # Errors
-    /// Where the file is not TOML, or not a `T`, or has such a key whose name is nearly one of `T`'s.
-    pub fn whole_and_more<T: DeserializeOwned>(&self) -> Result<T, HostError> {
+    /// Where the file is not TOML, or not a `T`, or has such a key whose name is nearly one of `T`'s, or of `in_tables`: of what stands in
+    /// the tables of a `T`.
+    pub fn whole_and_more<T: DeserializeOwned>(&self, in_tables: &[&'static [&'static str]]) -> Result<T, HostError> {
         let mut document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
         let fields = serde_introspect::<T>();
         let further = document.get_ref().keys().filter(|key| !fields.contains(&key.get_ref().as_ref()));
         for key in further.cloned().collect::<Vec<_>>() {
             let name = key.get_ref();
-            if let Some(meant) = fields.iter().find(|field| jaro_winkler(name, field) >= MISSPELLED) {
-                return Err(self.error_at(&key, format!("unknown field `{name}`: is `{meant}` meant?")));
+            let in_table = || in_tables.iter().find_map(|names| nearly(name, names));
+            let meant = nearly(name, fields).map(|meant| format!("`{meant}`"));
+            if let Some(meant) = meant.or_else(|| in_table().map(|meant| format!("`{meant}` of a table"))) {
+                return Err(self.error_at(&key, format!("unknown field `{name}`: is {meant} meant?")));
             }
             eprintln!("kapvik: {}", self.error_at(&key, format!("`{name}` is not used")));
             document.get_mut().remove(&key);
@@ -97,4 +100,9 @@ impl TomlFile {
         let start = error.span().map_or(0, |span| span.start);
         self.file.error_at(start, error.message().replace('\n', ", "))
     }
+}
+
+/// The one of these names that a name may be a misspelling of.
+fn nearly(name: &str, names: &'static [&'static str]) -> Option<&'static str> {
+    names.iter().copied().find(|other| jaro_winkler(name, other) >= MISSPELLED)
 }

@@ -70,6 +70,7 @@ fn impossible_rovers_are_refused_at_the_key_to_blame() {
         ("[noise]\nload_cell_n = 0.5\ngyro_rad_s = 0\n", "r.toml:3:14: no sensor has this noise"),
         ("[suspension]\nfront_hub = [0.35]\n", "r.toml:2:13: "),
         ("mass = 41.0\n", "r.toml:1:1: unknown field `mass`"),
+        ("half_track = 0.4\n", "r.toml:1:1: unknown field `half_track`: is `half_track` of a table meant?"),
         ("[suspension]\nrear_hubs = [0, 0]\n", "r.toml:2:1: unknown field `rear_hubs`"),
         ("mass_kg = \"heavy\"\n", "r.toml:1:11: invalid type"),
         ("mass_kg = = 1\n", "r.toml:1:11: "),

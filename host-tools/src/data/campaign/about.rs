@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use serde_aux::serde_introspection::serde_introspect;
 use toml::Spanned;
 
 use crate::error::HostError;
@@ -85,7 +86,7 @@ fn standard_gravity() -> Spanned<f64> {
 
 impl About {
     pub fn read(file: &TomlFile) -> Result<Self, HostError> {
-        let about: Self = file.whole_and_more()?;
+        let about: Self = file.whole_and_more(&[serde_introspect::<WheelTable>(), serde_introspect::<SoilTable>()])?;
         about.wheel.check(file)?;
         let gravity = *about.gravity_m_s2.get_ref();
         if !(gravity > 0.0 && gravity.is_finite()) {
