@@ -52,17 +52,21 @@ impl TomlFile {
         let mut document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
         let fields = serde_introspect::<T>();
         let further = document.get_ref().keys().filter(|key| !fields.contains(&key.get_ref().as_ref()));
-        for key in further.cloned().collect::<Vec<_>>() {
+        let further: Vec<_> = further.cloned().collect();
+        for key in &further {
             let name = key.get_ref();
             let in_table = || in_tables.iter().find_map(|names| nearly(name, names));
             let meant = nearly(name, fields).map(|meant| format!("`{meant}`"));
             if let Some(meant) = meant.or_else(|| in_table().map(|meant| format!("`{meant}` of a table"))) {
-                return Err(self.error_at(&key, format!("unknown field `{name}`: is {meant} meant?")));
+                return Err(self.error_at(key, format!("unknown field `{name}`: is {meant} meant?")));
             }
-            eprintln!("kapvik: {}", self.error_at(&key, format!("`{name}` is not used")));
-            document.get_mut().remove(&key);
+            document.get_mut().remove(key);
         }
-        T::deserialize(Deserializer::from(document)).map_err(|error| self.error(&error))
+        let whole = T::deserialize(Deserializer::from(document)).map_err(|error| self.error(&error))?;
+        for key in &further {
+            eprintln!("kapvik: {}", self.error_at(key, format!("`{}` is not used", key.get_ref())));
+        }
+        Ok(whole)
     }
 
     /// The table `[name]` as a `T`; without such a table, the whole file as a `T`.

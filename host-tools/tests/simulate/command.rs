@@ -50,6 +50,20 @@ fn frames_and_truth_stand_beside_each_other_and_repeat() {
 }
 
 #[test]
+fn what_a_rover_file_says_besides_is_named() {
+    let folder = Folder::new();
+    let rover = "mass_kg = 30.0\nmaker = \"NN\"\n[camera]\nheight_m = 0.5\n";
+    fs::write(folder.0.path().join("r.toml"), rover).expect("written");
+    let output =
+        folder.run(&["--seed", "3", "-o", "a.csv", "--scenario", "level", "--duration", "2", "--rover", "r.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    for expected in ["kapvik: r.toml:2:1: `maker` is not used\n", "kapvik: r.toml:3:2: `camera` is not used\n"] {
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
+#[test]
 fn soils_rovers_effects_and_faults_can_be_asked_for() {
     let folder = Folder::new();
     fs::write(folder.0.path().join("r.toml"), "mass_kg = 30.0\n").expect("written");
@@ -93,6 +107,7 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
     let rovers = [
         ("[suspension]\nfront_hub = [-0.1, -0.2]\n", "r.toml:2:13: the hubs are out of order"),
         ("mass_kg = heavy\n", "r.toml:1:11: "),
+        ("maker = \"NN\"\nmass_kg = \"heavy\"\n", "r.toml:2:11: invalid type"),
     ];
     for (rover, expected) in rovers {
         let folder = Folder::new();
