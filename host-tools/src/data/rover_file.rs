@@ -30,7 +30,7 @@ impl<const N: usize> TryFrom<Vec<f64>> for Coordinates<N> {
 
 /// A rover as a file describes it. A key that is absent takes the value of the assumed set K0.
 #[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(default)]
 struct RoverTable {
     mass_kg: Number,
     gravity_m_s2: Number,
@@ -103,7 +103,7 @@ impl RoverFile {
     /// Reads a rover file.
     ///
     /// # Errors
-    /// Where the file cannot be read, a key is unknown or of the wrong kind, or no rover of that geometry can stand: at the
+    /// Where the file cannot be read, a key is misspelt or of the wrong kind, or no rover of that geometry can stand: at the
     /// key that is to blame.
     pub fn read(path: &Path) -> Result<Self, HostError> {
         Self::parse(&TomlFile::read(path)?)

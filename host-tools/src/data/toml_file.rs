@@ -42,14 +42,14 @@ impl TomlFile {
         toml::from_str(self.file.text()).map_err(|error| self.error(&error))
     }
 
-    /// The whole file as a `T`, a struct; keys and tables at its top that `T` has not are told on standard error and not used, for who
-    /// keeps a file may note more in it than this program reads.
+    /// The whole file as a `T`, a struct that lets unknown keys pass; keys and tables at its top that `T` has not are told on standard
+    /// error and not used, for who keeps a file may note more in it than this program reads.
     ///
     /// # Errors
     /// Where the file is not TOML, or not a `T`, or has such a key whose name is nearly one of `T`'s, or of `in_tables`: of what stands in
     /// the tables of a `T`.
     pub fn whole_and_more<T: DeserializeOwned>(&self, in_tables: &[&'static [&'static str]]) -> Result<T, HostError> {
-        let mut document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
+        let document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
         let fields = serde_introspect::<T>();
         let further = document.get_ref().keys().filter(|key| !fields.contains(&key.get_ref().as_ref()));
         let further: Vec<_> = further.cloned().collect();
@@ -60,7 +60,6 @@ impl TomlFile {
             if let Some(meant) = meant.or_else(|| in_table().map(|meant| format!("`{meant}` of a table"))) {
                 return Err(self.error_at(key, format!("unknown field `{name}`: is {meant} meant?")));
             }
-            document.get_mut().remove(key);
         }
         let whole = T::deserialize(Deserializer::from(document)).map_err(|error| self.error(&error))?;
         for key in &further {

@@ -61,7 +61,6 @@ impl From<Notes> for Vec<String> {
 
 /// The file, table by table.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct About {
     pub name: String,
     pub kind: Provenance,
