@@ -14,6 +14,7 @@ pub mod identification;
 pub mod link;
 pub mod math;
 pub mod network;
+mod outlined;
 pub mod pipeline;
 pub mod rover;
 pub mod scalar;

@@ -64,10 +64,8 @@ fn log_noticed(noticed: &Noticed) {
     if noticed.relearned > 0 {
         defmt::warn!("{=u32} filters gave up what they believed", noticed.relearned);
     }
-    for (sensor, change) in noticed.sensors() {
-        match change {
-            SensorChange::Dropped => defmt::warn!("sensor dropped: {}", sensor),
-            SensorChange::Restored => defmt::info!("sensor restored: {}", sensor),
-        }
-    }
+    noticed.for_each_sensor(|sensor, change| match change {
+        SensorChange::Dropped => defmt::warn!("sensor dropped: {}", sensor),
+        SensorChange::Restored => defmt::info!("sensor restored: {}", sensor),
+    });
 }

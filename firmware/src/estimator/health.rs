@@ -119,16 +119,22 @@ impl SensorFrame {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct SensorHealth {
     /// It gave nothing.
+    #[serde(with = "crate::outlined")]
     pub missing: u16,
     /// NaN or infinite.
+    #[serde(with = "crate::outlined")]
     pub not_finite: u16,
     /// Farther out than the rover can be.
+    #[serde(with = "crate::outlined")]
     pub out_of_range: u16,
     /// The same bits over and over.
+    #[serde(with = "crate::outlined")]
     pub stuck: u16,
     /// Too far from what the filter expected.
+    #[serde(with = "crate::outlined")]
     pub surprising: u16,
     /// Good readings that were left out while the sensor was on probation.
+    #[serde(with = "crate::outlined")]
     pub on_probation: u16,
     /// It was bad for so long that it is out of use until it has proved itself.
     pub dropped: bool,
@@ -138,16 +144,22 @@ pub struct SensorHealth {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct EstimatorHealth {
     /// Frames taken.
+    #[serde(with = "crate::outlined")]
     pub frames: u32,
     /// Frames that repeated the time of the one before, and were left out.
+    #[serde(with = "crate::outlined")]
     pub repeated_frames: u32,
     /// Frames from before the one before, which were left out.
+    #[serde(with = "crate::outlined")]
     pub backward_frames: u32,
     /// Frames after a gap so long that the filters started anew.
+    #[serde(with = "crate::outlined")]
     pub gaps: u32,
     /// Failed factorisations: a filter was reset to its stated floor.
+    #[serde(with = "crate::outlined")]
     pub filter_resets: u32,
     /// How often a filter gave up what it believed because measurements contradicted it for long.
+    #[serde(with = "crate::outlined")]
     pub relearned: u32,
     /// The sensors.
     pub sensors: PerSensor<SensorHealth>,

@@ -8,26 +8,37 @@ use super::frame::LinkError;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LinkHealth {
     /// Frames that arrived whole and were understood.
+    #[serde(with = "crate::outlined")]
     pub frames_ok: u32,
     /// Frames longer than any message.
+    #[serde(with = "crate::outlined")]
     pub oversized: u32,
     /// Frames that ended before their announced end.
+    #[serde(with = "crate::outlined")]
     pub cut: u32,
     /// Frames too short to hold a header and a checksum.
+    #[serde(with = "crate::outlined")]
     pub short: u32,
     /// Frames with a wrong checksum.
+    #[serde(with = "crate::outlined")]
     pub checksum: u32,
     /// Frames of another protocol version.
+    #[serde(with = "crate::outlined")]
     pub version: u32,
     /// Frames with a right checksum that are no message.
+    #[serde(with = "crate::outlined")]
     pub undecodable: u32,
     /// Times that a request's number was not the one after the last.
+    #[serde(with = "crate::outlined")]
     pub sequence_gaps: u32,
     /// Requests that came twice in a row; they are answered again.
+    #[serde(with = "crate::outlined")]
     pub duplicates: u32,
     /// Errors of the serial port while receiving: overruns.
+    #[serde(with = "crate::outlined")]
     pub receive_errors: u32,
     /// Replies that could not be sent.
+    #[serde(with = "crate::outlined")]
     pub replies_lost: u32,
 }
 

@@ -97,8 +97,10 @@ pub struct HealthReport {
     /// The link's counters.
     pub link: LinkHealth,
     /// Soil queries answered since boot.
+    #[serde(with = "crate::outlined")]
     pub queries_answered: u32,
     /// Sensor frames taken since boot; one that was sent again counts once.
+    #[serde(with = "crate::outlined")]
     pub frames_taken: u32,
     /// The deepest that the stack has been since boot, bytes; absent where the computer cannot measure it.
     pub stack_high_water_bytes: Option<u32>,

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct Axes<T> {
     /// Forward.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub x: T,
     /// Left.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub y: T,
     /// Up.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub z: T,
 }
 

@@ -7,7 +7,6 @@
 mod axes;
 mod geometry;
 mod kinematics;
-mod outlined;
 mod planar;
 mod rolling;
 mod sensor_noise;

@@ -39,10 +39,10 @@ impl Axle {
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct PerSide<T> {
     /// Of the left side.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub left: T,
     /// Of the right side.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub right: T,
 }
 
@@ -51,13 +51,13 @@ pub struct PerSide<T> {
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct PerAxle<T> {
     /// Of the front wheel.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub front: T,
     /// Of the middle wheel.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub middle: T,
     /// Of the rear wheel.
-    #[serde(with = "super::outlined")]
+    #[serde(with = "crate::outlined")]
     pub rear: T,
 }
 

@@ -1,6 +1,6 @@
 //! What a frame changed in the estimator that is worth a line in the log.
 
-use crate::estimator::{EstimatorHealth, PerSensor, Sensor};
+use crate::estimator::{EstimatorHealth, PerSensor, Sensor, SensorHealth};
 use crate::pipeline::FrameEstimate;
 
 /// Whether a sensor was taken out of use, or is used again.
@@ -24,13 +24,39 @@ pub struct Noticed {
     pub relearned: u32,
     /// Gaps after which the filters started anew.
     pub gaps: u32,
-    sensors: PerSensor<Option<(Sensor, SensorChange)>>,
+    out_of_use_before: OutOfUse,
+    out_of_use: OutOfUse,
 }
 
 impl Noticed {
-    /// Each sensor that was dropped or is used again.
-    pub fn sensors(&self) -> impl Iterator<Item = (Sensor, SensorChange)> {
-        self.sensors.iter().flatten().copied()
+    /// Tells each sensor that was dropped or is used again.
+    pub fn for_each_sensor(&self, mut tell: impl FnMut(Sensor, SensorChange)) {
+        for (place, sensor) in Sensor::all().iter().enumerate() {
+            match (self.out_of_use_before.has(place), self.out_of_use.has(place)) {
+                (false, true) => tell(*sensor, SensorChange::Dropped),
+                (true, false) => tell(*sensor, SensorChange::Restored),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Which sensors are out of use: a bit for each, in the order of [`PerSensor::iter`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct OutOfUse(u32);
+
+impl OutOfUse {
+    fn of(sensors: &PerSensor<SensorHealth>) -> Self {
+        // Its steps are written as a loop: what `fold` is given would be repeated for each kind of sensor.
+        let mut bits = 0;
+        for (place, health) in sensors.iter().enumerate() {
+            bits |= u32::from(health.dropped) << place;
+        }
+        Self(bits)
+    }
+
+    fn has(self, place: usize) -> bool {
+        self.0 >> place & 1 == 1
     }
 }
 
@@ -41,7 +67,7 @@ pub(super) struct Watch {
     filter_resets: u32,
     relearned: u32,
     gaps: u32,
-    dropped: PerSensor<bool>,
+    out_of_use: OutOfUse,
 }
 
 impl Watch {
@@ -52,20 +78,16 @@ impl Watch {
             filter_resets: health.filter_resets,
             relearned: health.relearned,
             gaps: health.gaps,
-            dropped: health.sensors.map(|health| health.dropped),
+            out_of_use: OutOfUse::of(&health.sensors),
         };
         let before = core::mem::replace(self, now);
-        let changes = before.dropped.zip_map(now.dropped, |before, after| match (before, after) {
-            (false, true) => Some(SensorChange::Dropped),
-            (true, false) => Some(SensorChange::Restored),
-            _ => None,
-        });
         Noticed {
             soil_changes: (now.soil_changes > before.soil_changes).then_some(now.soil_changes),
             filter_resets: now.filter_resets.saturating_sub(before.filter_resets),
             relearned: now.relearned.saturating_sub(before.relearned),
             gaps: now.gaps.saturating_sub(before.gaps),
-            sensors: changes.zip_map(Sensor::all(), |change, sensor| change.map(|change| (sensor, change))),
+            out_of_use_before: before.out_of_use,
+            out_of_use: now.out_of_use,
         }
     }
 }
