@@ -42,7 +42,6 @@ impl<S: Scalar> Sinking<S> {
 
     /// Takes the loads after so much travel, N; none where the cell is silent: what becomes known of a load when its cell speaks
     /// again is no change of it.
-    #[inline(never)] // flash is scarcer than the time of a call
     pub fn follow(&mut self, travel_m: S, loads_n: &PerAxle<Option<S>>) {
         let before = core::mem::replace(&mut self.loads_n, *loads_n);
         if travel_m < S::constant(LEAST_TRAVEL) {

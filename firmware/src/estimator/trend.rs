@@ -70,7 +70,6 @@ impl<S: Scalar, const N: usize> Trends<S, N> {
     /// those that something was measured of. With a steady gain α, that share is best a quarter of α or so: a trend is to be learned
     /// several times slower than what it is a trend of. What a measurement makes good after others were missing happened since the last
     /// one.
-    #[inline(never)] // flash is scarcer than the time of a call
     pub fn follow(&mut self, travel_m: S, moved: &[(S, S); N], told: [bool; N]) {
         if travel_m < S::constant(LEAST_TRAVEL) {
             return self.forget();

@@ -44,7 +44,6 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     }
 
     /// The variance of each number.
-    #[inline(never)] // flash is scarcer than the time of a call
     pub fn variances(&self) -> [T; N] {
         let mut variances = [T::zero(); N];
         for column in &self.root {

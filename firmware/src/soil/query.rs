@@ -20,7 +20,7 @@ pub(crate) fn wheel_soil(query: &SoilQuery, state: &WheelState) -> Result<SoilEs
     check_shared(query)?;
     check_state(&WheelState { sinkage_m: None, ..*state })?;
     let fifth = FifthInput::slope(query.slope);
-    check(fifth.value.is_finite() && fifth.std.is_finite(), fifth.std > 0.0)?;
+    check(fifth.value.is_finite() && positive(fifth.std), &[fifth.value, fifth.std])?;
     let input = query.wheel_inputs(state, fifth);
     let table = &frozen::WHEEL;
     let posterior = table.posterior.read(&table.outputs(&input));
@@ -53,7 +53,7 @@ pub(crate) fn rover_outputs(query: &SoilQuery) -> Result<([f32; OUTPUTS], bool),
     }
     for (state, fifth) in query.wheels.iter().zip(query.sinkage_inputs()) {
         check_state(state)?;
-        check(fifth.std.is_finite(), fifth.std > 0.0)?;
+        check(positive(fifth.std), &[fifth.std])?;
     }
     let (context, wheels) = query.rover_features();
     let table = &frozen::ROVER;
@@ -69,22 +69,22 @@ fn positive(value: f32) -> bool {
 fn check_shared(query: &SoilQuery) -> Result<(), Refusal> {
     let SoilQuery { wheel, noise, .. } = query;
     let values = [wheel.radius_m, wheel.width_m, noise.drawbar_pull_n, noise.load_n, noise.torque_nm, noise.slip];
-    check(values.iter().all(|value| value.is_finite()), values.iter().all(|&value| positive(value)))
+    check(values.iter().all(|value| positive(*value)), &values)
 }
 
 fn check_state(state: &WheelState) -> Result<(), Refusal> {
     let depth = state.sinkage_m.unwrap_or(0.0);
     let values = [state.drawbar_pull_n, state.load_n, state.torque_nm, state.slip, depth];
     let in_range = positive(state.load_n) && (-1.0..=1.0).contains(&state.slip);
-    check(values.iter().all(|value| value.is_finite()), in_range)
+    check(in_range && values.iter().all(|value| value.is_finite()), &values)
 }
 
-fn check(finite: bool, in_range: bool) -> Result<(), Refusal> {
-    match (finite, in_range) {
-        (false, _) => Err(Refusal::NotFinite),
-        (true, false) => Err(Refusal::OutOfRange),
-        (true, true) => Ok(()),
+/// Refuses values that are not good, and says why.
+fn check(are_good: bool, values: &[f32]) -> Result<(), Refusal> {
+    if are_good {
+        return Ok(());
     }
+    Err(if values.iter().all(|value| value.is_finite()) { Refusal::OutOfRange } else { Refusal::NotFinite })
 }
 
 #[cfg(test)]
