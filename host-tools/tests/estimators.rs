@@ -42,8 +42,15 @@ fn on_hills_and_rocks_angle_and_pulls_err_by_less_than_half_of_the_raw_sensors()
 
 #[test]
 fn slip_is_better_than_the_raw_sensors_by_a_third_and_load_and_torque_never_worse() {
-    let scenarios =
-        [Scenario::Level, Scenario::Spread, Scenario::Slope, Scenario::Hills, Scenario::Rock, Scenario::Dropout];
+    let scenarios = [
+        Scenario::Level,
+        Scenario::Spread,
+        Scenario::Slope,
+        Scenario::Hills,
+        Scenario::Rock,
+        Scenario::Dropout,
+        Scenario::SoilChange,
+    ];
     for scenario in scenarios {
         let trial = drives(scenario);
         for quantity in [Quantity::Slip, Quantity::Load, Quantity::Torque] {

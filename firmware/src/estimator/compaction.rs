@@ -104,8 +104,10 @@ impl<S: Scalar> Correction<S> {
 /// What is known of a wheel's contact angle by the path of its hub.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Known<S> {
-    /// Its variance, rad².
+    /// Its variance, rad²: where the track says that the path is not the terrain, more than `path_variance`.
     pub variance: S,
+    /// That of the path as the path, rad².
+    pub path_variance: S,
     /// Its covariance with the mean of the angles that the share is of, weighted by load, rad².
     pub with_mean: S,
 }
@@ -119,22 +121,26 @@ pub(super) struct Together<S> {
     pub load_n: S,
     /// Variance of the mean of their contact angles, weighted by load, rad².
     pub variance: S,
+    /// That of the mean of their paths, rad².
+    pub paths_variance: S,
     /// Variance of how far their share departs from its mean on one soil.
     pub departs: S,
 }
 
 impl<S: Scalar> Known<S> {
     /// What the share tells of it.
-    #[inline(never)] // flash is scarcer than the time of a call
     pub fn corrected(&self, compaction: &Compaction<S>, together: &Together<S>) -> Correction<S> {
         let (departure, per_variance) = compaction.tells(together.variance, together.departs);
         let gain = self.with_mean * per_variance;
-        let of_angle = if self.variance > S::zero() { gain * self.with_mean / self.variance } else { S::zero() };
+        let over = |left: S, variance: S| if variance > S::zero() { left / variance } else { S::one() };
         Correction {
             steeper: gain * departure,
             of_path: S::one(),
-            left_of_angle: S::one() - of_angle,
-            left_of_pull: S::one() - together.variance * per_variance,
+            left_of_angle: over(self.variance - gain * self.with_mean, self.path_variance),
+            left_of_pull: over(
+                together.variance * (S::one() - together.variance * per_variance),
+                together.paths_variance,
+            ),
             by_pull: together.wheels * gain / together.load_n,
         }
     }
@@ -147,9 +153,15 @@ mod tests {
     /// An angle that is too small by 0.05 rad for a moment, of a wheel that has rolled for long: known to 0.015 rad, it is half made good.
     #[test]
     fn a_share_that_grows_tells_a_steeper_contact() {
-        let known = |std: f64| Known { variance: std * std, with_mean: std * std };
+        let known = |std: f64| Known { variance: std * std, path_variance: std * std, with_mean: std * std };
         let told = |compaction: &Compaction<f64>, std: f64| {
-            let alone = Together { wheels: 1.0, load_n: 70.0, variance: std * std, departs: 0.015 * 0.015 };
+            let alone = Together {
+                wheels: 1.0,
+                load_n: 70.0,
+                variance: std * std,
+                paths_variance: std * std,
+                departs: 0.015 * 0.015,
+            };
             let correction = known(std).corrected(compaction, &alone);
             (correction.steeper, correction.left_of_angle, correction.left_of_pull)
         };
@@ -173,9 +185,16 @@ mod tests {
         (0..300).for_each(|_| compaction.follow(0.002, 0.2));
         compaction.follow(0.002, 0.25);
         let (well, badly) = (1.0e-4, 9.0e-4);
-        let bogie = Together { wheels: 2.0, load_n: 140.0, variance: 0.25 * (well + badly), departs: 1.0e-4 };
-        let of = |variance: f64| Known { variance, with_mean: 0.5 * variance };
-        let [well, badly] = [well, badly].map(|variance| of(variance).corrected(&compaction, &bogie));
+        let variance = 0.25 * (well + badly);
+        let bogie =
+            |paths_variance: f64| Together { wheels: 2.0, load_n: 140.0, variance, paths_variance, departs: 1.0e-4 };
+        let of = |variance: f64, path_variance: f64| Known { variance, path_variance, with_mean: 0.5 * variance };
+        // Known worse since the track says that its path is not the terrain: then as much is left, over less that is stated.
+        let of_track = of(badly, well).corrected(&compaction, &bogie(0.5 * well));
+        let [well, badly] = [well, badly].map(|known| of(known, known).corrected(&compaction, &bogie(variance)));
+        assert_eq!(of_track.steeper, badly.steeper);
+        assert!((of_track.left_of_angle / badly.left_of_angle - 9.0).abs() < 1.0e-9);
+        assert!((of_track.left_of_pull / badly.left_of_pull - 5.0).abs() < 1.0e-9);
         assert!((badly.steeper / well.steeper - 9.0).abs() < 1.0e-9);
         let mean = 0.5 * (well.steeper + badly.steeper);
         assert!((mean - 0.05 * (1.0 - well.left_of_pull)).abs() < 1.0e-12, "{mean}");

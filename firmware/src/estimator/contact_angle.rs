@@ -36,6 +36,8 @@ pub(super) struct SideReadings<S> {
     pub runs_of_forces: S,
     /// Whether one of its wheels stands, or has just started.
     pub starts: bool,
+    /// By how much the ground turns under the middle and the rear wheel, as the front wheel met it, rad/m.
+    pub turns_per_m: [Option<S>; 2],
 }
 
 /// One standard deviation of a ratio that is not known at all, and of contact angles about the pitch of their link, rad:
@@ -65,6 +67,11 @@ const LEARNED: f64 = 0.25;
 /// the angles, and the body's pitch is no ground's doing.
 const FIRST_IN_RUNS: usize = 1;
 const RUNS: usize = MEASUREMENTS - 1 - FIRST_IN_RUNS;
+/// How much the track tells of how the ground turns under a wheel of the bogie, beside its trend; one standard deviation of how far the ground
+/// turns otherwise, over that; and what is left of the drift, as a variance.
+const OF_TRACK: f64 = 0.7;
+const UNLIKE_TRACK: f64 = 0.7;
+const BESIDE_TRACK: f64 = 0.6;
 /// Drift of a link's pitch beyond what rolling explains, rad over a metre.
 const PITCH_DRIFT: f64 = 1.0e-3;
 
@@ -269,7 +276,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let starts = readings.starts && !stands;
         let turns = starts.then(|| (rate - self.motion().rocker_rate_rad_s, rate_std));
         let shifts_rad = self.load_shift.begin(turns, step_s);
-        self.predict(step_s, [rate_std, shifts_rad], readings.runs_of_forces);
+        self.predict(step_s, [rate_std, shifts_rad], readings);
         let (before, bogie_before) = (self.angles(), self.links().middle);
         self.model.body_pitch = body_pitch_rad.sin_cos();
         let ContactAngleModel { rim_speed_m_s: speed_m_s, body_pitch, .. } = self.model;
@@ -305,7 +312,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
         told
     }
 
-    #[inline(never)] // flash is scarcer than the time of a call
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>, told: bool) {
         // With a steady gain, the drift's variance is to that of the angle as that gain is to one.
         let learned = S::constant(LEARNED) * self.drift_variance();
@@ -326,7 +332,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         (ratio * self.model.rim_speed_m_s).abs() * step_s
     }
 
-    fn predict(&mut self, step_s: S, [rate_std_rad_s, shifts_rad]: [S; 2], runs_of_forces: S) {
+    fn predict(&mut self, step_s: S, [rate_std_rad_s, shifts_rad]: [S; 2], readings: &SideReadings<S>) {
         let model = self.model;
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
@@ -334,7 +340,16 @@ impl<S: Scalar> ContactAngleFilter<S> {
             self.roughness.of_angles(bogie - rocker, self.runs.above(RUN)) + of_unlike(&self.angles(), &self.variances);
         let restless = restlessness(factor);
         self.trends.expect([restless; 3]);
-        let turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
+        let mut turned = PerAxle::from_array(self.trends.per_m()).map(|trend| travel * trend);
+        let (mut unlike, mut beside_track) = ([S::zero(); 2], S::one());
+        let bogie = [&mut turned.middle, &mut turned.rear].into_iter().zip(&mut unlike);
+        for ((turned, unlike), turns_per_m) in bogie.zip(readings.turns_per_m) {
+            let Some(turns_per_m) = turns_per_m else { continue };
+            let as_front = travel * turns_per_m;
+            *turned += S::constant(OF_TRACK) * (as_front - *turned);
+            *unlike = S::constant(UNLIKE_TRACK) * as_front;
+            beside_track = S::constant(BESIDE_TRACK);
+        }
         let process = |state: &[S; STATES]| {
             let [ratio, front, middle, rear, links_and_body @ ..] = *state;
             let [.., rocker_rate, bogie_rate, body_rate] = model.rates(state);
@@ -352,14 +367,15 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
         let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
         let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
-        let met = S::constant(FRONT_FROM_FORCES) * runs_of_forces;
+        let met = S::constant(FRONT_FROM_FORCES) * readings.runs_of_forces;
         let left = nominal * beside_trend(BESIDE_TREND, restless);
         let alone = of_front_alone(&self.angles(), &self.variances);
-        self.drift_variances = [left * (factor + alone) + nominal * met, left * factor];
+        self.drift_variances = [left * (factor + alone) + nominal * met, beside_track * left * factor];
         let truly = self.turned_back;
-        let [front, others] = self.drift_variances.map(|drift| (drift + truly).sqrt());
+        let [front, others] = self.drift_variances.map(|drift| drift + truly);
         let pitch = S::constant(PITCH_DRIFT) * travel.sqrt() + shifts_rad;
-        let noise = [ratio, front, others, others, pitch, pitch, step_s * rate_std_rad_s];
+        let [middle, rear] = unlike.map(|unlike| (others + unlike * unlike).sqrt());
+        let noise = [ratio, front.sqrt(), middle, rear, pitch, pitch, step_s * rate_std_rad_s];
         let _ = self.filter.predict(process, &noise);
     }
 }

@@ -155,6 +155,7 @@ mod tests {
             bogie_angle_rad: Some(0.0),
             runs_of_forces: 0.0,
             starts: false,
+            turns_per_m: [None; 2],
         };
         for _ in 0..300 {
             let _ = angles.tick(0.1, ROLLED.rim_speed_m_s, &PerAxle::all(0.0), &attitude, &readings, &rover.noise);

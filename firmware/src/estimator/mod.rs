@@ -57,6 +57,7 @@ mod slip_torque_model;
 mod surprise;
 mod swing;
 mod told_by_torque;
+mod track;
 mod trend;
 mod turn;
 mod walk_rate;

@@ -29,6 +29,8 @@ pub struct Believed<S> {
     pub wheels: PerAxle<WheelCovariance<S>>,
     /// Of the sum of the bogie's drawbar pulls, N².
     pub bogie_pull_variance: S,
+    /// Whether its wheels roll as they will: none starts, stops or stands.
+    pub is_steady: bool,
     /// The inputs of that network, where it was run in this frame.
     pub inputs: Option<[f32; INPUTS]>,
 }
@@ -84,7 +86,7 @@ impl<S: Scalar> SideEstimator<S> {
         let variances = self.variances(forces, &contacts);
         let inputs = self.doubt.its_turn().then(|| self.doubt_inputs(&variances, &contacts));
         let [.., bogie_pull_variance] = variances;
-        Believed { wheels: self.stated(forces, &contacts), bogie_pull_variance, inputs }
+        Believed { wheels: self.stated(forces, &contacts), bogie_pull_variance, is_steady: self.is_steady(), inputs }
     }
 
     /// Covariances as the filters state them, with such forces on the hubs.

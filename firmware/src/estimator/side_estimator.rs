@@ -18,6 +18,7 @@ use super::sinking::Sinking;
 use super::slip_by_speeds::SpeedReadings;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
+use super::track::{Met, Track};
 use super::turn::Turn;
 use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
@@ -50,7 +51,7 @@ pub(super) struct SideEstimator<S> {
     pub(super) activity: PerAxle<WheelActivity>,
     /// How long each wheel has not stood, s, up to when it has settled.
     rolling_s: PerAxle<S>,
-    motion: RollingMotion<S>,
+    pub(super) motion: RollingMotion<S>,
     rim_speed_m_s: S,
     /// Which wheels bear no load that their cells can tell from none.
     pub(super) lifted: PerAxle<bool>,
@@ -64,6 +65,9 @@ pub(super) struct SideEstimator<S> {
     pub(super) compaction: [Compaction<S>; 2],
     /// What these tell of the contact angles.
     pub(super) corrections: PerAxle<Correction<S>>,
+    pub(super) track: Track<S>,
+    /// What the front wheel met where the middle and the rear wheel are.
+    pub(super) met: [Option<Met<S>>; 2],
     pub(super) doubt: Doubt,
     /// One for a sensor that cannot be used in this frame.
     pub(super) silent: [S; SENSORS],
@@ -119,6 +123,8 @@ impl<S: Scalar> SideEstimator<S> {
             sinking: Sinking::new(&scale),
             compaction: [Compaction::new(); 2],
             corrections: PerAxle::all(Correction::none()),
+            track: Track::new(&rover.suspension),
+            met: [None; 2],
             doubt: Doubt::new(phase),
             silent: [S::zero(); SENSORS],
             turns: [Turn::new(); 2],
@@ -182,6 +188,7 @@ impl<S: Scalar> SideEstimator<S> {
         let travel_m = self.speed_m_s() * step_s;
         self.sinking.follow(travel_m, &loads);
         self.follow_compaction(travel_m);
+        self.follow_track(step_s, frame.gyro_rad_s.z);
         surprises
     }
 
@@ -197,6 +204,7 @@ impl<S: Scalar> SideEstimator<S> {
             bogie_angle_rad: frame.bogie_angle_rad,
             runs_of_forces: self.forces.runs().above(contact_angle::RUN_OF_FORCES),
             starts: self.starts,
+            turns_per_m: self.met.map(|met| met.map(|met| met.turns_per_m)),
         }
     }
 

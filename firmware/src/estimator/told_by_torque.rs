@@ -63,23 +63,36 @@ impl<S: Scalar> SideEstimator<S> {
         let untold = rough * square(ANGLE_UNTOLD);
         let truly = |variance: S, trend: S| stated * variance + square(ANGLE_LAG) * trend * trend + untold;
         let [turns_front, turns_middle, turns_rear] = trends.per_m();
-        let (front, middle, rear) = (truly(front, turns_front), truly(middle, turns_middle), truly(rear, turns_rear));
+        let (front, of_middle, of_rear) =
+            (truly(front, turns_front), truly(middle, turns_middle), truly(rear, turns_rear));
+        let met = self.met.map(|met| met.map_or(S::zero(), |met| met.steeper_rad));
+        let [met_by_middle, met_by_rear] = met.map(|steeper| steeper * steeper);
+        let (middle, rear) = (of_middle + met_by_middle, of_rear + met_by_rear);
         let both = stated * both;
         let loads = hubs.as_ref().map(|hub| hub.wheel.load_n.max(S::one()));
         let load_n = loads.middle + loads.rear;
         let (by_middle, by_rear) = (loads.middle / load_n, loads.rear / load_n);
-        let known_middle = Known { variance: middle, with_mean: by_middle * middle + by_rear * both };
-        let known_rear = Known { variance: rear, with_mean: by_middle * both + by_rear * rear };
+        let known_middle =
+            Known { variance: middle, path_variance: of_middle, with_mean: by_middle * middle + by_rear * both };
+        let known_rear = Known { variance: rear, path_variance: of_rear, with_mean: by_middle * both + by_rear * rear };
         let departs = |spread: f64| S::constant(spread * spread);
-        let alone = Together { wheels: S::one(), load_n: loads.front, variance: front, departs: departs(FRONT_SHARE) };
+        let alone = Together {
+            wheels: S::one(),
+            load_n: loads.front,
+            variance: front,
+            paths_variance: front,
+            departs: departs(FRONT_SHARE),
+        };
+        let variance = by_middle * known_middle.with_mean + by_rear * known_rear.with_mean;
         let bogie = Together {
             wheels: S::constant(2.0),
             load_n,
-            variance: by_middle * known_middle.with_mean + by_rear * known_rear.with_mean,
+            variance,
+            paths_variance: variance - by_middle * by_middle * met_by_middle - by_rear * by_rear * met_by_rear,
             departs: departs(BOGIE_SHARE),
         };
         PerAxle {
-            front: Known { variance: front, with_mean: front }.corrected(of_front, &alone),
+            front: Known { variance: front, path_variance: front, with_mean: front }.corrected(of_front, &alone),
             middle: known_middle.corrected(of_bogie, &bogie),
             rear: known_rear.corrected(of_bogie, &bogie),
         }

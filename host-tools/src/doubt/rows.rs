@@ -39,6 +39,10 @@ pub struct Precision {
     pub contact: [[f32; 3]; 3],
 }
 
+/// Errors of wheels that start or stop count so many times: how loads shift and wheels dig in then is this simulator's own more than what it
+/// does with wheels that roll, and another rover's starts are to be within what is stated, too.
+const OF_STARTS: f64 = 1.5;
+
 /// Errors of the quantities of a wheel, or their variances, in the order of the network's outputs.
 type OfWheel = [f64; 5];
 
@@ -54,14 +58,15 @@ impl Known {
     /// nothing is stated, or where a wheel is in the air or held fast: what is said of it then does not come from the filters.
     pub fn new(believed: &Believed<f32>, estimate: &SideEstimate, truth: &PerAxle<WheelTruth>) -> Option<Self> {
         let wheels = estimate.wheels.as_ref().zip(truth.as_ref()).zip(believed.wheels.as_ref());
+        let counts = if believed.is_steady { 1.0 } else { OF_STARTS };
         let mut errors = [0.0; OUTPUTS];
         let (of_wheels, of_bogie) = errors.as_chunks_mut();
         for (place, ((estimate, truth), stated)) in of_wheels.iter_mut().zip(wheels.into_array()) {
-            *place = over_stated(wheel_errors(estimate, truth)?, variances(stated))?;
+            *place = over_stated(wheel_errors(estimate, truth)?.map(|error| counts * error), variances(stated))?;
         }
         let true_pull_n = truth.middle.drawbar_pull_n + truth.rear.drawbar_pull_n;
         let error_n = f64::from(estimate.bogie_drawbar_pull_n.value) - true_pull_n;
-        of_bogie.copy_from_slice(&over_stated([error_n], [f64::from(believed.bogie_pull_variance)])?);
+        of_bogie.copy_from_slice(&over_stated([counts * error_n], [f64::from(believed.bogie_pull_variance)])?);
         let PerAxle { front, middle, rear } = believed.wheels.as_ref().map(Precision::new);
         Some(Self { errors, wheels: PerAxle { front: front?, middle: middle?, rear: rear? } })
     }
@@ -141,7 +146,7 @@ pub(super) mod tests {
             torque_slip: [[4.0, 0.0], [0.0, 0.01]],
             contact: [[0.04, 0.0, 0.0], [0.0, 9.0, 4.5], [0.0, 4.5, 9.0]],
         };
-        Believed { wheels: PerAxle::all(of_wheel), bogie_pull_variance: 16.0, inputs: None }
+        Believed { wheels: PerAxle::all(of_wheel), bogie_pull_variance: 16.0, is_steady: true, inputs: None }
     }
 
     fn off_by(value: f32) -> Estimate {
@@ -170,6 +175,9 @@ pub(super) mod tests {
         let known = Known::new(&stated(), &estimated(), &truth()).expect("all is known");
         let expected = [-1.0, 2.0, 0.5, 2.0, 0.5].repeat(3).into_iter().chain([-2.0]);
         assert!(known.errors.iter().zip(expected).all(|(error, expected)| (error - expected).abs() < 1e-6));
+        let starting = Known::new(&Believed { is_steady: false, ..stated() }, &estimated(), &truth()).expect("as much");
+        let counts = OF_STARTS as f32;
+        assert!(starting.errors.iter().zip(known.errors).all(|(starts, rolls)| (starts - counts * rolls).abs() < 1e-6));
         assert!(
             Row::new(&[9.0; INPUTS]).inputs.iter().all(|input| *input == 32_767.0 / 4096.0),
             "inputs saturate as in flight"

@@ -1,0 +1,209 @@
+//! The track of a side: what its front wheel met where the wheels of the bogie will roll.
+//!
+//! The wheels of a side follow each other over the same ground. So the contact angles of the middle and the rear wheel turn as that of the
+//! front wheel did where they are now, which they tell some frames before links and velocity have moved. And where the front wheel's torque
+//! said that the path of its hub was not the terrain, as over the border of a soil in which wheels sink deeper, theirs will not be either: of
+//! a bogie's two wheels, whose pulls are known together only, that says which one of them is meant.
+//!
+//! What was seen while wheels started or dug in is no ground's doing. Wheels that roll back lead no track, nor do those of a rover that turns
+//! sharply; that one which slides sideways leaves its track is not seen.
+
+use super::side_estimator::SideEstimator;
+use crate::rover::{PerAxle, Planar, Suspension};
+use crate::scalar::Scalar;
+
+/// Pieces that are remembered, of which these lie between the hubs of the front and the rear wheel on the level.
+const PIECES: usize = 64;
+const TO_REAR: f64 = 48.0;
+/// A rover that turns by more than this on the way between these hubs, rad, cuts its corners.
+const SHARPEST: f64 = 0.7;
+/// No wheel passes more of them in a frame.
+const FASTEST: f64 = 4.0;
+/// How much of what torque says beside the path counts in how the ground turned.
+const BY_TORQUE: f64 = 0.4;
+/// One standard deviation of what errors of the front wheel's angle turn over a piece, rad.
+const BY_ERRORS: f64 = 3.2e-3;
+
+/// What the front wheel met under a wheel that follows it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Met<S> {
+    /// By how much the ground turns there, rad/m.
+    pub turns_per_m: S,
+    /// By how much it was steeper than the path of the hub, as the torque said, rad.
+    pub steeper_rad: S,
+}
+
+/// One piece of it.
+#[derive(Debug, Clone, Copy)]
+struct Piece<S> {
+    /// How far the ground had turned at its end, rad.
+    turned_rad: S,
+    steeper_rad: S,
+}
+
+/// What is remembered, up to the rear wheel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Track<S> {
+    pieces: [Piece<S>; PIECES],
+    /// The piece that the front wheel is on, how many before it are known, and how far it is on it, of its length.
+    at: usize,
+    known: usize,
+    on: S,
+    pieces_per_m: S,
+    /// How far the ground has turned, rad, and at which angle it was then.
+    turned_rad: S,
+    angle_rad: S,
+}
+
+impl<S: Scalar> Track<S> {
+    /// Nothing is remembered.
+    pub fn new(suspension: &Suspension<S>) -> Self {
+        let zero = S::zero();
+        let [_, to_rear_m] = behind_front(suspension, zero, zero);
+        Self {
+            pieces: [Piece { turned_rad: zero, steeper_rad: zero }; PIECES],
+            at: 0,
+            known: 0,
+            on: zero,
+            pieces_per_m: S::constant(TO_REAR) / to_rear_m,
+            turned_rad: zero,
+            angle_rad: zero,
+        }
+    }
+
+    /// The hub of the front wheel has gone on by so much, m, on ground that is so restless, 0 … 1: its path is at such an angle, and so much
+    /// steeper the ground is, as the torque says.
+    fn follow(&mut self, forward_m: S, restless: S, path_rad: S, steeper_rad: S) {
+        let angle_rad = path_rad + S::constant(BY_TORQUE) * steeper_rad;
+        self.turned_rad += restless * (angle_rad - self.angle_rad);
+        self.angle_rad = angle_rad;
+        self.on += forward_m * self.pieces_per_m;
+        if !(self.on >= S::zero() && self.on < S::constant(FASTEST)) {
+            self.on = S::zero();
+            self.forget();
+        }
+        for _ in 0..FASTEST as usize {
+            if let Some(here) = self.pieces.get_mut(self.at) {
+                *here = Piece { turned_rad: self.turned_rad, steeper_rad };
+            }
+            if self.on < S::one() {
+                break;
+            }
+            self.on -= S::one();
+            self.at = (self.at + 1) % PIECES;
+            self.known = (self.known + 1).min(PIECES - 1);
+        }
+    }
+
+    fn forget(&mut self) {
+        self.known = 0;
+    }
+
+    /// What it met where a hub is that is so far behind, m.
+    fn behind(&self, behind_m: S) -> Option<Met<S>> {
+        let back = (behind_m * self.pieces_per_m - self.on).max(S::zero()).to_f32() as usize + 1;
+        if back > self.known {
+            return None;
+        }
+        let piece = |back: usize| self.pieces.get((self.at + PIECES - back) % PIECES);
+        let (end, start) = (piece(back - 1)?, piece(back)?);
+        let turns = end.turned_rad - start.turned_rad;
+        let square = turns * turns;
+        let surely = square / (square + S::constant(BY_ERRORS * BY_ERRORS));
+        Some(Met { turns_per_m: surely * turns * self.pieces_per_m, steeper_rad: start.steeper_rad })
+    }
+}
+
+impl<S: Scalar> SideEstimator<S> {
+    /// Follows the track of a rover that turns at this rate, where it is known, and sees what the front wheel met under the middle and the rear
+    /// wheel.
+    pub(super) fn follow_track(&mut self, step_s: S, yaw_rate_rad_s: Option<S>) {
+        let forward_m = self.motion.hub_velocities_m_s.front.x * step_s;
+        let [restless, ..] = self.angles.trends().restless();
+        self.track.follow(forward_m, restless, self.angles.angles().front, self.corrections.front.steeper);
+        let sharpest_rad_s = S::constant(SHARPEST / TO_REAR) * self.track.pieces_per_m * self.speed_m_s();
+        let turns = yaw_rate_rad_s.is_some_and(|rate| rate.abs() > sharpest_rad_s);
+        if turns || !(self.settled().front && self.digging_in.is_over()) {
+            self.track.forget();
+        }
+        let PerAxle { front: rocker_rad, rear: bogie_rad, .. } = self.angles.links();
+        self.met =
+            behind_front(&self.rover.suspension, rocker_rad, bogie_rad).map(|behind_m| self.track.behind(behind_m));
+    }
+}
+
+/// How far the hubs of the middle and the rear wheel are behind that of the front wheel, m, with rocker and bogie at these pitches, rad; to
+/// second order in these.
+fn behind_front<S: Scalar>(suspension: &Suspension<S>, rocker_rad: S, bogie_rad: S) -> [S; 2] {
+    let ahead =
+        |place: Planar<S>, pitch_rad: S| place.x - pitch_rad * (place.z + S::constant(0.5) * pitch_rad * place.x);
+    let of_pivot = ahead(suspension.front_hub - suspension.bogie_pivot, rocker_rad);
+    [suspension.middle_hub, suspension.rear_hub].map(|hub| of_pivot - ahead(hub, bogie_rad))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BY_ERRORS, Track, behind_front};
+    use crate::rover::{Rover, Suspension};
+
+    const STEP_M: f64 = 0.003;
+
+    fn suspension() -> Suspension<f64> {
+        Rover::<f64>::assumed().suspension
+    }
+
+    /// A front wheel that has gone so many steps: at first over plane ground, then from 0.3 m on up by 0.2 rad over 0.1 m, where its torque
+    /// says that the ground is less steep by half of that.
+    fn after(steps: i32) -> Track<f64> {
+        let mut track = Track::new(&suspension());
+        for step in 0..steps {
+            let climbs = 2.0 * (STEP_M * f64::from(step) - 0.3).clamp(0.0, 0.1);
+            track.follow(STEP_M, 1.0, climbs, -0.5 * climbs);
+        }
+        track
+    }
+
+    /// Where the front wheel was on the climb, 0.35 m before, the ground turns by 2 rad/m, less the share of what the torque says; where it was
+    /// on plane ground, not at all.
+    #[test]
+    fn the_ground_turns_under_the_wheels_behind_as_it_did_under_the_front_wheel() {
+        let track = after(234);
+        let met = track.behind(0.35).expect("the front wheel was there");
+        let told = 2.0 * (1.0 - 0.4 * 0.5);
+        assert!((met.turns_per_m - told).abs() < 0.25 * told, "{met:?}");
+        assert!((met.steeper_rad + 0.05).abs() < 0.02, "{met:?}");
+        let before = track.behind(0.45).expect("and there");
+        assert_eq!((before.turns_per_m, before.steeper_rad), (0.0, 0.0));
+        let [to_middle, to_rear] = behind_front(&suspension(), 0.0, 0.0);
+        assert!((to_middle - 0.35).abs() < 1.0e-12 && (to_rear - 0.7).abs() < 1.0e-12);
+        assert!(track.behind(to_rear).is_some() && after(100).behind(to_middle).is_none());
+    }
+
+    /// What turns by less than the errors of an angle do tells next to nothing.
+    #[test]
+    fn errors_of_an_angle_are_no_ground() {
+        let mut track = Track::new(&suspension());
+        (0..300).for_each(|step| track.follow(STEP_M, 1.0, 0.1 * BY_ERRORS * f64::from(step % 2), 0.0));
+        let met = track.behind(0.35).expect("the front wheel was there");
+        assert!(met.turns_per_m.abs() < 0.01 * BY_ERRORS / 0.0146, "{met:?}");
+    }
+
+    /// Wheels that roll back lead no track, nor does one that has jumped; and a link that lies nose-up has its wheels nearer.
+    #[test]
+    fn what_is_not_driven_over_is_not_known() {
+        for jump in [-0.1, 1.0, f64::NAN] {
+            let mut track = after(300);
+            track.follow(jump, 1.0, 0.0, 0.0);
+            assert!(track.behind(0.05).is_none(), "{jump}");
+            (0..300).for_each(|_| track.follow(STEP_M, 1.0, 0.0, 0.0));
+            assert!(track.behind(0.7).is_some(), "{jump}");
+        }
+        let exactly = |pitch: f64| {
+            let from_front = |x: f64, z: f64| x * pitch.cos() - z * pitch.sin();
+            [from_front(0.35, -0.2 + 0.2), from_front(0.7, -0.2 + 0.2)]
+        };
+        for (told, exact) in behind_front(&suspension(), 0.3, 0.3).into_iter().zip(exactly(0.3)) {
+            assert!((told - exact).abs() < 1.0e-3, "{told} {exact}");
+        }
+    }
+}
