@@ -1,9 +1,9 @@
 //! The track of a side: what its front wheel met where the wheels of the bogie will roll.
 //!
-//! The wheels of a side follow each other over the same ground. So the contact angles of the middle and the rear wheel turn as that of the
-//! front wheel did where they are now, which they tell some frames before links and velocity have moved. And where the front wheel's torque
-//! said that the path of its hub was not the terrain, as over the border of a soil in which wheels sink deeper, theirs will not be either: of
-//! a bogie's two wheels, whose pulls are known together only, that says which one of them is meant.
+//! The hubs of a side follow each other over the same ground. So under the middle and the rear wheel it turns as it did under the front wheel
+//! there, which tells contact angles before links and velocity have moved. And where the front wheel's torque said that the path of its hub was
+//! not the terrain, as over the border of a soil in which wheels sink deeper, theirs will not be either: of a bogie's two wheels, whose pulls
+//! are known together only, that says which one of them is meant.
 //!
 //! What was seen while wheels started or dug in is no ground's doing. Wheels that roll back lead no track, nor do those of a rover that turns
 //! sharply; that one which slides sideways leaves its track is not seen.
