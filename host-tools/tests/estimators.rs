@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use kapvik_firmware::rover::Rover;
 use kapvik_host::bench::estimators_soil::{SoilChanges, SoilErrors};
+use kapvik_host::doubt::drives::NOMINAL;
 use kapvik_host::simulate::Scenario;
 use kapvik_host::trial::{Quantity, Trial, trial};
 
@@ -42,16 +43,7 @@ fn on_hills_and_rocks_angle_and_pulls_err_by_less_than_half_of_the_raw_sensors()
 
 #[test]
 fn slip_is_better_than_the_raw_sensors_by_a_third_and_load_and_torque_never_worse() {
-    let scenarios = [
-        Scenario::Level,
-        Scenario::Spread,
-        Scenario::Slope,
-        Scenario::Hills,
-        Scenario::Rock,
-        Scenario::Dropout,
-        Scenario::SoilChange,
-    ];
-    for scenario in scenarios {
+    for scenario in NOMINAL.into_iter().chain([Scenario::SoilChange]) {
         let trial = drives(scenario);
         for quantity in [Quantity::Slip, Quantity::Load, Quantity::Torque] {
             let ratio = ratio(&trial, quantity);
