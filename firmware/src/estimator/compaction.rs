@@ -10,7 +10,7 @@ use super::drawbar_split::BogieWheel;
 use crate::scalar::Scalar;
 
 /// Travel over which that mean is taken, m: soil that is another for so long is what there is.
-const REMEMBERED_M: f64 = 0.2;
+pub(super) const REMEMBERED_M: f64 = 0.2;
 /// A share farther from the mean than this counts for no more in it; and than this, tells no more of an angle.
 const GREATEST: f64 = 0.1;
 const GREATEST_TOLD: f64 = 0.3;
@@ -39,6 +39,11 @@ impl<S: Scalar> Compaction<S> {
     /// Nothing tells what it is now: pulls are not known.
     pub fn pause(&mut self) {
         self.departure = None;
+    }
+
+    /// Its mean.
+    pub fn mean(&self) -> S {
+        self.mean
     }
 
     /// Whether it has been learned.

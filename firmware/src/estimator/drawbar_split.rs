@@ -23,6 +23,9 @@ const SPREAD_OF_SLIP: f64 = 0.042;
 const SPREAD_OF_SKID: f64 = 0.15;
 const LEAST_SPREAD_N: f64 = 0.08;
 
+/// One standard deviation of what is left of the difference that two soils make, over it.
+const OF_TWO_SOILS: f64 = 0.5;
+
 /// Wheels that start are not yet as deep as their loads and slips would have them, and their torques tell less of how they share their pull:
 /// one standard deviation of the difference, over the sum of their loads, and over that of how fast they sink.
 const OF_DIGGING: f64 = 0.75;
@@ -74,6 +77,16 @@ impl<S: Scalar> DrawbarSplit<S> {
         let skid = S::constant(SPREAD_OF_SKID) * middle.slip.min(rear.slip).min(S::zero()) * mean_load;
         let least = S::constant(LEAST_SPREAD_N);
         Self { difference_n, std_n: (load * load + slip * slip + skid * skid + least * least).sqrt() }
+    }
+
+    /// The split of wheels on two soils, of which the middle one compacts by this share of its load more than the rear one.
+    pub fn on_two_soils(self, (middle, rear): (&BogieWheel<S>, &BogieWheel<S>), unlike_share: S) -> Self {
+        let unlike_n = S::constant(0.5) * unlike_share * (middle.load_n + rear.load_n);
+        let unsure_n = S::constant(OF_TWO_SOILS) * unlike_n;
+        Self {
+            difference_n: self.difference_n - unlike_n,
+            std_n: (self.std_n * self.std_n + unsure_n * unsure_n).sqrt(),
+        }
     }
 
     /// The split of wheels that dig in, of which this variance is known of how fast they sink, over the speed of their rims: what the seed's

@@ -68,6 +68,8 @@ pub(super) struct SideEstimator<S> {
     pub(super) track: Track<S>,
     /// What the front wheel met where the middle and the rear wheel are.
     pub(super) met: [Option<Met<S>>; 2],
+    /// By how much more of its load the middle wheel compacts the soil than the rear one, since they are on two soils.
+    pub(super) unlike_share: S,
     pub(super) doubt: Doubt,
     /// One for a sensor that cannot be used in this frame.
     pub(super) silent: [S; SENSORS],
@@ -125,6 +127,7 @@ impl<S: Scalar> SideEstimator<S> {
             corrections: PerAxle::all(Correction::none()),
             track: Track::new(&rover.suspension),
             met: [None; 2],
+            unlike_share: S::zero(),
             doubt: Doubt::new(phase),
             silent: [S::zero(); SENSORS],
             turns: [Turn::new(); 2],
@@ -387,7 +390,8 @@ impl<S: Scalar> SideEstimator<S> {
     #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn split_of_pull(&self, middle: &HubOnGround<S>, rear: &HubOnGround<S>) -> DrawbarSplit<S> {
         let sum = middle.drawbar_pull_n + rear.drawbar_pull_n;
-        let (middle, rear) = (&middle.wheel, &rear.wheel);
-        DrawbarSplit::by_torque(middle, rear, sum).while_digging((middle, rear), sum, self.digging_in.variance())
+        let wheels = (&middle.wheel, &rear.wheel);
+        let split = DrawbarSplit::by_torque(wheels.0, wheels.1, sum).on_two_soils(wheels, self.unlike_share);
+        split.while_digging(wheels, sum, self.digging_in.variance())
     }
 }

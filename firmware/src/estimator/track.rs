@@ -3,11 +3,12 @@
 //! The hubs of a side follow each other over the same ground. So under the middle and the rear wheel it turns as it did under the front wheel
 //! there, which tells contact angles before links and velocity have moved. And where the front wheel's torque said that the path of its hub was
 //! not the terrain, as over the border of a soil in which wheels sink deeper, theirs will not be either: of a bogie's two wheels, whose pulls
-//! are known together only, that says which one of them is meant.
+//! are known together only, that says which one of them is meant. Where its torque compacted more of one soil than of the next, so will theirs.
 //!
 //! What was seen while wheels started or dug in is no ground's doing. Wheels that roll back lead no track, nor do those of a rover that turns
 //! sharply; that one which slides sideways leaves its track is not seen.
 
+use super::compaction::REMEMBERED_M;
 use super::side_estimator::SideEstimator;
 use crate::rover::{PerAxle, Planar, Suspension};
 use crate::scalar::Scalar;
@@ -24,6 +25,9 @@ const BY_TORQUE: f64 = 0.4;
 /// One standard deviation of what errors of the front wheel's angle turn over a piece, rad.
 const BY_ERRORS: f64 = 3.2e-3;
 
+/// One standard deviation by which the shares of two wheels differ on one soil, on ground of any kind.
+const BY_GROUND: f64 = 0.06;
+
 /// What the front wheel met under a wheel that follows it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Met<S> {
@@ -39,6 +43,8 @@ struct Piece<S> {
     /// How far the ground had turned at its end, rad.
     turned_rad: S,
     steeper_rad: S,
+    /// The mean share of the rim force that compacted the soil.
+    share: S,
 }
 
 /// What is remembered, up to the rear wheel.
@@ -61,7 +67,7 @@ impl<S: Scalar> Track<S> {
         let zero = S::zero();
         let [_, to_rear_m] = behind_front(suspension, zero, zero);
         Self {
-            pieces: [Piece { turned_rad: zero, steeper_rad: zero }; PIECES],
+            pieces: [Piece { turned_rad: zero, steeper_rad: zero, share: zero }; PIECES],
             at: 0,
             known: 0,
             on: zero,
@@ -71,9 +77,9 @@ impl<S: Scalar> Track<S> {
         }
     }
 
-    /// The hub of the front wheel has gone on by so much, m, on ground that is so restless, 0 … 1: its path is at such an angle, and so much
-    /// steeper the ground is, as the torque says.
-    fn follow(&mut self, forward_m: S, restless: S, path_rad: S, steeper_rad: S) {
+    /// The hub of the front wheel has gone on by so much, m, on ground that is so restless, 0 … 1: its path is at such an angle, so much
+    /// steeper the ground is, as the torque says, and such a share of that compacts the soil in the mean.
+    fn follow(&mut self, forward_m: S, restless: S, path_rad: S, [steeper_rad, share]: [S; 2]) {
         let angle_rad = path_rad + S::constant(BY_TORQUE) * steeper_rad;
         self.turned_rad += restless * (angle_rad - self.angle_rad);
         self.angle_rad = angle_rad;
@@ -84,7 +90,7 @@ impl<S: Scalar> Track<S> {
         }
         for _ in 0..FASTEST as usize {
             if let Some(here) = self.pieces.get_mut(self.at) {
-                *here = Piece { turned_rad: self.turned_rad, steeper_rad };
+                *here = Piece { turned_rad: self.turned_rad, steeper_rad, share };
             }
             if self.on < S::one() {
                 break;
@@ -99,19 +105,40 @@ impl<S: Scalar> Track<S> {
         self.known = 0;
     }
 
+    /// How many pieces before the front wheel's own a place is that is so far behind its hub, m; none where it is not known.
+    fn back(&self, behind_m: S) -> Option<usize> {
+        let back = (behind_m * self.pieces_per_m - self.on).max(S::zero()).to_f32() as usize + 1;
+        (back <= self.known).then_some(back)
+    }
+
+    fn piece(&self, back: usize) -> Option<&Piece<S>> {
+        self.pieces.get((self.at + PIECES - back) % PIECES)
+    }
+
     /// What it met where a hub is that is so far behind, m.
     fn behind(&self, behind_m: S) -> Option<Met<S>> {
-        let back = (behind_m * self.pieces_per_m - self.on).max(S::zero()).to_f32() as usize + 1;
-        if back > self.known {
-            return None;
-        }
-        let piece = |back: usize| self.pieces.get((self.at + PIECES - back) % PIECES);
-        let (end, start) = (piece(back - 1)?, piece(back)?);
-        let turns = end.turned_rad - start.turned_rad;
-        let square = turns * turns;
-        let surely = square / (square + S::constant(BY_ERRORS * BY_ERRORS));
-        Some(Met { turns_per_m: surely * turns * self.pieces_per_m, steeper_rad: start.steeper_rad })
+        let back = self.back(behind_m)?;
+        let (end, start) = (self.piece(back - 1)?, self.piece(back)?);
+        let turns = surely(end.turned_rad - start.turned_rad, BY_ERRORS);
+        Some(Met { turns_per_m: turns * self.pieces_per_m, steeper_rad: start.steeper_rad })
     }
+
+    /// By how much more of its load a wheel that is the first of these ways behind, m, compacts the soil than one that is the other, since
+    /// soils differ. A mean lags by half of what it is taken over.
+    fn unlike_share(&self, [middle_m, rear_m]: [S; 2]) -> S {
+        let share = |behind_m: S| {
+            let back = self.back(behind_m - S::constant(0.5 * REMEMBERED_M))?;
+            self.piece(back).map(|piece| piece.share)
+        };
+        let unlike = share(middle_m).zip(share(rear_m)).map(|(middle, rear)| middle - rear);
+        unlike.map_or(S::zero(), |unlike| surely(unlike, BY_GROUND))
+    }
+}
+
+/// What is left of a change when what is no larger than this standard deviation is taken for no change.
+fn surely<S: Scalar>(change: S, std: f64) -> S {
+    let square = change * change;
+    square / (square + S::constant(std * std)) * change
 }
 
 impl<S: Scalar> SideEstimator<S> {
@@ -120,15 +147,18 @@ impl<S: Scalar> SideEstimator<S> {
     pub(super) fn follow_track(&mut self, step_s: S, yaw_rate_rad_s: Option<S>) {
         let forward_m = self.motion.hub_velocities_m_s.front.x * step_s;
         let [restless, ..] = self.angles.trends().restless();
-        self.track.follow(forward_m, restless, self.angles.angles().front, self.corrections.front.steeper);
+        let [of_front, _] = &self.compaction;
+        let told = [self.corrections.front.steeper, of_front.mean()];
+        self.track.follow(forward_m, restless, self.angles.angles().front, told);
         let sharpest_rad_s = S::constant(SHARPEST / TO_REAR) * self.track.pieces_per_m * self.speed_m_s();
         let turns = yaw_rate_rad_s.is_some_and(|rate| rate.abs() > sharpest_rad_s);
         if turns || !(self.settled().front && self.digging_in.is_over()) {
             self.track.forget();
         }
         let PerAxle { front: rocker_rad, rear: bogie_rad, .. } = self.angles.links();
-        self.met =
-            behind_front(&self.rover.suspension, rocker_rad, bogie_rad).map(|behind_m| self.track.behind(behind_m));
+        let behind_m = behind_front(&self.rover.suspension, rocker_rad, bogie_rad);
+        self.met = behind_m.map(|behind_m| self.track.behind(behind_m));
+        self.unlike_share = self.track.unlike_share(behind_m);
     }
 }
 
@@ -143,7 +173,7 @@ fn behind_front<S: Scalar>(suspension: &Suspension<S>, rocker_rad: S, bogie_rad:
 
 #[cfg(test)]
 mod tests {
-    use super::{BY_ERRORS, Track, behind_front};
+    use super::{BY_ERRORS, BY_GROUND, REMEMBERED_M, Track, behind_front};
     use crate::rover::{Rover, Suspension};
 
     const STEP_M: f64 = 0.003;
@@ -158,7 +188,8 @@ mod tests {
         let mut track = Track::new(&suspension());
         for step in 0..steps {
             let climbs = 2.0 * (STEP_M * f64::from(step) - 0.3).clamp(0.0, 0.1);
-            track.follow(STEP_M, 1.0, climbs, -0.5 * climbs);
+            let another_soil = if climbs == 0.0 { 0.1 } else { 0.3 };
+            track.follow(STEP_M, 1.0, climbs, [-0.5 * climbs, another_soil]);
         }
         track
     }
@@ -179,11 +210,24 @@ mod tests {
         assert!(track.behind(to_rear).is_some() && after(100).behind(to_middle).is_none());
     }
 
+    /// Where the front wheel came to a soil that it compacts by 0.2 more, wheels that are on both sides of that place differ by nearly as much;
+    /// wheels on the same side do not.
+    #[test]
+    fn wheels_on_two_soils_compact_unlike_shares() {
+        let track = after(280);
+        let half = 0.5 * REMEMBERED_M;
+        let unlike = track.unlike_share([0.4 + half, 0.65 + half]);
+        assert!((unlike - 0.2 * 0.04 / (0.04 + BY_GROUND * BY_GROUND)).abs() < 1.0e-9, "{unlike}");
+        for same in [[0.2, 0.4], [0.6 + half, 0.65 + half], [0.4, 5.0]] {
+            assert_eq!(track.unlike_share(same), 0.0, "{same:?}");
+        }
+    }
+
     /// What turns by less than the errors of an angle do tells next to nothing.
     #[test]
     fn errors_of_an_angle_are_no_ground() {
         let mut track = Track::new(&suspension());
-        (0..300).for_each(|step| track.follow(STEP_M, 1.0, 0.1 * BY_ERRORS * f64::from(step % 2), 0.0));
+        (0..300).for_each(|step| track.follow(STEP_M, 1.0, 0.1 * BY_ERRORS * f64::from(step % 2), [0.0; 2]));
         let met = track.behind(0.35).expect("the front wheel was there");
         assert!(met.turns_per_m.abs() < 0.01 * BY_ERRORS / 0.0146, "{met:?}");
     }
@@ -193,9 +237,9 @@ mod tests {
     fn what_is_not_driven_over_is_not_known() {
         for jump in [-0.1, 1.0, f64::NAN] {
             let mut track = after(300);
-            track.follow(jump, 1.0, 0.0, 0.0);
+            track.follow(jump, 1.0, 0.0, [0.0; 2]);
             assert!(track.behind(0.05).is_none(), "{jump}");
-            (0..300).for_each(|_| track.follow(STEP_M, 1.0, 0.0, 0.0));
+            (0..300).for_each(|_| track.follow(STEP_M, 1.0, 0.0, [0.0; 2]));
             assert!(track.behind(0.7).is_some(), "{jump}");
         }
         let exactly = |pitch: f64| {
