@@ -103,7 +103,7 @@ impl RoverFile {
     /// Reads a rover file.
     ///
     /// # Errors
-    /// Where the file cannot be read, a key is misspelt or of the wrong kind, or no rover of that geometry can stand: at the
+    /// Where the file cannot be read, a key is misspelt, unknown in its table or of the wrong kind, or no rover of that geometry can stand: at the
     /// key that is to blame.
     pub fn read(path: &Path) -> Result<Self, HostError> {
         Self::parse(&TomlFile::read(path)?)

@@ -6,9 +6,9 @@
 //! ratios add up, tell their weights from the same few readings, as Hotelling's T² does (1931, Ann. Math. Statist. 2:360): each channel
 //! beside the first takes one degree of freedom.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::chance::over_all;
+use super::chance::{beside_noise, over_all, squares_gained};
 use super::fit::{Fit, Reading};
 use super::trial::Trial;
 
@@ -16,8 +16,6 @@ use super::trial::Trial;
 const KNOWN: f64 = 1e5;
 /// Those that are left to tell a noise of which readings tell nothing.
 const LEAST_FREEDOM: f64 = 0.1;
-/// ln of a ratio of squares beyond which nothing more is learned.
-const GREATEST_LN_RATIO: f64 = 300.0;
 
 /// What a model gains by having something more.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +51,7 @@ impl<'a> Gain<'a> {
         let per = self.dispersion * self.rows_per_reading;
         let (squares, freedom) = (squares.max(0.0) / per, freedom / self.rows_per_reading);
         let alone = if freedom < KNOWN {
-            FisherSnedecor::new(parameters, freedom).map_or(1.0, |law| law.sf(squares / parameters))
+            beside_noise(squares, parameters, freedom)
         } else {
             ChiSquared::new(parameters).map_or(1.0, |law| law.sf(squares))
         };
@@ -70,8 +68,7 @@ impl<'a> Gain<'a> {
             of_known -= ln_noise + before.squares - after.squares;
             let ln_ratio = ln_noise / before.count + (before.squares / after.squares).ln();
             let freedom = after.freedom.max(LEAST_FREEDOM);
-            let squares = freedom * ln_ratio.min(GREATEST_LN_RATIO).exp_m1();
-            of_unknown.push(Ratio { squares, freedom });
+            of_unknown.push(Ratio { squares: squares_gained(ln_ratio, freedom), freedom });
         }
         let total = of_unknown.iter().map(|part| part.squares).sum::<f64>();
         let gains: Vec<&Ratio> = of_unknown.iter().filter(|part| part.squares > 0.0).collect();

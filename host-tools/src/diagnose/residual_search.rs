@@ -1,9 +1,8 @@
 //! Structure in a residual: whether a channel follows a column, known or unknown, more than chance and a refit explain.
 
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::chance::over_all;
+use super::chance::{beside_noise, over_all, squares_gained};
 use super::fit::{Fit, Reading};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
@@ -218,9 +217,8 @@ fn chance_of(gain: f64, terms: usize, count: f64, tried: usize) -> f64 {
         return 1.0;
     }
     let left = count - terms - 1.0;
-    let ratio = ((2.0 * gain.max(0.0) / count).min(300.0).exp_m1()) * left / terms;
-    let chance = FisherSnedecor::new(terms, left).map_or(1.0, |law| law.sf(ratio));
-    over_all(chance, tried)
+    let squares = squares_gained(2.0 * gain.max(0.0) / count, left);
+    over_all(beside_noise(squares, terms, left), tried)
 }
 
 /// A constant, what a product is made of, and the powers: a column's effect seldom vanishes at the column's mean.

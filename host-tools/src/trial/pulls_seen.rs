@@ -11,13 +11,12 @@ use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::{PerWheel, Rover};
 use nalgebra::{Cholesky, SMatrix, SVector};
 
+use super::STANDING_M_S;
 use crate::data::truth_file::{Truth, WheelTruth};
 
 /// Forces of one side; of both.
 const SIDE: usize = hub_force::STATES;
 const BOTH: usize = 2 * SIDE;
-/// A rover slower than this tells nothing of its contacts, m/s.
-const STANDING: f64 = 1.5e-3;
 /// Places of the forces along rocker and bogie among those of a side.
 const ALONG_ROCKER: usize = 3;
 const ALONG_BOGIE: usize = 4;
@@ -69,7 +68,7 @@ pub struct PullsSeen {
 impl PullsSeen {
     /// Takes a frame of a rover at a speed; its errors count where `counted`.
     pub fn take(&mut self, rover: &Rover<f64>, speed_m_s: f64, estimate: &FrameEstimate, truth: &Truth, counted: bool) {
-        if speed_m_s.abs() < STANDING {
+        if speed_m_s.abs() < STANDING_M_S {
             return;
         }
         self.frames += 1.0;

@@ -10,6 +10,7 @@
 use kapvik_firmware::rover::{Rover, SensorNoise, Side, SideLayout};
 use kapvik_firmware::terramechanics::Soil;
 
+use super::STANDING_M_S;
 use crate::data::truth_file::{Truth, WheelTruth};
 use crate::identifiability::beforehand::{Beforehand, Knowledge};
 use crate::identifiability::bound::Bound;
@@ -23,8 +24,6 @@ use crate::simulate::balance::{Instant, WheelInstant, World};
 /// What is known beforehand: what the networks were told in training.
 const BEFOREHAND: Beforehand =
     Beforehand { targets: Knowledge::Training, pressure: Knowledge::Training, peak: Knowledge::Training };
-/// A rover slower than this stands or backs up, m/s, and says nothing of the soil.
-const STANDING: f64 = 1.5e-3;
 
 /// The information gathered so far.
 #[derive(Debug, Clone)]
@@ -43,7 +42,8 @@ impl SoilSeen {
     pub fn take(&mut self, world: &World, instant: &Instant, truth: &Truth, frames: f64) {
         let rover = &world.rover;
         let speed_m_s = instant.motion.rates.x;
-        if speed_m_s < STANDING {
+        // One that backs up tells nothing of it either.
+        if speed_m_s < STANDING_M_S {
             return;
         }
         // The two errors that all wheels of a frame share are unknowns of that frame, not noise of the wheels' own.
