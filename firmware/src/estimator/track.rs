@@ -24,7 +24,6 @@ const FASTEST: f64 = 4.0;
 const BY_TORQUE: f64 = 0.4;
 /// One standard deviation of what errors of the front wheel's angle turn over a piece, rad.
 const BY_ERRORS: f64 = 3.2e-3;
-
 /// One standard deviation by which the shares of two wheels differ on one soil, on ground of any kind.
 const BY_GROUND: f64 = 0.06;
 
@@ -56,7 +55,7 @@ pub(super) struct Track<S> {
     known: usize,
     on: S,
     pieces_per_m: S,
-    /// How far the ground has turned, rad, and at which angle it was then.
+    /// How far the ground has turned since it was forgotten, rad, and at which angle it was last.
     turned_rad: S,
     angle_rad: S,
 }
@@ -101,8 +100,9 @@ impl<S: Scalar> Track<S> {
         }
     }
 
+    /// Forgets it. How far the ground has turned is counted anew, so that it stays as precise however far a rover goes.
     fn forget(&mut self) {
-        self.known = 0;
+        (self.known, self.turned_rad) = (0, S::zero());
     }
 
     /// How many pieces before the front wheel's own a place is that is so far behind its hub, m; none where it is not known.
