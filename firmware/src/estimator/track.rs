@@ -16,10 +16,10 @@ use crate::scalar::Scalar;
 /// Pieces that are remembered, of which these lie between the hubs of the front and the rear wheel on the level.
 const PIECES: usize = 64;
 const TO_REAR: f64 = 48.0;
-/// A rover that turns by more than this on the way between these hubs, rad, cuts its corners.
-const SHARPEST: f64 = 0.7;
 /// No wheel passes more of them in a frame.
 const FASTEST: f64 = 4.0;
+/// A rover that turns by more than this on the way between those hubs, rad, cuts its corners.
+const SHARPEST: f64 = 0.7;
 /// How much of what torque says beside the path counts in how the ground turned.
 const BY_TORQUE: f64 = 0.4;
 /// One standard deviation of what errors of the front wheel's angle turn over a piece, rad.
@@ -39,7 +39,7 @@ pub(super) struct Met<S> {
 /// One piece of it.
 #[derive(Debug, Clone, Copy)]
 struct Piece<S> {
-    /// How far the ground had turned at its end, rad.
+    /// How far the ground had turned at its end, rad, and by how much it was steeper than the path of the hub there.
     turned_rad: S,
     steeper_rad: S,
     /// The mean share of the rim force that compacted the soil.

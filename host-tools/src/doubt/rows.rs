@@ -24,7 +24,8 @@ pub struct Row {
 /// What is known of the errors of a side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Known {
-    /// Estimate less truth over the stated standard deviation, in the order of the network's outputs.
+    /// Estimate less truth over the stated standard deviation, in the order of the network's outputs; of a side that starts or stops one and a
+    /// half times that.
     pub errors: [f32; OUTPUTS],
     /// How the errors of each wheel are stated to belong together.
     pub wheels: PerAxle<Precision>,
