@@ -148,3 +148,20 @@ fn an_encoder_that_always_says_the_same_is_not_lost() {
         assert!(stuck > 100, "{scenario:?}: {stuck} readings counted as stuck");
     }
 }
+
+/// At one frame a second a rover starts for some frames, too: what its wheels do then is no other soil.
+#[test]
+fn a_record_of_one_frame_a_second_claims_no_soil() {
+    let options = Options { rate_hz: Some(1.0), duration_s: Some(60.0), ..Options::default() };
+    let rover = Rover::assumed();
+    for (scenario, seed) in
+        [Scenario::Level, Scenario::Spread].into_iter().flat_map(|s| SEEDS.map(move |seed| (s, seed)))
+    {
+        let mut pipeline = Pipeline::new(&rover.map(|value| value as f32)).expect("a rover");
+        for step in Traverse::new(scenario, seed, &rover, &options).expect("a drive") {
+            let _ = pipeline.tick(&step.expect("a frame").0);
+        }
+        let soil = pipeline.last().soil.expect("it rolls");
+        assert_eq!(soil.changes, 0, "{scenario:?}, seed {seed}");
+    }
+}

@@ -10,7 +10,7 @@ pub(super) struct Attitude<S> {
     pitch: ScalarFilter<S>,
     /// How many frames in a row the accelerometer contradicted what the gyro said.
     contradictions: u8,
-    /// The last specific force of which all axes were known, m/s².
+    /// The last specific force that was believed, turned to the pitch of now, m/s².
     specific_force: Axes<S>,
     /// Rate of the pitch that the gyro tells, rad/s, with its standard deviation.
     rate_rad_s: (S, S),
@@ -74,9 +74,16 @@ impl<S: Scalar> Attitude<S> {
         self.felt_std_rad
     }
 
-    /// The last specific force that was felt, m/s².
+    /// The specific force, m/s²: as it is felt, or as the pitch says.
     pub fn specific_force_m_s2(&self) -> &Axes<S> {
         &self.specific_force
+    }
+
+    /// Variance of it along and across the body in the plane of the sides, (m/s²)², with an accelerometer of such noise, m/s².
+    pub fn force_variance(&self, noise_m_s2: S) -> S {
+        let Axes { x, z, .. } = self.specific_force;
+        let turned = if self.felt_rad.is_some() { S::zero() } else { (x * x + z * z) * self.pitch.variance };
+        noise_m_s2 * noise_m_s2 + turned
     }
 
     /// Takes the inertial sensors' readings and the speed forward. Gives whether the accelerometer was surprising.
@@ -91,12 +98,13 @@ impl<S: Scalar> Attitude<S> {
         self.felt_rad = None;
         self.turn(gyro, step_s, noise.gyro_rad_s);
         let accelerates = self.accelerates(speed_m_s, step_s, noise.velocity_m_s);
-        let Some(force) = accel.all() else { return false };
-        let in_plane = (force.x * force.x + force.z * force.z).sqrt();
-        if in_plane < S::constant(0.1) || force.z < S::zero() {
+        self.carry_force();
+        let Axes { x: Some(x), y, z: Some(z) } = accel else { return false };
+        let in_plane = (x * x + z * z).sqrt();
+        if in_plane < S::constant(0.1) || z < S::zero() {
             return true;
         }
-        let angle = S::constant(core::f64::consts::FRAC_PI_2) - (force.x / in_plane).acos();
+        let angle = S::constant(core::f64::consts::FRAC_PI_2) - (x / in_plane).acos();
         let noise = (noise.accel_m_s2 * noise.accel_m_s2 + accelerates * accelerates).sqrt() / in_plane;
         let innovation = angle - self.pitch.mean;
         let variance = self.pitch.variance + noise * noise;
@@ -109,10 +117,18 @@ impl<S: Scalar> Attitude<S> {
             self.pitch.variance = innovation * innovation;
         }
         self.contradictions = 0;
-        self.specific_force = force;
+        self.specific_force = Axes { x, y: y.unwrap_or(self.specific_force.y), z };
         (self.felt_rad, self.felt_std_rad) = (Some(angle), noise);
         let _ = self.pitch.update(angle, noise * noise);
         surprising
+    }
+
+    /// Turns what was felt last to where the pitch is now: it stands until the accelerometer is believed again.
+    fn carry_force(&mut self) {
+        let Axes { x, z, .. } = self.specific_force;
+        let in_plane = (x * x + z * z).sqrt();
+        let (sine, cosine) = self.pitch.mean.sin_cos();
+        (self.specific_force.x, self.specific_force.z) = (in_plane * sine, in_plane * cosine);
     }
 
     /// How fast the rover speeds up or slows down, m/s², beyond what noise of the velocimeter may be: the accelerometer feels that as well,
@@ -180,5 +196,22 @@ mod tests {
     fn what_speeds_up_on_the_way_does_not_tilt() {
         let [.., before, during, after] = pitches([0.02, 0.02, 0.02, 0.05, 0.05]);
         assert!([before, during, after].iter().all(|pitch| pitch.abs() < 0.001), "{before} {during} {after}");
+    }
+
+    /// A rover whose accelerometer falls silent on the level and that climbs a slope then: gravity is where the gyro carries it, and not known as
+    /// well as it is felt. Of one axis across its sides nothing is asked for that.
+    #[test]
+    fn gravity_goes_on_with_the_gyro() {
+        let noise = Rover::<f64>::assumed().noise;
+        let mut attitude = Attitude::new(9.81);
+        let level = Axes { x: Some(0.0), y: None, z: Some(9.81) };
+        let gyro = |rate: f64| Axes { x: Some(0.0), y: Some(-rate), z: Some(0.0) };
+        (0..50).for_each(|_| _ = attitude.tick(level, gyro(0.0), Some(0.02), 0.1, &noise));
+        let felt = attitude.force_variance(noise.accel_m_s2);
+        assert!((felt - noise.accel_m_s2 * noise.accel_m_s2).abs() < 1.0e-12, "{felt}");
+        (0..20).for_each(|_| _ = attitude.tick(Axes::default(), gyro(0.1), Some(0.02), 0.1, &noise));
+        let Axes { x, z, .. } = *attitude.specific_force_m_s2();
+        assert!((x - 9.81 * 0.2_f64.sin()).abs() < 0.02 && (z - 9.81 * 0.2_f64.cos()).abs() < 0.02, "{x} {z}");
+        assert!(attitude.force_variance(noise.accel_m_s2) > felt);
     }
 }

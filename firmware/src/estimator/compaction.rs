@@ -51,8 +51,17 @@ impl<S: Scalar> Compaction<S> {
         self.way_m > S::zero()
     }
 
-    /// Takes the share after so much travel, m, more than none. No soil's is beyond one; that of a load near nothing may be anything.
+    /// Whether it ever was: no soil's is exactly nothing.
+    pub fn was_ever_known(&self) -> bool {
+        self.mean != S::zero()
+    }
+
+    /// Takes the share after so much travel, m; without any nothing is learned. No soil's is beyond one; that of a load near nothing may be
+    /// anything.
     pub fn follow(&mut self, travel_m: S, share: S) {
+        if travel_m == S::zero() {
+            return;
+        }
         let share = share.max(-S::one()).min(S::one());
         if self.way_m == S::zero() {
             self.mean = share;
@@ -214,6 +223,14 @@ mod tests {
         (0..600).for_each(|_| compaction.follow(0.002, 0.3));
         let (departure, _) = compaction.tells(1.0, 1.0e-4);
         assert!(departure.abs() < 0.001, "{departure}");
+    }
+
+    /// A wheel that has not travelled teaches nothing, not even that nothing is known.
+    #[test]
+    fn a_share_without_travel_is_not_learned() {
+        let mut compaction = Compaction::<f64>::new();
+        compaction.follow(0.0, 0.2);
+        assert!(!compaction.is_known() && !compaction.was_ever_known());
     }
 
     /// Where pulls are not known the share is nobody's: nothing is told, and what was learned stays for the time after.

@@ -41,7 +41,6 @@ type ByAngles<S> = [S; contact_angle::STATES];
 
 impl<S: Scalar> SideEstimator<S> {
     /// The contacts, with the split of the bogie's pull that the torques tell now, and with what these tell of the contact angles.
-    #[inline(never)] // flash is scarcer than the time of a call
     pub(super) fn contacts(&self, estimate: &HubForces<S>) -> PerAxle<ContactForces<S>> {
         let corrections = &self.corrections;
         let PerAxle { front, middle, rear } = self.on_ground(&self.forces.forces_at(estimate), corrections);

@@ -149,7 +149,7 @@ pub struct EstimatorHealth {
     /// Frames that repeated the time of the one before, and were left out.
     #[serde(with = "crate::outlined")]
     pub repeated_frames: u32,
-    /// Frames from before the one before, which were left out.
+    /// Frames from before the one before, which were left out, but for those with which the filters started anew.
     #[serde(with = "crate::outlined")]
     pub backward_frames: u32,
     /// Frames after a gap so long that the filters started anew.

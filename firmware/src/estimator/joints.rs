@@ -1,5 +1,6 @@
 //! What is taken for the angles of the joints, where their sensors say nothing too.
 
+use super::trend::LEAST_TRAVEL;
 use crate::scalar::Scalar;
 
 /// A joint's sensor that has been silent for so long is not awaited any more, s: between two frames of ten a second, so that rounding decides
@@ -10,8 +11,6 @@ const AWAITED_S: f64 = 4.95;
 const USUAL_RAD: f64 = 0.1;
 /// On the way it takes another angle after so much travel, m: most of a wheelbase.
 const ALIKE_M: f64 = 0.2;
-/// A rover that stands is told by this travel in a frame, m: no more than while it creeps.
-const LEAST_TRAVEL_M: f64 = 1.0e-4;
 
 /// How long each joint of a side has been silent, s: rocker against body, bogie against rocker.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +28,7 @@ impl<S: Scalar> Joints<S> {
     /// in each frame so weakly that it is told once in the travel after which it is another. Otherwise links would drift away without end,
     /// since nothing else tells how they lie.
     pub fn tick(&mut self, readings: [Option<S>; 2], noise_rad: S, travel_m: S, step_s: S) -> [(Option<S>, S); 2] {
-        let frames = S::constant(2.0 * ALIKE_M) / travel_m.max(S::constant(LEAST_TRAVEL_M));
+        let frames = S::constant(2.0 * ALIKE_M) / travel_m.max(S::constant(LEAST_TRAVEL));
         let usual = (S::constant(USUAL_RAD * USUAL_RAD) * frames).sqrt();
         let [rocker, bogie] = &mut self.silent_s;
         let [of_rocker, of_bogie] = readings;

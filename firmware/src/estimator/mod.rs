@@ -5,10 +5,10 @@
 //!
 //! - *Standing* ([`WheelActivity::Standing`], rim and hub below 1.5 mm/s): slip is undefined and absent; contact angles are what they
 //!   were before the wheels slowed down, since nothing rolls; torque follows the drive.
-//! - *Starting* and *stopping*: torque and forces may jump within a frame, so for eight frames they are not held to drift, nor are the
-//!   pitches of the links to rolling: load shifts to the rear wheel of the bogie, which turns as it sinks. How fast torque and forces wander
-//!   is learned afresh after twenty. The terrain is remembered from where the wheels stood, until the paths of the hubs tell it as well.
-//!   What speeds a drive up or slows it down is no part of the moments that its link has to hold.
+//! - *Starting* and *stopping*: torque and forces may jump within a frame, so for three quarters of a second they are not held to
+//!   drift, nor are the pitches of the links to rolling: load shifts to the rear wheel of the bogie, which turns as it sinks. How fast torque
+//!   and forces wander is learned afresh a second later. The terrain is remembered from where the wheels stood, until the paths of the hubs
+//!   tell it as well. What speeds a drive up or slows it down is no part of the moments that its link has to hold.
 //! - *Turning back*: rates and speeds change sign together; slip is positive when the rim is faster than the hub, in either
 //!   direction. In between the wheel stands.
 //! - *Blocked* ([`WheelActivity::Blocked`], a rim at less than a twelfth of its hub's speed): slip is −1. The side's speed is taken

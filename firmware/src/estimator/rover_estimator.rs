@@ -65,15 +65,14 @@ impl<S: Scalar> Common<S> {
 /// What became of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Taken {
-    /// It is in the estimate; travel of the rims since the one before, m.
+    /// It is in the estimate; travel of the ends of the axis since the one before, m.
     Used(f32),
     /// It repeats the time of the one before, or is from before that.
     LeftOut,
 }
 
 impl<S: Scalar> RoverEstimator<S> {
-    /// Estimators for a rover that was just switched on. The `flight` rover has the same numbers in single precision; the
-    /// gates compare readings as they come. For a rover that passes [`Rover::check`]; of another, estimates mean nothing.
+    /// Estimators for a rover that was just switched on and passes [`Rover::check`]; of another, estimates mean nothing.
     pub fn new(rover: &Rover<S>) -> Self {
         let mut estimator = Self::not_begun(rover);
         estimator.restart(rover);

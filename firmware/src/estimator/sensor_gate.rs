@@ -114,7 +114,7 @@ pub(super) struct SensorGates {
 }
 
 impl SensorGates {
-    /// Gates for what this rover can do at most: a wheel rate of a turn a second and a tenth of the speed of a car, cells
+    /// Gates for what this rover can do at most: rims at 2 m/s, cells
     /// and drives that hold its whole weight several times over.
     pub fn new(rover: &Rover<f32>) -> Self {
         let weight_n = rover.mass_kg * rover.gravity_m_s2;

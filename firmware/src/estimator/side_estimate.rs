@@ -53,7 +53,8 @@ impl<S: Scalar> SideEstimator<S> {
             let inputs = self.doubt_inputs(&stds, &contacts);
             self.doubt.take(&inputs);
         }
-        stds.iter_mut().zip(self.doubt.times()).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());
+        let times = self.doubt.times();
+        stds.iter_mut().zip(times).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());
         let [.., sum_std] = stds;
         let PerAxle { front, middle, rear } = &contacts;
         let sum = middle.pull_n + rear.pull_n;
@@ -62,16 +63,25 @@ impl<S: Scalar> SideEstimator<S> {
         let by_load = PerAxle { front: front.pull_n, middle: half * (sum + by_load), rear: half * (sum - by_load) };
         let bogie_drawbar_pull_n = published(sum, sum_std);
         let filters = self.wheels.as_ref().zip(self.activity);
-        let wheels = contacts.as_ref().zip(by_load).zip(filters.zip(of_wheels(&stds))).zip(self.lifted).map(
-            |(((contact, by_load), ((filter, activity), stds)), lifted)| {
+        let wheels = contacts
+            .as_ref()
+            .zip(by_load)
+            .zip(filters.zip(of_wheels(&stds).zip(of_wheels(&times))))
+            .zip(self.lifted)
+            .map(|(((contact, by_load), ((filter, activity), (stds, times))), lifted)| {
                 let wheel = WheelEstimate {
                     drawbar_pull_by_load_n: by_load.to_f32(),
-                    ..wheel(stds, contact, filter, activity)
+                    ..wheel(stds, times, contact, filter, activity)
                 };
                 if lifted { in_the_air(&wheel) } else { wheel }
-            },
-        );
-        SideEstimate { wheels, bogie_drawbar_pull_n }
+            });
+        let mut side = SideEstimate { wheels, bogie_drawbar_pull_n };
+        match (self.lifted.middle, self.lifted.rear) {
+            (true, false) => alone_on_the_ground(&mut side.wheels.rear, &bogie_drawbar_pull_n),
+            (false, true) => alone_on_the_ground(&mut side.wheels.middle, &bogie_drawbar_pull_n),
+            _ => {}
+        }
+        side
     }
 
     /// How the errors of each wheel's estimates belong together, with such forces on the hubs.
@@ -170,6 +180,7 @@ fn scaled<S: Scalar, const N: usize>(covariance: &[[S; N]; N], times: [S; N]) ->
 
 fn wheel<S: Scalar>(
     [torque_std, slip_std, angle_std, load_std, pull_std]: [S; QUANTITIES],
+    [_, times_slip, .., times_pull]: [S; QUANTITIES],
     contact: &ContactForces<S>,
     filter: &SlipTorqueFilter<S>,
     activity: WheelActivity,
@@ -179,12 +190,12 @@ fn wheel<S: Scalar>(
     WheelEstimate {
         activity,
         slip: published_slip(slip, slip_std, activity),
-        shared_slip_std: filter.shared_slip_variance().sqrt().to_f32(),
+        shared_slip_std: (times_slip * filter.shared_slip_variance().sqrt()).to_f32(),
         resistive_torque_nm: published(torque, torque_std),
         contact_angle_rad: published(contact.contact_angle_rad, angle_std),
         normal_load_n: published(contact.load_n, load_std),
         drawbar_pull_n: published(contact.pull_n, pull_std),
-        split_std_n: pull.by_split.abs().to_f32(),
+        split_std_n: (times_pull * pull.by_split.abs()).to_f32(),
         drawbar_pull_by_load_n: contact.pull_n.to_f32(),
     }
 }
@@ -200,6 +211,13 @@ fn in_the_air(wheel: &WheelEstimate) -> WheelEstimate {
         drawbar_pull_by_load_n: 0.0,
         ..*wheel
     }
+}
+
+/// Of a bogie whose other wheel is in the air a wheel pulls all.
+fn alone_on_the_ground(wheel: &mut WheelEstimate, bogie_drawbar_pull_n: &Estimate) {
+    wheel.drawbar_pull_n = *bogie_drawbar_pull_n;
+    wheel.drawbar_pull_by_load_n = bogie_drawbar_pull_n.value;
+    wheel.split_std_n = 0.0;
 }
 
 fn sums<S: Scalar, const N: usize>(one: &[S; N], other: &[S; N]) -> [S; N] {

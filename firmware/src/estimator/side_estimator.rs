@@ -32,6 +32,8 @@ const SETTLING_S: f64 = 0.75;
 /// After so long its wandering is learned afresh, s; and it has settled a tenth of a second later, give or take half of that.
 const SETTLED_S: f64 = 1.85;
 const STEADY_S: f64 = 1.95;
+/// A longer step counts as so long, s: to start takes some frames, too.
+const LONGEST_STEP_S: f64 = 0.25;
 /// Where torques swing, wheels go up and down with the grousers, and links with them, which no sensor follows: one standard deviation of what
 /// that adds to the speed of a hub, over the speed of its rim.
 const SWINGS_HUB: f64 = 0.08;
@@ -107,10 +109,7 @@ impl<S: Scalar> SideEstimator<S> {
         Self {
             rover: *rover,
             scale,
-            y_m: match side {
-                Side::Left => rover.suspension.half_track_m,
-                Side::Right => -rover.suspension.half_track_m,
-            },
+            y_m: rover.suspension.y_m(side),
             motion: angles.motion(),
             angles,
             wheels: PerAxle { front: wheel(0), middle: wheel(1), rear: wheel(2) },
@@ -189,7 +188,7 @@ impl<S: Scalar> SideEstimator<S> {
         self.tick_forces(step_s, frame, attitude, &mut surprises);
         let loads = self.forces.beyond_rest_n().zip(frame.load_cell_n).map(|(load, cell)| cell.map(|_| load));
         let travel_m = self.speed_m_s() * step_s;
-        self.sinking.follow(travel_m, &loads);
+        self.sinking.follow(if self.rolls_back() { -travel_m } else { travel_m }, &loads);
         self.follow_compaction(travel_m);
         self.follow_track(step_s, frame.gyro_rad_s.z);
         surprises
@@ -265,6 +264,7 @@ impl<S: Scalar> SideEstimator<S> {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
         let steady = S::constant(STEADY_S);
+        let counts_s = step_s.min(S::constant(LONGEST_STEP_S));
         let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
         let [mut starts, mut settles, mut stands, mut swings] = [false; 4];
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.rolling_s.as_mut()));
@@ -282,13 +282,15 @@ impl<S: Scalar> SideEstimator<S> {
                 hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| now == WheelActivity::Rolling),
                 hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
             };
-            if now != *activity {
+            if now == WheelActivity::Blocked {
+                filter.block();
+            } else if now != *activity {
                 filter.start(&speeds);
             }
             *activity = now;
             stands |= now == WheelActivity::Standing;
             let before = *rolling;
-            *rolling = if now == WheelActivity::Standing { S::zero() } else { (before + step_s).min(steady) };
+            *rolling = if now == WheelActivity::Standing { S::zero() } else { (before + counts_s).min(steady) };
             if *rolling < S::constant(SETTLING_S) {
                 filter.unsettle(step_s);
                 starts = true;
@@ -337,7 +339,8 @@ impl<S: Scalar> SideEstimator<S> {
         let centre = self.rover.suspension.centre_of_mass;
         let arm_squared = centre.x * centre.x + centre.z * centre.z;
         let half = S::constant(0.5);
-        let body_std = half * self.rover.mass_kg * noise.accel_m_s2;
+        let half_mass = half * self.rover.mass_kg;
+        let body_variance = half_mass * half_mass * attitude.force_variance(noise.accel_m_s2) * arm_squared;
         let lifted = self.lifted;
         let readings = ForceReadings {
             cells_n: frame.load_cell_n,
@@ -345,10 +348,7 @@ impl<S: Scalar> SideEstimator<S> {
             bogie_hangs: lifted.middle || lifted.rear,
             all_roll: self.activity.into_array().into_iter().all(|activity| activity == WheelActivity::Rolling),
             bogie_moment_nm: (torques.middle.0 + torques.rear.0, (torques.middle.1 + torques.rear.1).sqrt()),
-            rocker_moment_nm: (
-                torques.front.0 - half * body,
-                (torques.front.1 + body_std * body_std * arm_squared).sqrt(),
-            ),
+            rocker_moment_nm: (torques.front.0 - half * body, (torques.front.1 + body_variance).sqrt()),
         };
         let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         let told = self.told_along_links();

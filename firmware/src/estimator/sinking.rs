@@ -6,6 +6,7 @@
 //! 25 mm under 67 N and n about 1, some 0.08 to 0.25 mm/N. How a slip that changes makes a wheel sink is left out.
 
 use super::scale::Scale;
+use super::trend::LEAST_TRAVEL;
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
@@ -15,8 +16,6 @@ const SINKAGE_FOR_LOAD: f64 = 1.5e-4;
 const AVERAGED_OVER: f64 = 0.01;
 /// No wheel sinks more steeply than so, rad: beyond it the load has jumped, and the wheel was lifted or set down.
 const STEEPEST: f64 = 0.3;
-/// A side that travels less than this in a frame stands, m.
-const LEAST_TRAVEL: f64 = 1.0e-4;
 
 /// How steeply the wheels of a side sink.
 #[derive(Debug, Clone, Copy)]
@@ -35,20 +34,21 @@ impl<S: Scalar> Sinking<S> {
         Self { slopes_rad: PerAxle::all(S::zero()), loads_n: PerAxle::all(None), for_load }
     }
 
-    /// Sinkage over travel of each wheel, rad.
+    /// Sinkage over travel of each wheel, rad: a hub that sinks goes down forward, and up against the way backward.
     pub fn slopes(&self) -> &PerAxle<S> {
         &self.slopes_rad
     }
 
-    /// Takes the loads after so much travel, N; none where the cell is silent: what becomes known of a load when its cell speaks
-    /// again is no change of it.
+    /// Takes the loads after so much travel, less than none backward, N; none where the cell is silent: what becomes known of a load when its
+    /// cell speaks again is no change of it.
     pub fn follow(&mut self, travel_m: S, loads_n: &PerAxle<Option<S>>) {
         let before = core::mem::replace(&mut self.loads_n, *loads_n);
-        if travel_m < S::constant(LEAST_TRAVEL) {
+        let way_m = travel_m.abs();
+        if way_m < S::constant(LEAST_TRAVEL) {
             self.slopes_rad = PerAxle::all(S::zero());
             return;
         }
-        let share = travel_m / (travel_m + S::constant(AVERAGED_OVER));
+        let share = way_m / (way_m + S::constant(AVERAGED_OVER));
         let per_load = self.for_load / travel_m;
         let steepest = S::constant(STEEPEST);
         let loads = before.as_array().into_iter().zip(loads_n.as_array());
@@ -85,6 +85,19 @@ mod tests {
         assert!((front - 0.015).abs() < 1.0e-6 && middle == 0.0 && (rear + 0.015).abs() < 1.0e-6, "{front} {rear}");
         sinking.follow(0.0, &loads(90.0, 90.0, Some(90.0)));
         assert_eq!(*sinking.slopes(), PerAxle::all(0.0));
+    }
+
+    /// The same way back, load for load: the hub comes up where it went down, along the same path.
+    #[test]
+    fn a_wheel_that_rolls_back_comes_up_along_the_same_path() {
+        let (mut forth, mut back) = (sinking(), sinking());
+        for frame in 0..=100 {
+            let change = 0.2 * f64::from(frame);
+            forth.follow(0.002, &loads(60.0 + change, 60.0, None));
+            back.follow(-0.002, &loads(80.0 - change, 60.0, None));
+        }
+        let (forth, back) = (forth.slopes().front, back.slopes().front);
+        assert!(forth > 0.014 && (forth - back).abs() < 1.0e-9, "{forth} {back}");
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! A wheel that slips more meets more torque: shear stress grows with shear displacement, and a torque that drifts takes the slip
 //! with it. So the drive's torque tells of slip what the camera sees but through its noise.
 
+use super::activity::BLOCKED;
 use super::drive_inertia::DriveInertia;
 use super::scale::Scale;
 use super::slip_by_speeds::SpeedReadings;
@@ -27,7 +28,7 @@ pub(super) struct WheelReadings<S> {
     pub speeds: SpeedReadings<S>,
     /// One standard deviation of the rate, rad/s.
     pub rate_std_rad_s: S,
-    /// The part of it that all wheels share: the velocimeter is one camera, m/s.
+    /// The part of the hub speed's standard deviation that all wheels share: the velocimeter is one camera, m/s.
     pub shared_speed_std_m_s: S,
     /// How rough the ground is: how fast the links' pitches wander, over the nominal drift, as a variance.
     pub roughness: S,
@@ -180,6 +181,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     pub fn start(&mut self, told: &SpeedReadings<S>) {
         let (mean, std) = told.slip(self.model.radius_m).unwrap_or_else(|| STARTING_SLIP.map(S::constant).into());
         self.restart_slip(mean, std);
+    }
+
+    /// The wheel is dragged and does not turn.
+    pub fn block(&mut self) {
+        self.restart_slip(-S::one(), S::constant(BLOCKED));
     }
 
     #[inline(never)] // flash is scarcer than the time of a call

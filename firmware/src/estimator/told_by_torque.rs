@@ -35,15 +35,13 @@ impl<S: Scalar> SideEstimator<S> {
             .zip(self.settled())
             .zip(self.lifted)
             .map(|((activity, steady), lifted)| activity == WheelActivity::Rolling && steady && !lifted && settled);
-        let skids = hubs.as_array().into_iter().any(|hub| hub.wheel.slip < S::constant(GREATEST_SKID));
+        let skids = hubs.as_ref().map(|hub| hub.wheel.slip < S::constant(GREATEST_SKID));
+        let held = self.forces.bogie_is_held();
         let [of_front, of_bogie] = &mut self.compaction;
-        if skids || self.forces.bogie_is_held() {
-            of_front.pause();
-            of_bogie.pause();
-        } else {
-            follow(of_front, travel_m, rolls.front, &[&hubs.front]);
-            follow(of_bogie, travel_m, rolls.middle && rolls.rear, &[&hubs.middle, &hubs.rear]);
-        }
+        let are_known = !(skids.front || held);
+        follow(of_front, travel_m, (are_known, rolls.front), &[&hubs.front]);
+        let are_known = !(skids.middle || skids.rear || held);
+        follow(of_bogie, travel_m, (are_known, rolls.middle && rolls.rear), &[&hubs.middle, &hubs.rear]);
         self.corrections = self.corrections(&hubs);
         if let Some((told, steeper)) = self.digging_in.terrain().tells(&self.angles) {
             let corrections = self.corrections.as_mut().zip(steeper).into_array();
@@ -99,10 +97,18 @@ impl<S: Scalar> SideEstimator<S> {
     }
 }
 
-/// Takes what compacts the soil under some wheels together, if all of them roll.
+/// Takes what compacts the soil under some wheels together, if what they pull is known and all of them roll.
 #[inline(never)] // flash is scarcer than the time of a call
-fn follow<S: Scalar>(compaction: &mut Compaction<S>, travel_m: S, rolls: bool, hubs: &[&HubOnGround<S>]) {
-    if !rolls {
+fn follow<S: Scalar>(
+    compaction: &mut Compaction<S>,
+    travel_m: S,
+    (are_known, roll): (bool, bool),
+    hubs: &[&HubOnGround<S>],
+) {
+    if !are_known {
+        return compaction.pause();
+    }
+    if !roll {
         return compaction.forget();
     }
     let sum = |of: fn(&HubOnGround<S>) -> S| hubs.iter().fold(S::zero(), |sum, hub| sum + of(hub));

@@ -106,11 +106,13 @@ impl<S: Scalar> Track<S> {
     }
 
     /// How many pieces before the front wheel's own a place is that is so far behind its hub, m; none where it is not known.
+    #[inline(never)] // flash is scarcer than the time of a call
     fn back(&self, behind_m: S) -> Option<usize> {
         let back = (behind_m * self.pieces_per_m - self.on).max(S::zero()).to_f32() as usize + 1;
         (back <= self.known).then_some(back)
     }
 
+    #[inline(never)] // flash is scarcer than the time of a call
     fn piece(&self, back: usize) -> Option<&Piece<S>> {
         self.pieces.get((self.at + PIECES - back) % PIECES)
     }
@@ -152,7 +154,7 @@ impl<S: Scalar> SideEstimator<S> {
         self.track.follow(forward_m, restless, self.angles.angles().front, told);
         let sharpest_rad_s = S::constant(SHARPEST / TO_REAR) * self.track.pieces_per_m * self.speed_m_s();
         let turns = yaw_rate_rad_s.is_some_and(|rate| rate.abs() > sharpest_rad_s);
-        if turns || !(self.settled().front && self.digging_in.is_over()) {
+        if turns || !(of_front.was_ever_known() && self.settled().front && self.digging_in.is_over()) {
             self.track.forget();
         }
         let PerAxle { front: rocker_rad, rear: bogie_rad, .. } = self.angles.links();

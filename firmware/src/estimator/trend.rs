@@ -14,7 +14,7 @@ const MOST: f64 = 0.5;
 /// A quantity that drifts by this, over its nominal drift as a variance, is half way between still and restless.
 const RESTLESS: f64 = 0.01;
 /// A side that travels less than this in a frame stands, m.
-const LEAST_TRAVEL: f64 = 1.0e-4;
+pub(super) const LEAST_TRAVEL: f64 = 1.0e-4;
 
 /// How restless a quantity is that drifts by such a factor of its nominal drift, as a variance: 0 where it is still, 1 where it is
 /// anything but.

@@ -5,9 +5,9 @@ use crate::math;
 use crate::network::{OUTPUTS, TARGETS};
 
 /// Travel over which instants are remembered, m.
-const LENGTH_M: f32 = 3.0;
+const LENGTH_M: f32 = 6.0;
 /// Travel between instants that count as independent, m: what the filters remember where the ground changes nothing.
-const INDEPENDENT_M: f32 = 0.3;
+const INDEPENDENT_M: f32 = 0.6;
 /// What an instant outside the training range counts, over one inside.
 const OUTSIDE_COUNTS: f32 = 0.05;
 /// Variance over that of the prior below which an instant counts no more than at it.

@@ -53,9 +53,18 @@ impl SoilChangeDetector {
         self.arrivals.map_wheels(|arrival| arrival.is_some_and(|arrival| arrival.stiffness == change.stiffness))
     }
 
-    /// The rover turns back over its soil. Other wheels bear more there, and what they met before tells nothing of what they meet now.
-    pub fn turn_back(&mut self) {
+    /// The rover turns back over its soil. Other wheels bear more there, and what they met before tells nothing of what they meet now. Gives
+    /// whether it was on its way onto another soil, which it then leaves again.
+    pub fn turn_back(&mut self) -> bool {
         self.watches = PerSide::both(PerAxle::all(ResistanceWatch::new()));
+        self.leave();
+        self.under_way.take().is_some()
+    }
+
+    /// No wheel is on its way onto a soil.
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn leave(&mut self) {
+        self.arrivals = PerWheel::default();
     }
 
     /// Takes the wheels after some travel, m. How the soil changed, if that was noticed now.
@@ -74,7 +83,7 @@ impl SoilChangeDetector {
                 change.travel_m += travel_m;
                 if change.travel_m > self.crossing_m {
                     self.under_way = None;
-                    self.arrivals = PerWheel::default();
+                    self.leave();
                 }
                 None
             }
@@ -128,5 +137,22 @@ mod tests {
     fn what_wheels_meet_on_the_way_back_is_not_held_against_what_they_met() {
         assert_eq!(changes(false), 1);
         assert_eq!(changes(true), 0);
+    }
+
+    /// A rover that turns back on the border leaves the new soil again: all its wheels are on the old one, and nothing is under way.
+    #[test]
+    fn who_turns_back_on_the_border_leaves_the_new_soil() {
+        let mut detector = SoilChangeDetector::new(0.075, 0.5);
+        let under = |front: f32| {
+            let mut wheels = wheels(0.3);
+            let told = self::wheels(front);
+            (wheels.left.front, wheels.right.front) = (told.left.front, told.right.front);
+            wheels
+        };
+        (0..200).for_each(|_| _ = detector.tick(&under(0.3), 0.002));
+        (0..100).for_each(|_| _ = detector.tick(&under(0.4), 0.002));
+        assert_eq!((detector.changes(), detector.on_newest_soil().left.rear), (1, false));
+        assert!(detector.turn_back());
+        assert!(detector.on_newest_soil().left.rear && !detector.turn_back());
     }
 }

@@ -57,22 +57,21 @@ impl SoilOverTime {
         } else {
             wheels
         };
-        self.follow_direction(wheels, backward);
+        let left_again = self.follow_direction(wheels, backward);
         let wheel_soils = wheels.as_ref().map(|side| side.as_ref().map(|wheel| self.under_wheel(wheel)));
-        if self.changes.tick(wheels, travel_m).is_some() {
+        if self.changes.tick(wheels, travel_m).is_some() || left_again {
             self.average = SoilAverage::new();
         }
         let rover = self.under_rover(wheels, travel_m);
         (wheel_soils, rover)
     }
 
-    fn follow_direction(&mut self, wheels: &PerWheel<WheelEstimate>, backward: PerSide<bool>) {
+    /// Whether the rover turned back off a soil that it was on its way onto.
+    fn follow_direction(&mut self, wheels: &PerWheel<WheelEstimate>, backward: PerSide<bool>) -> bool {
         let before = self.backward;
         let rolls = wheels.as_ref().map(|side| side.front.activity == WheelActivity::Rolling);
         self.backward = rolls.zip(backward.zip(before)).map(|(rolls, (now, before))| if rolls { now } else { before });
-        if self.backward != before {
-            self.changes.turn_back();
-        }
+        self.backward != before && self.changes.turn_back()
     }
 
     /// The per-wheel network is not told the slope, which would tell it what all wheels pull together: it has learned that from rovers whose
@@ -115,6 +114,8 @@ impl SoilOverTime {
     /// Asks the rover network, in turn as it is and what would last without noise.
     fn take(&mut self, mut query: SoilQuery, shared_slip_std: f32, travel_m: f32) -> Result<(), Refusal> {
         self.asks_what_lasts = !self.asks_what_lasts;
+        // Either is asked in every other frame, and stands for the travel of two.
+        let travel_m = travel_m + travel_m;
         if self.asks_what_lasts && self.average.outputs().is_some() {
             let noise = &mut query.noise;
             let lasting = HARDLY_ANY * noise.slip;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Axes, Planar, SensorNoise};
+use super::{Axes, Planar, SensorNoise, Side};
 use crate::scalar::Scalar;
 use crate::terramechanics::Wheel;
 
@@ -65,7 +65,7 @@ pub enum GeometryError {
     /// The bogie pivot is not above its hubs, or the differential axis not above the front hub, by a thousandth of a
     /// wheel radius: drawbar pull would have no lever arm.
     LeverArm,
-    /// The centre of mass is not between front and rear hubs and between the sides: the rover would not stand.
+    /// The centre of mass is not between front hub and bogie pivot and between the sides: the rover would not stand.
     CentreOfMass,
     /// The reflected inertia is not a number above zero.
     Inertia,
@@ -126,6 +126,14 @@ impl<S: Scalar> Rover<S> {
 }
 
 impl<S: Scalar> Suspension<S> {
+    /// Where the wheels of a side are across the rover, m, to the left.
+    pub fn y_m(&self, side: Side) -> S {
+        match side {
+            Side::Left => self.half_track_m,
+            Side::Right => -self.half_track_m,
+        }
+    }
+
     fn is_finite(&self) -> bool {
         let planar = [self.front_hub, self.bogie_pivot, self.middle_hub, self.rear_hub];
         let Axes { x, y, z } = self.centre_of_mass;
@@ -141,7 +149,7 @@ impl<S: Scalar> Suspension<S> {
     }
 
     fn bogie_stands(&self) -> bool {
-        self.middle_hub.x > S::zero() && self.rear_hub.x < S::zero() && self.front_hub.x > self.bogie_pivot.x
+        self.middle_hub.x > S::zero() && self.rear_hub.x < S::zero()
     }
 
     fn has_lever_arms(&self, least: S) -> bool {

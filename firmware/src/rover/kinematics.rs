@@ -52,10 +52,7 @@ impl<S: Scalar> SideLayout<S> {
         let rocker = angles.rocker.pitch_rad.sin_cos();
         let bogie = (angles.rocker.pitch_rad + angles.bogie.pitch_rad).sin_cos();
         let bogie_pivot = suspension.bogie_pivot.turned(rocker);
-        let y_m = match side {
-            Side::Left => suspension.half_track_m,
-            Side::Right => -suspension.half_track_m,
-        };
+        let y_m = suspension.y_m(side);
         let hubs = PerAxle {
             front: suspension.front_hub.turned(rocker),
             middle: bogie_pivot + suspension.middle_hub.turned(bogie),

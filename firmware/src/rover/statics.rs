@@ -59,7 +59,7 @@ mod tests {
     use super::{Contact, bogie_moment_nm, rocker_moment_nm};
     use crate::rover::{LinkAngles, PerAxle, Rover, Side, SideLayout};
 
-    /// METHODS' closed form for level ground: DP2 + DP3 = (x3' W3 − x2 W2 − τ2 − τ3) / h_B.
+    /// The closed form for level ground: DP2 + DP3 = (x3' W3 − x2 W2 − τ2 − τ3) / h_B.
     #[test]
     fn on_level_ground_the_bogie_gives_the_sum_of_its_drawbar_pulls() {
         let rover = Rover::<f64>::assumed();
