@@ -24,6 +24,8 @@ const RECEIVE_OVERRUN: u32 = 1 << 3;
 const TRANSMIT_ENABLE: u32 = 1 << 0;
 const RECEIVE_ENABLE: u32 = 1 << 1;
 const RECEIVE_INTERRUPT_ENABLE: u32 = 1 << 3;
+/// That something was received, among the interrupts.
+const RECEIVED_INTERRUPT: u32 = 1 << 1;
 
 /// The least divider that the device accepts: 25 MHz / 16.
 const BAUD_DIVIDER: u32 = 16;
@@ -98,7 +100,7 @@ unsafe impl InterruptNumber for ReceiveInterrupt {
 pub(crate) fn on_receive() {
     critical_section::with(|section| {
         RECEIVED.with(section, |queue| {
-            UART0.clear_interrupts(RECEIVE_ENABLE);
+            UART0.clear_interrupts(RECEIVED_INTERRUPT);
             while UART0.state() & RECEIVE_FULL != 0 {
                 if queue.is_full() {
                     UART0.control(TRANSMIT_ENABLE | RECEIVE_ENABLE);

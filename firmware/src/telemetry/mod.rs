@@ -101,8 +101,8 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
             Ok(request) => self.reply(sequence, &request),
             Err(error) => (Reply::Error(error), Event::Refused(error)),
         };
-        if !matches!(event, Event::Repeated | Event::FrameRefused(FrameRefusal::OutOfOrder { .. }) | Event::Refused(_))
-        {
+        // A frame that is sent again counts as well: where an old question that was asked again had led back, it is what is waited for.
+        if !matches!(event, Event::FrameRefused(FrameRefusal::OutOfOrder { .. }) | Event::Refused(_)) {
             self.last_served = sequence;
         }
         self.link.send(sequence, &reply);

@@ -124,6 +124,20 @@ fn a_frame_after_a_gap_waits_until_the_gap_is_filled() {
     assert_eq!(computer.estimator_health(7).frames, 5);
 }
 
+/// A question between two frames is asked again since its answer was lost: the frame after it is waited for, and then the next is in order.
+#[test]
+fn an_old_question_that_is_asked_again_does_not_hold_up_the_frames() {
+    let mut computer = Computer::greeted();
+    computer.ask(2, &frame(1));
+    let _ = computer.ask(3, &Request::Health);
+    assert!(matches!(computer.ask(4, &frame(2)), Reply::Frame(Ok(_))));
+    let _ = computer.ask(3, &Request::Health);
+    assert_eq!(computer.ask(5, &frame(3)), Reply::Frame(Err(FrameRefusal::OutOfOrder { expected: 4 })));
+    assert!(matches!(computer.ask(4, &frame(2)), Reply::Frame(Ok(_))));
+    assert!(matches!(computer.ask(5, &frame(3)), Reply::Frame(Ok(_))));
+    assert_eq!(computer.estimator_health(6).frames, 3);
+}
+
 #[test]
 fn nothing_is_estimated_before_the_start() {
     let mut computer = Computer(Telemetry::new(Port::default(), NoBoard));

@@ -75,11 +75,12 @@ impl Machine {
         }
         qemu.arg("-kernel").arg(image.path());
         let (mut child, keeper) = spawn_kept(qemu)?;
-        match accept(&link_port, &mut child).and_then(|link| Ok((link, accept(&log_port, &mut child)?))) {
-            Ok((link, log)) => {
-                let log = Log::follow(image, log, view)?;
-                Ok(Self { child, link, log, keeper: Some(keeper) })
-            }
+        let connected = accept(&link_port, &mut child).and_then(|link| {
+            let log = accept(&log_port, &mut child)?;
+            Ok((link, Log::follow(image, log, view).map_err(|error| error.to_string())?))
+        });
+        match connected {
+            Ok((link, log)) => Ok(Self { child, link, log, keeper: Some(keeper) }),
             Err(reason) => {
                 end(&mut child);
                 let printed = keeper.join().unwrap_or_default();
