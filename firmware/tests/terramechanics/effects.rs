@@ -128,6 +128,17 @@ fn grousers_of_five_millimetres() {
     check_forces(&[("grouser-thrust", "lambda", 1.0)], [[5.35, 0.49], [5.2, 0.51], [4.5, 0.48]]);
 }
 
+/// Blades over a contact of no length: the limit is finite.
+#[test]
+fn grousers_that_hardly_touch() {
+    for settings in [[("grouser-thrust", "lambda", 1.0)], [("grouser-thrust", "blade", 0.5)]] {
+        let effects = with(&settings);
+        let at = |sinkage_m: f64| on_sand(&effects).forces(&Conditions::default(), 0.2, LOAD_N, sinkage_m);
+        let (none, hardly) = (at(0.0).expect("a state"), at(1.0e-9).expect("a state"));
+        assert!((none.drawbar_pull_n - hardly.drawbar_pull_n).abs() < 0.01, "{settings:?}: {none:?}, {hardly:?}");
+    }
+}
+
 #[test]
 fn shear_hump() {
     check_forces(

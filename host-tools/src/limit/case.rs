@@ -13,13 +13,10 @@ use crate::train::observe::observe;
 use crate::train::prior;
 use crate::train::scene::{Design, Scene, scenes};
 
-/// Half of the spread of true loads among the wheels of [`Design::Kapvik`], as a share of their mean.
-const KAPVIK_LOAD_SPREAD: f64 = 0.08;
-
 /// The loads that [`Design::Kapvik`] draws.
 pub const KAPVIK_LOADS: LoadPrior = LoadPrior::Between(
-    prior::KAPVIK_LOAD_N * (1.0 - KAPVIK_LOAD_SPREAD),
-    prior::KAPVIK_LOAD_N * (1.0 + KAPVIK_LOAD_SPREAD),
+    prior::KAPVIK_LOAD_N * (1.0 - prior::KAPVIK_LOAD_SPREAD),
+    prior::KAPVIK_LOAD_N * (1.0 + prior::KAPVIK_LOAD_SPREAD),
 );
 
 /// One observation, what is true of it, and what its posterior says.

@@ -120,7 +120,10 @@ fn lacks(id: &str, parameter: &str) -> Option<&'static str> {
         }
         ("force-bias", "drawbar_pull_n") | ("force-drift", "drawbar_pull_n_per_h") => Some(PULL),
         ("grouser-ripple", "drawbar_pull_sin_n" | "drawbar_pull_cos_n") => Some(PULL),
-        ("crosstalk", "load_to_drawbar_pull" | "side_force_to_drawbar_pull") => Some(PULL),
+        ("crosstalk", "load_to_drawbar_pull" | "side_force_to_drawbar_pull" | "torque_to_drawbar_pull_per_m") => {
+            Some(PULL)
+        }
+        ("pitch-misalignment", "own_weight_n") => Some(PULL),
         ("force-bias", "side_force_n") | ("force-drift", "side_force_n_per_h") => Some(SIDE),
         ("crosstalk", "drawbar_pull_to_side_force" | "load_to_side_force") => Some(SIDE),
         _ => None,
@@ -165,6 +168,8 @@ mod tests {
             ("slip-sinkage", 30.0, "n1 = 30: expected -0.5 to 2"),
             ("slip-sinkage.apparent", 0.3, "no sensor of the sinkage"),
             ("force-drift.load_n_per_c", 0.3, "no temperature"),
+            ("crosstalk.torque_to_drawbar_pull_per_m", 0.3, "no sensor of the drawbar pull"),
+            ("pitch-misalignment.own_weight_n", 3.0, "no sensor of the drawbar pull"),
         ] {
             let said = effects.set(name, value).expect_err(name);
             assert!(said.contains(words), "{name}: {said}");

@@ -1,6 +1,6 @@
 //! The stated priors: what a soil, a wheel and a set of sensors may be, before any data.
 //!
-//! The soil ranges and the noise are those of the experiment that the project compares itself with (φ 22–42°, K
+//! The soil ranges and the noise are those of the experiment that `kapvik bench network` and `limit` judge by (φ 22–42°, K
 //! 5–35 mm, n 0.8–1.3, k_φ 0.8–5 MPa/mⁿ, 0.5 N, 1 N, 0.05 N·m, 2 mm and 0.01 per instant on the assumed Kapvik wheel).
 
 use kapvik_firmware::soil::LEAST_SLIP;
@@ -107,8 +107,10 @@ pub const MANOEUVRE_SLIP_HIGH: Range = Range::linear(0.50, 0.70);
 pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 /// Kapvik's grousers. Assumed, not published (assumption set K0). They act only through an effect.
 pub const KAPVIK_GROUSERS: Grousers<f64> = Grousers { height_m: 0.005, count: 24.0 };
-/// Mean load of Kapvik's wheels in the comparison experiment, N; 40 kg on six wheels.
+/// Mean load of Kapvik's wheels in that experiment, N; 40 kg on six wheels.
 pub const KAPVIK_LOAD_N: f64 = 65.4;
+/// Half of the spread of true loads among the wheels there, as a share of their mean.
+pub const KAPVIK_LOAD_SPREAD: f64 = 0.08;
 /// Mean load of Kapvik's wheels in training, N.
 pub const KAPVIK_LOADS_N: Range = Range::linear(30.0, 110.0);
 /// Radius of other wheels, m.

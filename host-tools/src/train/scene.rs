@@ -231,7 +231,7 @@ fn draw_kapvik(shares: &mut Shares, ground: &Ground, instants: u32, sinkage: boo
     let mut asked = heapless::Vec::new();
     for place in 0..WHEELS {
         let slip = 0.05 + 0.55 * place as f64 / (WHEELS - 1) as f64;
-        let load = prior::KAPVIK_LOAD_N * (1.0 + 0.08 * (2.0 * shares.next() - 1.0));
+        let load = prior::KAPVIK_LOAD_N * (1.0 + prior::KAPVIK_LOAD_SPREAD * (2.0 * shares.next() - 1.0));
         asked.push((slip, load)).ok()?;
     }
     let (wheels, misread) = ground.states(&wheel, &prior::KAPVIK_GROUSERS, &asked)?;

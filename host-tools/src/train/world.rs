@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use kapvik_firmware::terramechanics::effects::{Effects, Form, ParameterInfo};
+use kapvik_firmware::terramechanics::effects::{Effects, ParameterInfo};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::data::campaign::{Declared, DeclaredEffect, Knowledge};
@@ -68,7 +68,7 @@ impl World {
 
 impl WorldEffect {
     fn of(declared: &DeclaredEffect) -> Self {
-        let form = declared.form.or_else(|| fitting_form(declared));
+        let form = declared.first_form();
         let spread = |parameter: &ParameterInfo| {
             let within = |name: &str| name == parameter.name;
             let set = form.and_then(|form| form.set.iter().find(|(name, _)| within(name)));
@@ -83,12 +83,6 @@ impl WorldEffect {
         let parameters = parameters.filter_map(|parameter| Some((parameter.name, spread(parameter)?))).collect();
         Self { id: declared.info.id, parameters }
     }
-}
-
-/// The first form in which all given parameters occur; none where they occur in none together.
-fn fitting_form(declared: &DeclaredEffect) -> Option<&'static Form> {
-    let occurs = |form: &Form, name: &str| form.free.contains(&name) || form.set.iter().any(|(set, _)| *set == name);
-    declared.info.forms.iter().find(|form| declared.known.keys().all(|name| occurs(form, name)))
 }
 
 impl Spread {
@@ -106,6 +100,10 @@ impl Spread {
     }
 
     fn unknown(parameter: &ParameterInfo) -> Self {
+        // What does nothing beyond its bounds may be anywhere within them.
+        if !(parameter.low..=parameter.high).contains(&parameter.neutral) {
+            return Self::Uniform { low: parameter.low, high: parameter.high };
+        }
         let reach = Self::REACH * parameter.typical.abs();
         Self::Uniform {
             low: (parameter.neutral - reach).max(parameter.low),
@@ -171,6 +169,8 @@ fn rounded(value: f64) -> f64 {
 mod tests {
     use std::path::Path;
 
+    use kapvik_firmware::terramechanics::effects::CATALOGUE;
+
     use super::*;
 
     fn world(text: &str) -> World {
@@ -188,6 +188,15 @@ mod tests {
         let text = "[declared]\neffects = [\"slip-sinkage\"]\n[declared.slip-sinkage]\nn1 = 0.3\n";
         assert_eq!(drawn(text, "slip-sinkage", "n1"), [Some(0.3); 3]);
         assert_eq!(drawn(text, "slip-sinkage", "stretch"), [Some(0.0); 3], "what the form does not have is neutral");
+    }
+
+    /// Of what nothing is known, what is typical may be.
+    #[test]
+    fn a_spread_of_which_nothing_is_known_holds_what_is_typical() {
+        for parameter in CATALOGUE.iter().flat_map(|info| info.parameters) {
+            let Spread::Uniform { low, high } = Spread::unknown(parameter) else { panic!("{}", parameter.name) };
+            assert!((low..=high).contains(&parameter.typical), "{}: {low} to {high}", parameter.name);
+        }
     }
 
     #[test]

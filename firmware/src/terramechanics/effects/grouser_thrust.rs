@@ -38,13 +38,13 @@ impl<S: Scalar> Effect<S> for GrouserThrust<S> {
     fn resist(&self, truth: &mut WheelTruth<S>, contact: &Contact<S>, at: &Circumstances<'_, S>) {
         let (height, width) = (at.grousers.height_m, at.wheel.width_m);
         let passive = at.passive_coefficient();
-        let mean_pa = at.load_n / (at.wheel.radius_m * width * contact.span_rad());
         let half = S::constant(0.5);
         let line_n_m = half * at.unit_weight_n_m3() * height * height * passive
-            + S::constant(2.0) * at.soil.cohesion_pa * height * passive.sqrt()
-            + mean_pa * height * passive;
-        let engaged = at.grousers.count * contact.span_rad() * S::constant(0.5 * core::f64::consts::FRAC_1_PI);
-        let thrust_n = self.blade_share * width * line_n_m * engaged;
+            + S::constant(2.0) * at.soil.cohesion_pa * height * passive.sqrt();
+        let per_rad = at.grousers.count * S::constant(0.5 * core::f64::consts::FRAC_1_PI);
+        // That of the mean pressure, W/(r b span), over all blades in the span: which may be none at all.
+        let of_load_n = at.load_n * height * passive * per_rad / at.wheel.radius_m;
+        let thrust_n = self.blade_share * (width * line_n_m * per_rad * contact.span_rad() + of_load_n);
         truth.drawbar_pull_n += thrust_n;
         truth.torque_nm += thrust_n * (at.wheel.radius_m + half * height);
     }

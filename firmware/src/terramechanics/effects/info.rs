@@ -41,6 +41,13 @@ pub struct Form {
     pub needs: &'static [Column],
 }
 
+impl Form {
+    /// Whether it frees or sets a parameter.
+    pub fn has(&self, parameter: &str) -> bool {
+        self.free.contains(&parameter) || self.set.iter().any(|(set, _)| *set == parameter)
+    }
+}
+
 /// What a form of an effect needs to know.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Column {

@@ -29,6 +29,10 @@ struct Holder {
     declared: Option<DeclaredTable>,
 }
 
+/// What the names of parameters begin with whose change only moves another parameter: the load, the speed or the temperature at which that
+/// one does nothing.
+const REFERENCE: &str = "reference";
+
 /// The table of an effect.
 type Entries = BTreeMap<Spanned<String>, Spanned<Entry>>;
 
@@ -56,6 +60,19 @@ pub struct DeclaredEffect {
     pub form: Option<&'static Form>,
     /// What is known of its parameters, by name.
     pub known: BTreeMap<&'static str, Knowledge>,
+}
+
+impl DeclaredEffect {
+    /// Whether it may have a form: what is known of it are parameters that the form frees or sets, or what these refer to.
+    pub fn may_be(&self, form: &Form) -> bool {
+        self.known.keys().all(|name| form.has(name) || name.starts_with(REFERENCE))
+    }
+
+    /// The form that the file states, else the first that it may have, else the effect's first.
+    pub fn first_form(&self) -> Option<&'static Form> {
+        let may_be = || self.info.forms.iter().find(|form| self.may_be(form));
+        self.form.or_else(may_be).or(self.info.forms.first())
+    }
 }
 
 impl Declared {
@@ -193,6 +210,18 @@ impl<'de> Visitor<'de> for TableVisitor {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_known_of_an_effect_says_which_form_it_has() {
+        let form = |parameters: &str| {
+            let text = format!("[declared]\neffects = [\"slip-sinkage\"]\n[declared.slip-sinkage]\n{parameters}");
+            let declared = Declared::parse(Path::new("declared.toml"), &text).expect("declared");
+            declared.effects[0].first_form().map(|form| form.name)
+        };
+        assert_eq!(form("n1 = 0.3\n"), Some("exponent"));
+        assert_ne!(form("stretch = 0.4\n"), Some("exponent"), "which has no such parameter");
+        assert_eq!(form("form = \"exponent\"\nn1 = 0.3\n"), Some("exponent"));
+    }
 
     #[test]
     fn an_effect_that_stands_twice_is_an_error_at_its_second_place() {

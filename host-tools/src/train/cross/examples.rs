@@ -9,7 +9,7 @@ use super::super::example::soil_targets;
 use super::super::prior::{self, DEEPEST, Range, SOIL_PARAMETERS};
 use super::{INPUTS, Scope, TARGETS};
 
-// Wide enough for most soils of the literature; recommended by our review of it, not the paper's.
+// Wide enough for most soils of the literature; ours, not the paper's.
 // The order is that of [`prior::SOIL_RANGES`].
 const SOIL_RANGES: [Range; SOIL_PARAMETERS] = [
     Range { low: 50.0, high: 5000.0, logarithmic: true },
