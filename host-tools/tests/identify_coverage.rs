@@ -11,7 +11,7 @@ use kapvik_host::identify::{Document, identify_rehearsed};
 /// Of a hundred cases with a chance of 95 each, fewer than 88 are in one of 600 sets; of fifty, fewer than 42.
 fn check(plan: &Plan, soils: usize, least: usize) -> usize {
     let (campaign, drawn) = plan.campaign(soils, 71);
-    let found = identify_rehearsed(&campaign, &mut |query| Ok(pipeline::answer(query))).expect("identified");
+    let found = identify_rehearsed(&campaign, false, &mut |query| Ok(pipeline::answer(query))).expect("identified");
     let held = Held::of(&Document::of(&campaign, &found), &drawn);
     println!("of {soils}: within 2 σ and 95 % {held:?}");
     for ([_, in_interval], key) in held.within.into_iter().zip(KEYS) {

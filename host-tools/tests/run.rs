@@ -40,7 +40,7 @@ fn a_run_on_the_host_repeats_itself_to_the_bit() {
 
 #[test]
 fn the_report_needs_nothing_else_and_hides_nothing() {
-    let findings = Findings::gather(carried(), Computer::Host).expect("answers");
+    let findings = Findings::gather(carried(), false, Computer::Host).expect("answers");
     assert_eq!(findings.campaign.provenance, Provenance::Digitised);
     let rows = Findings::rows(&findings.identification.runs[0]);
     let alone = rows.iter().filter(|row| row.kind == RowKind::Wheel);
@@ -62,7 +62,7 @@ fn the_report_needs_nothing_else_and_hides_nothing() {
 
 #[test]
 fn the_picture_that_the_project_shows_is_the_one_that_it_makes() {
-    let findings = Findings::gather(carried(), Computer::Host).expect("answers");
+    let findings = Findings::gather(carried(), false, Computer::Host).expect("answers");
     let shown = include_str!("../pictures/ding2011-smooth.svg");
     let command = "cargo kapvik run --measured --on host --picture host-tools/pictures/ding2011-smooth.svg";
     assert!(picture(&findings).as_deref() == Some(shown), "the picture is out of date; type: {command}");
@@ -74,7 +74,7 @@ fn a_campaign_with_many_runs_and_no_known_soil_is_reported() {
     let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm\n".to_owned();
     (0..30).for_each(|run| csv += &format!("r{run},0,0.{run:02},65,3,1.6\n"));
     let campaign = Campaign::parse(std::path::Path::new("many.csv"), &csv, toml).expect("a campaign");
-    let findings = Findings::gather(campaign, Computer::Host).expect("answers");
+    let findings = Findings::gather(campaign, false, Computer::Host).expect("answers");
     assert!(findings.model.is_none());
     let html = page(&findings);
     assert!(html.contains("&lt;b&gt;&amp;") && !html.contains("<b>&"), "what a file says is text, never markup");

@@ -34,7 +34,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let document = match arguments.method {
         Method::Network => {
             let mut computer = FlightComputer::in_process()?;
-            Document::of(&campaign, &identify_rehearsed(&campaign, &mut |query| computer.query(query))?)
+            Document::of(&campaign, &identify_rehearsed(&campaign, false, &mut |query| computer.query(query))?)
         }
         method => identify_by(method, &campaign)?,
     };

@@ -75,6 +75,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
             Some(rover) => return Err(no_place_for_a_rover(path, rover)),
         },
     };
+    let picture = match (picture, told.picture) {
+        (Some(path), Some(picture)) => Some((path, picture)),
+        (Some(_), None) => return Err(HostError::Failed("no run has an estimate to make a picture of".to_owned())),
+        (None, _) => None,
+    };
     println!("{}", told.terminal);
     for line in &told.flight {
         println!("{line}");
@@ -85,9 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     };
     write_text(&path, &told.page)?;
     println!("\nreport: {}", path.display());
-    if let Some(path) = &arguments.picture {
-        let picture =
-            told.picture.ok_or_else(|| HostError::Failed("no run has an estimate to make a picture of".to_owned()))?;
+    if let Some((path, picture)) = picture {
         write_text(path, &picture)?;
         println!("picture: {}", path.display());
     }
@@ -106,7 +109,7 @@ fn traverse(source: Source, on: Computer, weights: Option<&Weights>) -> Result<T
 }
 
 fn campaign(campaign: Campaign, on: Computer, weights: Option<&Weights>) -> Result<Told, HostError> {
-    let mut findings = Findings::gather(campaign, on)?;
+    let mut findings = Findings::gather(campaign, weights.is_some_and(Weights::know_effects), on)?;
     findings.flight.networks = weights.map(networks);
     Ok(Told {
         terminal: report::terminal(&findings),

@@ -15,6 +15,7 @@ use crate::error::HostError;
 use crate::flight_computer::Computer;
 use crate::process::{built_executable, command, run_with_spinner, workspace};
 use crate::train::emit::EFFECTS_NOTE;
+use crate::train::world::World;
 
 /// What the build script takes a table from.
 const TABLE: &str = "KAPVIK_WEIGHTS";
@@ -32,6 +33,11 @@ impl Weights {
     /// Which effects its networks were trained with.
     pub fn effects(&self) -> &str {
         &self.effects
+    }
+
+    /// Whether they were trained with any.
+    pub fn know_effects(&self) -> bool {
+        self.effects != World::seed().to_string()
     }
 
     /// The table and its effects, in words.

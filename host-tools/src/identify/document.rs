@@ -144,7 +144,8 @@ impl Document {
     /// What is printed of an identification by the networks.
     pub fn of(campaign: &Campaign, identification: &Identification) -> Self {
         let runs = identification.runs.iter().map(RunDocument::of).collect();
-        let misfits = misfits(campaign, &identification.noise);
+        let misfit = |run: &IdentifiedRun| Some((run.states.run.clone(), run.misfit.clone()?));
+        let misfits = identification.runs.iter().filter_map(misfit).collect();
         Self::new(Method::Network, campaign, &identification.noise, misfits, runs)
     }
 
@@ -160,7 +161,7 @@ impl Document {
         };
         let misfits = match method {
             Method::Map => misfits_of(noise, runs.iter().filter_map(fit)),
-            _ => misfits(campaign, noise),
+            _ => misfits(&method.sees(campaign), noise),
         };
         let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();
         Self::new(method, campaign, noise, misfits, runs)

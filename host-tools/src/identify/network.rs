@@ -1,5 +1,7 @@
 //! Identification by the networks that fly.
 
+use std::borrow::Cow;
+
 use kapvik_firmware::pipeline;
 use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use kapvik_firmware::terramechanics::Soil;
@@ -15,6 +17,7 @@ use super::condition::condition_number;
 use super::layout::Layout;
 use super::logarithmic::{targets, widened};
 use super::method::{Evidence, Method, network_refusal, networks};
+use super::misfit::misfits;
 use super::rehearsal::{Missing, OfTraining, missing};
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Answer, SensorNoise};
@@ -35,6 +38,8 @@ pub struct IdentifiedRun {
     pub states: RunStates,
     /// What the networks were asked about; its noise is that of means. None where no row could be used.
     pub question: Option<Question>,
+    /// Why no soil explains the run by equations that the networks know, where that was tried and its residuals are no noise.
+    pub misfit: Option<String>,
 }
 
 /// What the networks were asked about a run, and what they said.
@@ -68,23 +73,31 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
     let identified = |states: RunStates| {
         let question =
             if states.states.is_empty() { None } else { Some(ask(campaign, &states.states, &noise, answer)?) };
-        Ok(IdentifiedRun { states, question })
+        Ok(IdentifiedRun { states, question, misfit: None })
     };
     let runs = run_states(campaign, &noise, needs, WHEELS).into_iter().map(identified);
     Ok(Identification { runs: runs.collect::<Result<_, HostError>>()?, noise })
 }
 
-/// As [`identify`], `answer` being what the flight networks say; and the intervals of all wheels together are widened where the
-/// networks are too sure of runs that are laid out as these: see `rehearsal.rs`. Campaigns that declare effects are not
-/// rehearsed, for the soils that are drawn know none.
+/// As [`identify`], `answer` being what the flight networks say, which were trained with what the campaign declares (`know_effects`) or with
+/// equations 1–11 alone. The intervals of all wheels together are widened where the networks are too sure of runs that are laid out as these:
+/// see `rehearsal.rs`; not those of networks that know effects, for the soils that are drawn know none. And runs are noted that no soil
+/// explains.
 ///
 /// # Errors
 /// As [`identify`].
-pub fn identify_rehearsed(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identification, HostError> {
+pub fn identify_rehearsed(
+    campaign: &Campaign,
+    know_effects: bool,
+    answer: &mut Answer<'_>,
+) -> Result<Identification, HostError> {
     let mut identification = identify(campaign, answer)?;
-    if campaign.declared.ids().is_empty() {
+    let seen = if know_effects { Cow::Borrowed(campaign) } else { Cow::Owned(campaign.without_declared()) };
+    if seen.declared.effects.is_empty() {
         identification.runs.iter_mut().filter_map(|run| run.question.as_mut()).for_each(Question::rehearse);
     }
+    let mut misfits = misfits(&seen, &identification.noise);
+    identification.runs.iter_mut().for_each(|run| run.misfit = misfits.remove(&run.states.run));
     Ok(identification)
 }
 

@@ -165,5 +165,7 @@ fn from_pairs(campaign: &Campaign, pairs: &[(usize, usize)], channel: Channel) -
         |&(one, other): &(usize, usize)| Some(campaign.value(one, channel)? - campaign.value(other, channel)?);
     let squares: Vec<f64> = pairs.iter().filter_map(difference).map(|difference| difference * difference).collect();
     let count = squares.len();
-    (count >= LEAST_PAIRS).then(|| (0.5 * squares.iter().sum::<f64>() / count as f64).sqrt())
+    let std = (count >= LEAST_PAIRS).then(|| (0.5 * squares.iter().sum::<f64>() / count as f64).sqrt());
+    // Where all are alike, a logger rounds: that tells nothing of the noise.
+    std.filter(|std| *std > 0.0)
 }

@@ -3,14 +3,16 @@
 use kapvik_firmware::soil::SoilEstimate;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
-use crate::identify::NoiseSource;
+use crate::identify::{IdentifiedRun, NoiseSource};
 
-use super::findings::{Findings, RowKind};
+use super::findings::{EstimateRow, Findings, RowKind};
 use super::parameter::Parameter;
 use super::verdict::Verdict;
 
 /// Loads closer together than this share are one load.
 const ONE_LOAD: f64 = 0.1;
+/// Runs that are named one by one.
+const RUNS_NAMED: usize = 3;
 /// A residual greater than so many standard deviations is not noise.
 const BEYOND_NOISE: f64 = 3.0;
 
@@ -22,6 +24,7 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
         findings.campaign.of_repeats(),
         one_load(findings),
         widened(findings),
+        explained_by_no_soil(findings),
         cannot_be_told(findings),
         doubtful(findings),
         missing_physics(findings),
@@ -105,14 +108,26 @@ fn cannot_be_told(findings: &Findings) -> Option<String> {
     })
 }
 
+/// The runs that no soil explains.
+fn explained_by_no_soil(findings: &Findings) -> Option<String> {
+    let runs = &findings.identification.runs;
+    let named = |run: &IdentifiedRun| run.misfit.as_ref().map(|why| format!("{}: {why}", run.states.run));
+    let told: Vec<String> = runs.iter().filter_map(named).collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "Run {}. `kapvik diagnose` says what the model may lack.",
+            told.iter().take(RUNS_NAMED).cloned().collect::<Vec<_>>().join("; run ")
+        )
+    })
+}
+
 /// Where the networks are sure of what other means deny, or of the end of what they were trained for.
 fn doubtful(findings: &Findings) -> Option<String> {
     let ground = &findings.campaign.ground;
-    let best = findings.identification.runs.iter().filter_map(Findings::best).filter_map(|row| row.estimate.ok());
-    let soils: Vec<SoilEstimate> = best.collect();
+    let best: Vec<EstimateRow> = findings.identification.runs.iter().filter_map(Findings::best).collect();
     let doubted = |parameter: &Parameter| {
-        let verdicts = soils.iter().map(|soil| Verdict::of(*parameter, soil, ground));
-        verdicts.into_iter().any(|verdict| verdict.is_doubtful() && verdict != Verdict::InDoubtfulCompany)
+        let verdict = |row: &EstimateRow| Some(Verdict::of(*parameter, row.estimate.as_ref().ok()?, ground, true));
+        best.iter().filter_map(verdict).any(|verdict| verdict.is_doubtful() && verdict != Verdict::InDoubtfulCompany)
     };
     let symbols: Vec<&str> = Parameter::ALL.into_iter().filter(doubted).map(Parameter::symbol).collect();
     (!symbols.is_empty()).then(|| {

@@ -126,7 +126,7 @@ impl Panel<'_> {
                     &row.label))
             }
             @match &row.estimate {
-                Ok(soil) => (self.bars(scale, soil, y, together)),
+                Ok(soil) => (self.bars(scale, (soil, row.is_explained), y, together)),
                 Err(reason) => (text("refused", (self.left() + 6.0, y + 4.0), Anchor::Start, reason)),
             }
         }
@@ -137,10 +137,10 @@ impl Panel<'_> {
     }
 
     /// The 95 % interval thin, the 68 % interval thick, the value a dot: hollow where the data cannot tell it.
-    fn bars(&self, scale: &Scale, soil: &SoilEstimate, y: f64, together: bool) -> Markup {
+    fn bars(&self, scale: &Scale, (soil, is_explained): (&SoilEstimate, bool), y: f64, together: bool) -> Markup {
         let estimate = self.parameter.of(soil);
         let at = |si: f32| scale.at(self.parameter.shown(si.into()));
-        let verdict = Verdict::of(self.parameter, soil, self.ground);
+        let verdict = Verdict::of(self.parameter, soil, self.ground, is_explained);
         let class = verdict.class();
         let bar = |thickness: &str, interval: [f32; 2]| {
             line(&format!("{thickness} {class}"), (at(interval[0]), y), (at(interval[1]), y))
@@ -149,7 +149,7 @@ impl Panel<'_> {
         let place = (at(estimate.value), y);
         html! {
             g {
-                title { (self.bar_in_words(soil)) }
+                title { (self.bar_in_words(soil, is_explained)) }
                 (bar("thin", estimate.interval_95))
                 (bar("thick", estimate.interval_68))
                 @if verdict != Verdict::Untold { (dot(class, place, radius)) } @else { (ring(class, place, radius)) }
@@ -157,7 +157,7 @@ impl Panel<'_> {
         }
     }
 
-    fn bar_in_words(&self, soil: &SoilEstimate) -> String {
+    fn bar_in_words(&self, soil: &SoilEstimate, is_explained: bool) -> String {
         let parameter = self.parameter;
         let estimate = parameter.of(soil);
         format!(
@@ -165,7 +165,7 @@ impl Panel<'_> {
             parameter.quantity(estimate.value.into()),
             parameter.interval(estimate.interval_68),
             parameter.interval(estimate.interval_95),
-            Verdict::of(parameter, soil, self.ground).in_words()
+            Verdict::of(parameter, soil, self.ground, is_explained).in_words()
         )
     }
 
@@ -174,7 +174,7 @@ impl Panel<'_> {
         let known = parameter.known(self.ground).map(|known| format!("Direct tests: {}. ", parameter.knowledge(known)));
         let rows = self.rows.iter().filter_map(|row| {
             let estimate = row.estimate.as_ref().ok()?;
-            Some(format!("{}: {}", row.label, self.bar_in_words(estimate)))
+            Some(format!("{}: {}", row.label, self.bar_in_words(estimate, row.is_explained)))
         });
         let rows: Vec<String> = rows.collect();
         format!("{} in {}. {}{}.", parameter.name(), parameter.unit(), known.unwrap_or_default(), rows.join(". "))

@@ -42,18 +42,22 @@ pub struct EstimateRow {
     pub kind: RowKind,
     /// The estimate, or why there is none.
     pub estimate: Result<SoilEstimate, &'static str>,
+    /// Whether a soil explains its run, or none has been looked for.
+    pub is_explained: bool,
 }
 
 impl Findings {
     /// Every estimate of a run: wheel by wheel, then all wheels together.
     pub fn rows(run: &IdentifiedRun) -> Vec<EstimateRow> {
         let Some(question) = &run.question else { return Vec::new() };
+        let is_explained = run.misfit.is_none();
         let wheels = question.query.wheels.iter().zip(&question.answer.wheels).map(|(state, answer)| EstimateRow {
             label: format!("slip {}", number(state.slip.into(), 2, false)),
             kind: RowKind::Wheel,
             estimate: worded(answer),
+            is_explained,
         });
-        wheels.chain(rover_rows(question)).collect()
+        wheels.chain(rover_rows(question, is_explained)).collect()
     }
 
     /// The best that there is of a run: all wheels together, with sinkage where it was measured.
@@ -62,10 +66,13 @@ impl Findings {
     }
 }
 
-fn rover_rows(question: &Question) -> Vec<EstimateRow> {
+fn rover_rows(question: &Question, is_explained: bool) -> Vec<EstimateRow> {
     let wheels = question.query.wheels.len();
     let together = if wheels == 1 { "the one".to_owned() } else { format!("all {wheels}") };
-    let row = |label: String, kind, answer: &QueryAnswer| EstimateRow { label, kind, estimate: worded(&answer.rover) };
+    let row = |label: String, kind, answer: &QueryAnswer| {
+        let estimate = worded(&answer.rover);
+        EstimateRow { label, kind, estimate, is_explained }
+    };
     match &question.answer_without_sinkage {
         Some(blind) => vec![
             row(together.clone(), RowKind::RoverWithoutSinkage, blind),

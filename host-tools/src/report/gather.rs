@@ -14,18 +14,19 @@ use super::findings::{Findings, fingerprint};
 use super::residual::ModelCheck;
 
 impl Findings {
-    /// Sends the states of a campaign to a flight computer, and gathers what it makes of them.
+    /// Sends the states of a campaign to a flight computer, whose networks know the effects that it declares or none, and gathers what it makes
+    /// of them.
     ///
     /// # Errors
     /// Where the computer cannot be had, does not pass its self-test or does not answer, or the campaign lacks a column.
-    pub fn gather(campaign: Campaign, on: Computer) -> Result<Self, HostError> {
+    pub fn gather(campaign: Campaign, know_effects: bool, on: Computer) -> Result<Self, HostError> {
         let mut computer = FlightComputer::start(on, LogView::Information)?;
         let boot = computer.boot_report()?;
         if !boot.self_test.passed() {
             return Err(HostError::Failed(format!("the flight computer's self-test failed: {:?}", boot.self_test)));
         }
         let mut answers: Vec<QueryAnswer> = Vec::new();
-        let identification = identify_rehearsed(&campaign, &mut |query: &SoilQuery| {
+        let identification = identify_rehearsed(&campaign, know_effects, &mut |query: &SoilQuery| {
             let answer = computer.query(query)?;
             answers.push(answer.clone());
             Ok(answer)

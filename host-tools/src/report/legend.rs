@@ -23,7 +23,7 @@ pub fn estimates(rows: &[EstimateRow]) -> Markup {
                 &html! { (bar("told")) (dot("told", (20.0, MIDDLE), 4.0)) }))
             (entry("cannot be told from these data",
                 &html! { (bar("untold")) (ring("untold", (20.0, MIDDLE), 4.0)) }))
-            (entry("narrow, but in doubt: excludes the direct tests, lies at the edge of the training, or belongs to such an estimate",
+            (entry("narrow, but in doubt: excludes the direct tests, lies at the edge of the training, belongs to such an estimate, or to a run that no soil explains",
                 &html! { (bar("doubtful")) (dot("doubtful", (20.0, MIDDLE), 4.0)) }))
             (entry("direct tests of the same soil", &html! {
                 (vertical_band("direct-band", (12.0, 28.0), (0.0, 16.0)))

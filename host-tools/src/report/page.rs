@@ -22,6 +22,8 @@ const PAGE_CSS: &str = include_str!("page.css");
 /// How the pictures look.
 pub(super) const DRAW_CSS: &str = include_str!("draw/draw.css");
 
+/// Rows of residuals that are shown.
+const ROWS_SHOWN: usize = 40;
 /// Runs that are drawn; the estimates of all are in the JSON file of `identify`.
 const RUNS_DRAWN: usize = 24;
 
@@ -108,7 +110,7 @@ fn answers(campaign: &Campaign, rows: &[EstimateRow]) -> Markup {
         div class="answers" {
             @for parameter in Parameter::ALL {
                 @let estimate = parameter.of(soil);
-                @let verdict = Verdict::of(parameter, soil, &campaign.ground);
+                @let verdict = Verdict::of(parameter, soil, &campaign.ground, row.is_explained);
                 div class={ "answer " (verdict.class()) } {
                     h3 { (parameter.name()) " " i { (parameter.symbol()) } }
                     div class="value" { (parameter.number(estimate.value.into())) small { (parameter.spaced_unit()) } }
@@ -163,7 +165,10 @@ fn residual_table(check: &ModelCheck, estimated: Option<Rms>) -> Markup {
                 caption { "Measured − computed, with the directly measured soil" }
                 thead { tr { th { "Slip" } th { "Drawbar pull, N" } th { "Torque, N·m" } th { "Sinkage, mm" } } }
                 tbody {
-                    @for row in check.rows.iter().take(40) { (residual_row(row)) }
+                    @for row in check.rows.iter().take(ROWS_SHOWN) { (residual_row(row)) }
+                    @if check.rows.len() > ROWS_SHOWN {
+                        tr { td colspan="4" { "and " (check.rows.len() - ROWS_SHOWN) " more rows, which the root mean square is over as well" } }
+                    }
                     (rms_row("Root mean square", check.rms()))
                     @if let Some(rms) = estimated { (rms_row("… with c, φ and K of the networks", rms)) }
                 }

@@ -72,7 +72,9 @@ impl Response<'_> {
             .filter_map(|row| Some((row.slip, quantity.factor * (quantity.measured)(row)?)))
             .collect();
         let x = Scale::linear(self.slips().0, self.slips().1, (LEFT, RIGHT));
-        let all = known.iter().chain(&estimated).chain(&measured).map(|(_, value)| *value);
+        let deviation = quantity.factor * std;
+        let ends = measured.iter().flat_map(|(_, value)| [value - deviation, value + deviation]);
+        let all = known.iter().chain(&estimated).map(|(_, value)| *value).chain(ends);
         let y = Scale::around(all, (BOTTOM, TOP));
         let placed = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().map(|(slip, value)| (x.at(*slip), y.at(*value))).collect()
@@ -86,7 +88,7 @@ impl Response<'_> {
                 (text("tick", (0.5 * (LEFT + RIGHT), HEIGHT - 6.0), Anchor::Middle, "slip"))
                 (path("estimated", &placed(&estimated)))
                 (path("known", &placed(&known)))
-                @for (slip, value) in &measured { (measurement(&x, &y, *slip, *value, quantity.factor * std)) }
+                @for (slip, value) in &measured { (measurement(&x, &y, *slip, *value, deviation)) }
             }
         }
     }

@@ -45,7 +45,7 @@ fn estimates(findings: &Findings, rows: &[EstimateRow]) -> Table {
     table.set_header(std::iter::once(String::new()).chain(units));
     for row in rows {
         let cells = Parameter::ALL.map(|parameter| match &row.estimate {
-            Ok(soil) => cell(findings, parameter, soil),
+            Ok(soil) => cell(findings, parameter, soil, row.is_explained),
             Err(reason) => (*reason).to_owned(),
         });
         table.add_row(std::iter::once(row.label.clone()).chain(cells));
@@ -59,9 +59,9 @@ fn estimates(findings: &Findings, rows: &[EstimateRow]) -> Table {
     table
 }
 
-fn cell(findings: &Findings, parameter: Parameter, soil: &SoilEstimate) -> String {
+fn cell(findings: &Findings, parameter: Parameter, soil: &SoilEstimate, is_explained: bool) -> String {
     let estimate = parameter.of(soil);
-    let mark = Verdict::of(parameter, soil, &findings.campaign.ground).mark();
+    let mark = Verdict::of(parameter, soil, &findings.campaign.ground, is_explained).mark();
     format!("{} ({}) {mark}", parameter.number(estimate.value.into()), parameter.interval(estimate.interval_68))
 }
 

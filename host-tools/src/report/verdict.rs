@@ -18,14 +18,17 @@ pub enum Verdict {
     ExcludesDirectTests,
     /// The networks are sure, and at the end of what they were trained for: the best soil may lie beyond it.
     AtEdge,
+    /// The networks are sure, and the equations that they were trained with explain the run with no soil.
+    ExplainsNothing,
     /// The networks are sure, and wrong about another parameter of the same soil: they were estimated as one.
     InDoubtfulCompany,
 }
 
 impl Verdict {
-    /// Of one parameter of a soil, with what is known of the ground by other means.
-    pub fn of(parameter: Parameter, soil: &SoilEstimate, ground: &Ground) -> Self {
+    /// Of one parameter of a soil, with what is known of the ground by other means, and whether any soil explains the run.
+    pub fn of(parameter: Parameter, soil: &SoilEstimate, ground: &Ground, is_explained: bool) -> Self {
         match Self::alone(parameter, soil, ground) {
+            Self::Told if !is_explained => Self::ExplainsNothing,
             Self::Told if Parameter::ALL.iter().any(|other| Self::alone(*other, soil, ground).is_doubtful()) => {
                 Self::InDoubtfulCompany
             }
@@ -54,6 +57,7 @@ impl Verdict {
             Self::Untold => "cannot be told from these data",
             Self::ExcludesDirectTests => "narrow, but excludes the direct tests",
             Self::AtEdge => "narrow, but at the edge of the training",
+            Self::ExplainsNothing => "narrow, but no soil explains the run",
             Self::InDoubtfulCompany => "narrow, but part of a doubtful estimate",
         }
     }
@@ -63,7 +67,7 @@ impl Verdict {
         match self {
             Self::Told => ' ',
             Self::Untold => '?',
-            Self::ExcludesDirectTests | Self::AtEdge | Self::InDoubtfulCompany => '!',
+            _ => '!',
         }
     }
 
@@ -72,7 +76,7 @@ impl Verdict {
         match self {
             Self::Told => "told",
             Self::Untold => "untold",
-            Self::ExcludesDirectTests | Self::AtEdge | Self::InDoubtfulCompany => "doubtful",
+            _ => "doubtful",
         }
     }
 
@@ -121,7 +125,7 @@ mod tests {
         let known = Knowledge::Value { value: 0.557, std: 0.035 };
         let ground = Ground { friction_angle_rad: Some(known), ..Ground::default() };
         let verdicts = |friction, ground| {
-            [Parameter::FrictionAngle, Parameter::Cohesion].map(|one| Verdict::of(one, &soil(friction), ground))
+            [Parameter::FrictionAngle, Parameter::Cohesion].map(|one| Verdict::of(one, &soil(friction), ground, true))
         };
         let nothing = Ground::default();
         let untold = ParameterEstimate { identifiable: false, ..estimate(0.44, 0.03) };
@@ -129,6 +133,10 @@ mod tests {
         assert_eq!(verdicts(estimate(0.44, 0.03), &ground), [Verdict::ExcludesDirectTests, Verdict::InDoubtfulCompany]);
         assert_eq!(verdicts(estimate(0.44, 0.03), &nothing), [Verdict::Told; 2]);
         assert_eq!(verdicts(untold, &ground), [Verdict::Untold, Verdict::Told]);
+        assert_eq!(
+            Parameter::ALL.map(|one| Verdict::of(one, &soil(untold), &nothing, false)),
+            [Verdict::ExplainsNothing, Verdict::Untold, Verdict::ExplainsNothing]
+        );
         // 22° is where the training begins.
         let edge = estimate(22.1_f32.to_radians(), 0.01);
         assert_eq!(verdicts(edge, &nothing), [Verdict::AtEdge, Verdict::InDoubtfulCompany]);

@@ -182,6 +182,12 @@ impl Campaign {
         self
     }
 
+    /// The same as one sees it who knows no effects.
+    #[must_use]
+    pub fn without_declared(&self) -> Self {
+        Self { declared: Declared::default(), ..self.clone() }
+    }
+
     /// The names of the columns of numbers, `t_s` aside.
     pub fn columns(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|column| column.name.as_str())

@@ -2,7 +2,7 @@
 
 use kapvik_firmware::identification::Belief;
 use kapvik_firmware::identification::map::{DeclaredEffects, Fitted, FreeParameter, MapEstimate, identify_declared};
-use kapvik_firmware::terramechanics::effects::{Effects, Form};
+use kapvik_firmware::terramechanics::effects::Effects;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
@@ -53,12 +53,12 @@ fn declared(evidence: &Evidence) -> Result<DeclaredEffects<f64>, String> {
     Ok(declared)
 }
 
-/// Puts in an effect: in its stated form, else in its first; what the form frees and the file does not know is free
+/// Puts in an effect: in its stated form, else in the first that it may have; what the form frees and the file does not know is free
 /// within its bounds.
 fn declare(effect: &DeclaredEffect, declared: &mut DeclaredEffects<f64>) -> Result<(), String> {
     let info = effect.info;
     declared.effects.add(info.id);
-    let form: Option<&Form> = effect.form.or_else(|| info.forms.first());
+    let form = effect.first_form();
     for parameter in info.parameters {
         let set = form.and_then(|form| form.set.iter().find(|(name, _)| *name == parameter.name));
         if let Some((name, value)) = set {

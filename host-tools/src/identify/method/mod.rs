@@ -14,10 +14,12 @@ mod out_of_range;
 mod rehearsed;
 mod words;
 
+use std::borrow::Cow;
+
 use clap::ValueEnum;
 use kapvik_firmware::wheel_state::WHEELS;
 
-use crate::data::campaign::Channel;
+use crate::data::campaign::{Campaign, Channel};
 
 pub use answer::{Finding, Fit, Statement};
 pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
@@ -95,6 +97,11 @@ impl Method {
     /// Whether the method's model takes in the effects that a campaign declares.
     pub const fn knows_effects(self) -> bool {
         matches!(self, Self::Map)
+    }
+
+    /// A campaign as the method sees it: one that knows no effects is told of none.
+    pub fn sees(self, campaign: &Campaign) -> Cow<'_, Campaign> {
+        if self.knows_effects() { Cow::Borrowed(campaign) } else { Cow::Owned(campaign.without_declared()) }
     }
 
     /// The most states of a run that the method is given.

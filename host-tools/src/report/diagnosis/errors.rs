@@ -56,7 +56,7 @@ fn table(findings: &DiagnosisFindings) -> Markup {
     html! {
         div class="scroll" {
             table class="numbers" {
-                caption { "Root mean square error on runs that took no part in fitting or choosing" }
+                caption { "Root mean square error on runs that the fits did not know; effects chosen without them among those that all runs leave in question" }
                 thead {
                     tr {
                         th { "Channel" } th { "Noise" } th { "Before" } th { "After" } th { "Change" } th { "Runs" }
