@@ -28,8 +28,12 @@ fn the_smooth_wheel_in_the_simulant_lacks_slip_sinkage_first() {
     let found = diagnosis(Carried::Ding2011Smooth);
     assert_eq!(found.effects[0].id, "slip-sinkage", "{}", found.sentence);
     let (sinkage, torque) = (&found.channels["sinkage_m"], &found.channels["torque_nm"]);
-    assert!(sinkage.rmse_before > 3e-3 && sinkage.rmse_after <= 1e-3, "{sinkage:?}");
+    assert!(sinkage.rmse_before > 2e-3 && sinkage.rmse_after <= 1e-3, "{sinkage:?}");
     assert!(torque.rmse_after <= 0.4, "{torque:?}");
+    // The point at slip 0.6 lies beyond all others: without it no soil is found on which the wheel holds there. It counts neither before nor
+    // after.
+    assert_eq!((sinkage.runs, found.held_out_runs.contains(&"smooth-6".to_owned())), (5, false));
+    assert!(found.caveats.iter().any(|caveat| caveat.contains("smooth-6")), "{:?}", found.caveats);
 }
 
 #[test]

@@ -65,15 +65,17 @@ pub fn close(
     options: &Options,
     say: &dyn Fn(&str),
 ) -> Result<Closed, HostError> {
-    let path = folder.join("declared.toml");
+    let (path, table) = (folder.join("declared.toml"), folder.join("kapvik.table"));
+    let declaration = declared_file(campaign, diagnosis);
     std::fs::create_dir_all(folder).map_err(HostError::file(folder))?;
-    write_text(&path, &declared_file(campaign, diagnosis))?;
     let forces = errors_of_forces(diagnosis);
     if diagnosis.effects.is_empty() {
+        remove(&table)?;
+        write_text(&path, &declaration)?;
         return Ok(Closed { forces, soil: None });
     }
     // What the file says is what is trained for, as if by hand.
-    let worlds = [World::declared(&campaign.declared), World::declared(&Declared::read_from(&path)?)];
+    let worlds = [World::declared(&campaign.declared), World::declared(&Declared::parse(&path, &declaration)?)];
     let [_, after] = &worlds;
     let rovers = Rovers::draw(after, options.rovers, options.seed)?;
     say(&format!("1 of 3: network before, trained for {}", worlds[0]));
@@ -88,12 +90,22 @@ pub fn close(
         errors: errors_of_soil(&compare(&tables, &rovers)),
         estimates: estimates(&on_campaign(campaign, &tables)?, fits, truth),
     };
+    // Both at the end: a table of an earlier campaign must not stand beside the declaration of this one.
+    write_text(&path, &declaration)?;
     if let Some((wheel, loss)) = found.wheel {
         let provenance =
             Provenance { plan: &options.plan, world: after, fifth: SHIPPED_FIFTH, losses: [loss, found.loss] };
-        write_text(&folder.join("kapvik.table"), &table_file(wheel, found.rover, &provenance).to_text())?;
+        write_text(&table, &table_file(wheel, found.rover, &provenance).to_text())?;
     }
     Ok(Closed { forces, soil: Some(soil) })
+}
+
+/// Removes the table of an earlier campaign, if there is one.
+fn remove(table: &Path) -> Result<(), HostError> {
+    match std::fs::remove_file(table) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(HostError::file(table)(error)),
+        _ => Ok(()),
+    }
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::document::{
 use super::fit::Reading;
 use super::force_channels::ForceChannels;
 use super::forward::Selected;
-use super::held_out_errors::{HeldOutErrors, rmse};
+use super::held_out_errors::HeldOutErrors;
 use super::left_over::{LeftOver, left_over};
 use super::measurements::{COLUMNS, Measurements};
 use super::selection::Judged;
@@ -40,7 +40,11 @@ pub fn assemble(
         declared: campaign.declared.ids(),
         verdict: verdict(selected, &unexplained),
         sentence: String::new(),
-        effects: selected.found.iter().map(|found| found_effect(&found.winner)).collect(),
+        effects: selected
+            .found
+            .iter()
+            .map(|found| found_effect(measurements, selected.model(), &found.winner))
+            .collect(),
         runner_up: runner_up(selected),
         ambiguous_with: selected.found.first().map_or_else(Vec::new, |found| owned(&found.ambiguous_with)),
         deciding_measurement: None,
@@ -52,12 +56,13 @@ pub fn assemble(
         ends_apart: ends_apart(measurements, errors),
         soil_before: soil(&selected.base),
         soil_after: soil(selected.model()),
-        candidates: listed(selected),
-        held_out_runs: measurements.runs.clone(),
+        candidates: listed(measurements, selected),
+        held_out_runs: held_out_runs(measurements, errors),
         left_out: measurements.left_out.clone(),
         caveats: super::caveats::caveats(campaign, measurements, selected),
     };
     document.caveats.extend(by_themselves.caveats.iter().cloned());
+    document.caveats.extend(without_answer(measurements, &document.held_out_runs));
     super::sentence::tell(&mut document, campaign);
     document
 }
@@ -75,22 +80,26 @@ fn owned(ids: &[&str]) -> Vec<String> {
     ids.iter().map(|id| (*id).to_owned()).collect()
 }
 
-fn found_effect(winner: &Judged<'_>) -> FoundEffect {
+/// An effect with what it gained when it was found, and its form and parameters as the final `model` has them.
+fn found_effect(measurements: &Measurements, model: &Trial<'_>, winner: &Judged<'_>) -> FoundEffect {
+    let effect = model.specification.effects.iter().find(|effect| effect.info.id == winner.id());
     FoundEffect {
         id: winner.id().to_owned(),
-        form: winner.effect().map_or("", |effect| effect.form.name).to_owned(),
-        parameters: parameters(&winner.trial),
+        form: effect.map_or("", |effect| effect.form.name).to_owned(),
+        parameters: parameters(measurements, model, winner.id()),
         gain_per_row: winner.held_out.per_row,
         p_value: winner.p_value,
     }
 }
 
-/// The parameters of a trial's last effect, as fitted.
-fn parameters(trial: &Trial<'_>) -> BTreeMap<String, Estimate> {
-    let id = trial.specification.effects.last().map_or("", |effect| effect.info.id);
+/// The parameters of one of a trial's effects, as fitted; those at which its form holds it have no spread.
+fn parameters(measurements: &Measurements, trial: &Trial<'_>, id: &str) -> BTreeMap<String, Estimate> {
     let soil = trial.model.soil_count();
     let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (effect, _))| *effect == id);
-    own.map(|(offset, (_, name))| ((*name).to_owned(), estimate(trial, soil + offset))).collect()
+    let fitted = own.map(|(offset, (_, name))| ((*name).to_owned(), estimate(trial, soil + offset)));
+    let effect = trial.specification.effects.iter().find(|effect| effect.info.id == id);
+    let held = effect.map_or_else(Vec::new, |effect| effect.held(measurements)).into_iter();
+    fitted.chain(held.map(|(name, value)| (name.to_owned(), Estimate { value, std: 0.0 }))).collect()
 }
 
 fn estimate(trial: &Trial<'_>, place: usize) -> Estimate {
@@ -102,7 +111,7 @@ fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
     let first = selected.found.first();
     let step = first.map(|found| &found.step).or(selected.last.as_ref())?;
     let winner = first.map_or("", |found| found.winner.id());
-    let next = step.ranking.iter().find(|judged| judged.id() != winner)?;
+    let next = step.ranking.iter().find(|judged| judged.id() != winner && judged.held_out.has_answer())?;
     let form = next.effect().map_or("", |effect| effect.form.name).to_owned();
     Some(RunnerUp { id: next.id().to_owned(), form, gain_per_row: next.held_out.per_row })
 }
@@ -135,15 +144,12 @@ fn channels(
     let judged = Reading::JUDGED.into_iter().filter(|reading| measurements.has(*reading));
     let of = |reading: Reading| {
         let channel = reading.index();
-        let everywhere = |_| true;
-        let runs = measurements
-            .rows_of_run
-            .iter()
-            .filter(|rows| rows.iter().any(|row| errors.before[*row][channel].is_some()));
+        let runs = measurements.rows_of_run.iter().filter(|rows| rows.iter().any(|row| errors.has(*row, channel)));
         let noise = measurements.noise[channel];
+        let ErrorPair { rmse_before, rmse_after } = errors.pair(channel, |_| true)?;
         Some(ChannelErrors {
-            rmse_before: rmse(&errors.before, channel, everywhere)?,
-            rmse_after: rmse(&errors.after, channel, everywhere)?,
+            rmse_before,
+            rmse_after,
             noise: noise.std * if noise.stated { 1.0 } else { selected.model().fit.noise_scale[channel] },
             noise_stated: noise.stated,
             runs: runs.count(),
@@ -156,12 +162,28 @@ fn name(reading: Reading) -> String {
     COLUMNS[reading.index()].name().to_owned()
 }
 
+/// The runs of which both models predicted anything.
+fn held_out_runs(measurements: &Measurements, errors: &HeldOutErrors) -> Vec<String> {
+    let has_any = |rows: &[usize]| rows.iter().any(|row| Reading::JUDGED.iter().any(|r| errors.has(*row, r.index())));
+    let runs = measurements.runs.iter().zip(&measurements.rows_of_run);
+    runs.filter(|(_, rows)| has_any(rows)).map(|(run, _)| run.clone()).collect()
+}
+
+/// What is said where a run that was held out is predicted by one of the models or by none.
+fn without_answer(measurements: &Measurements, predicted: &[String]) -> Option<String> {
+    let runs: Vec<&str> = measurements.runs.iter().filter(|run| !predicted.contains(run)).map(String::as_str).collect();
+    (!runs.is_empty()).then(|| {
+        format!(
+            "Not predicted by fits that did not know them, since on the soil that these came to the wheel finds no hold: {}. Errors before and \
+             after are without them.",
+            runs.join(", ")
+        )
+    })
+}
+
 /// Root mean square errors before and after on some rows, by channel.
 pub fn error_pairs(errors: &HeldOutErrors, rows: impl Fn(usize) -> bool + Copy) -> BTreeMap<String, ErrorPair> {
-    let pair = |reading: Reading| {
-        let rmse_before = rmse(&errors.before, reading.index(), rows)?;
-        Some((name(reading), ErrorPair { rmse_before, rmse_after: rmse(&errors.after, reading.index(), rows)? }))
-    };
+    let pair = |reading: Reading| Some((name(reading), errors.pair(reading.index(), rows)?));
     Reading::JUDGED.into_iter().filter_map(pair).collect()
 }
 
@@ -181,7 +203,7 @@ fn ends_apart(measurements: &Measurements, errors: &HeldOutErrors) -> Option<End
     })
 }
 
-/// The soil as fitted, in the units of `[soil]`; what is held fixed by the campaign has no spread.
+/// The soil as fitted, in the units of `[soil]`, without what the campaign holds fixed.
 fn soil(trial: &Trial<'_>) -> BTreeMap<String, Estimate> {
     let free = trial.model.soil_parameters().iter().enumerate().map(|(place, parameter)| {
         let found = estimate(trial, place);
@@ -192,7 +214,8 @@ fn soil(trial: &Trial<'_>) -> BTreeMap<String, Estimate> {
     free.collect()
 }
 
-fn listed(selected: &Selected<'_>) -> Vec<Candidate> {
+/// The candidates of each step that had an answer for all runs that the model before had one for.
+fn listed(measurements: &Measurements, selected: &Selected<'_>) -> Vec<Candidate> {
     let steps = selected.found.iter().map(|found| &found.step).chain(selected.last.as_ref());
     let entries = |(number, step): (usize, &super::selection::Step<'_>)| {
         let entry = |judged: &Judged<'_>| Candidate {
@@ -202,9 +225,9 @@ fn listed(selected: &Selected<'_>) -> Vec<Candidate> {
             gain_per_row: judged.held_out.per_row,
             gain_std: judged.held_out.std,
             p_value: Some(judged.p_value),
-            parameters: parameters(&judged.trial),
+            parameters: parameters(measurements, &judged.trial, judged.id()),
         };
-        step.ranking.iter().take(LISTED).map(entry).collect::<Vec<_>>()
+        step.ranking.iter().filter(|judged| judged.held_out.has_answer()).take(LISTED).map(entry).collect::<Vec<_>>()
     };
     steps.enumerate().flat_map(entries).collect()
 }

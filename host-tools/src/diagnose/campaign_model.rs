@@ -191,13 +191,13 @@ mod tests {
     use crate::diagnose::fit::Start;
     use crate::diagnose::specification::EffectForm;
 
-    /// A step that is judged by its values and then taken must lead to the place that was judged: the same bits, also of an
-    /// effect with memory, whether they come with slopes or without, and from near or from far.
     /// The last step to the sinkage takes its slope, which is summed in another order where there are more of them.
     fn check_rounding(one: f64, other: f64) {
         assert!((one - other).abs() <= 1e-13 * one.abs(), "{one}, {other}");
     }
 
+    /// A step that is judged by its values and then taken must lead to the place that was judged: the same bits, also of an
+    /// effect with memory, whether they come with slopes or without, and from near or from far.
     #[test]
     fn a_model_may_have_every_effect_there_is() {
         let campaign = Campaigns::from_name("cmu-smooth-transients").expect("carried").campaign().expect("a campaign");

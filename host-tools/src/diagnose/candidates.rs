@@ -5,7 +5,7 @@ use kapvik_firmware::terramechanics::effects::{CATALOGUE, Column, Conditions, Ef
 use crate::data::campaign::{Campaign, Channel};
 
 use super::fit::Reading;
-use super::measurements::Measurements;
+use super::measurements::{Measurements, varies};
 use super::specification::{EffectForm, Specification};
 
 /// Spread of load, as a share, below which it counts as one level.
@@ -21,7 +21,7 @@ pub fn candidates(campaign: &Campaign, measurements: &Measurements, model: &Spec
     let others = CATALOGUE.iter().filter(|info| !model.has(info.id));
     let others = others.filter(|info| !is_by_load(info) || loads_differ(measurements));
     let forms = others.flat_map(|info| info.forms.iter().map(move |form| EffectForm::new(info, form)));
-    let forms = forms.filter(|candidate| !is_of_load_sensor(candidate) || !is_load_set(measurements));
+    let forms = forms.filter(|candidate| !is_of_load_sensor(candidate) || !measurements.is_load_set);
     forms.filter(|candidate| is_measured(campaign, measurements, candidate.form)).collect()
 }
 
@@ -33,12 +33,6 @@ fn is_by_load(info: &EffectInfo) -> bool {
 /// Whether an effect is an error of the load's sensor, or of another that the load leaks into.
 fn is_of_load_sensor(candidate: &EffectForm) -> bool {
     SENSOR_EFFECTS.contains(&candidate.info.id) && candidate.form.needs.contains(&Column::Load)
-}
-
-/// Whether the load is the same number in every row: what was put on the wheel, and no reading of a sensor.
-pub fn is_load_set(measurements: &Measurements) -> bool {
-    measurements.has(Reading::Load)
-        && !varies(measurements.rows.iter().filter_map(|row| row.readings[Reading::Load.index()]))
 }
 
 /// Whether the loads are more than one level, about which they scatter.
@@ -107,11 +101,4 @@ pub fn read_from(column: Column) -> Option<Channel> {
 
 fn slides(conditions: &Conditions<f64>) -> bool {
     conditions.slip_angle_rad.is_some_and(|angle| angle != 0.0)
-}
-
-/// Whether some numbers differ by more than their rounding.
-fn varies(values: impl Iterator<Item = f64>) -> bool {
-    let (low, high) =
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    high - low > 1e-6 * (low.abs() + high.abs())
 }

@@ -2,12 +2,13 @@
 
 use crate::data::campaign::Campaign;
 
-use super::candidates::{is_load_set, loads_differ};
+use super::candidates::loads_differ;
 use super::fit::{Model, Reading};
-use super::forward::Selected;
+use super::forward::{FoundStep, Selected};
 use super::measurements::Measurements;
-use super::selection::Judged;
+use super::selection::MISFIT;
 use super::soil_coordinates::SoilParameter;
+use super::trial::Trial;
 
 /// Spread of slip below which it counts as constant.
 const ONE_SLIP: f64 = 0.03;
@@ -15,8 +16,6 @@ const ONE_SLIP: f64 = 0.03;
 const TOLD: f64 = 0.7;
 /// Times the stated noise from which the offsets of runs are told.
 const OFF: f64 = 2.0;
-/// Dispersion beyond which stated noise and model do not agree.
-const MISFIT: f64 = 1.5;
 
 /// Said where the load is one number throughout.
 const SET_LOAD: &str = "The load is the same number in every row: it is what was put on the wheel, and not what a sensor read. Errors \
@@ -36,7 +35,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     let mut said = campaign.notes.clone();
     said.extend(campaign.of_repeats());
     let runs = measurements.runs.len();
-    if runs < 5 {
+    if runs < 5 && campaign.runs().len() > 1 {
         said.push(format!("Only {runs} runs: what is found rests on few independent observations."));
     }
     said.extend((measurements.has(Reading::Load) && !loads_differ(measurements)).then(|| {
@@ -44,7 +43,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
          offset of the drawbar pull, a tilt and a share of the load look alike."
             .to_owned()
     }));
-    if is_load_set(measurements) {
+    if measurements.is_load_set {
         said.push(SET_LOAD.to_owned());
     }
     if !measurements.has(Reading::Load) {
@@ -83,7 +82,8 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
         said.push(REMEMBERS.to_owned());
     }
     said.extend(off_by_run(measurements, selected));
-    said.extend(selected.found.iter().flat_map(|found| at_an_end(&found.winner)));
+    said.extend(selected.found.iter().flat_map(|found| at_an_end(selected.model(), found.winner.id())));
+    said.extend(selected.found.iter().skip(1).filter_map(left_open));
     said.extend(untold(selected));
     said
 }
@@ -106,9 +106,10 @@ fn off_by_run<'a>(measurements: &'a Measurements, selected: &'a Selected<'_>) ->
 
 /// What is said of parameters of an effect that was found which lie on an end of their range, or no further from it than they
 /// are uncertain: how large they are the range says, and not the data. The end at which a parameter does nothing is none.
-fn at_an_end(winner: &Judged<'_>) -> Vec<String> {
-    let trial = &winner.trial;
-    let Some(effect) = trial.specification.effects.last() else { return Vec::new() };
+fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
+    let Some(effect) = trial.specification.effects.iter().find(|effect| effect.info.id == id) else {
+        return Vec::new();
+    };
     let coordinates = trial.model.coordinates();
     let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
     let said = own.filter_map(|(place, (id, name))| {
@@ -127,6 +128,13 @@ fn at_an_end(winner: &Judged<'_>) -> Vec<String> {
         ))
     });
     said.collect()
+}
+
+/// What is said of an effect after the first that others are not told from.
+fn left_open(found: &FoundStep<'_>) -> Option<String> {
+    let others = &found.ambiguous_with;
+    (!others.is_empty())
+        .then(|| format!("{}: these data do not tell it from {}.", found.winner.id(), others.join(" or ")))
 }
 
 /// The soil's parameters about which the data say next to nothing.

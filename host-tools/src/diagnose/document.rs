@@ -109,9 +109,11 @@ pub struct FoundEffect {
     /// The form in which it was found, of those that the effect has.
     #[serde(default)]
     pub form: String,
-    /// The parameters that this form frees, as fitted to all runs.
+    /// The parameters that this form frees, as fitted to all runs in the model with all effects found; and those at which it holds the
+    /// effect (such as the load at which one that grows with load does nothing), with no spread.
     pub parameters: BTreeMap<String, Estimate>,
-    /// Gain in log predictive density of held-out rows over the model before it, nats a row.
+    /// Gain in log predictive density of held-out rows over the model before it, nats a row; of the first of two that were found together
+    /// over the model with the second alone.
     pub gain_per_row: f64,
     /// How likely chance gives that gain to the best of all candidates, 0 … 1.
     pub p_value: f64,
@@ -155,7 +157,8 @@ pub struct FoundLaw {
     pub gain_per_row: f64,
 }
 
-/// How well a channel is predicted on runs that took no part in fitting or choosing; in the channel's unit.
+/// How well a channel is predicted on runs that took no part in the fits; in the channel's unit. Effects are chosen without them, too, among
+/// the candidates that all runs leave in question; two that show only together, and how many there are, all runs chose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ChannelErrors {
     /// Root mean square error of the declared model.
@@ -213,9 +216,9 @@ pub struct Candidate {
     pub gain_per_row: f64,
     /// One standard deviation of that, over runs.
     pub gain_std: f64,
-    /// As in [`FoundEffect`]; none where the gain was too small to be tested.
+    /// As in [`FoundEffect`].
     pub p_value: Option<f64>,
-    /// The parameters that the form frees, as fitted to all runs.
+    /// As in [`FoundEffect`], in the model of its step.
     pub parameters: BTreeMap<String, Estimate>,
 }
 

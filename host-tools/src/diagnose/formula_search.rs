@@ -97,8 +97,8 @@ impl Search<'_, '_> {
         let with = |&(_, place): &(f64, usize)| {
             let law = self.fitted(before.chosen.iter().copied().chain([place]).collect())?;
             let ln_posterior = law.log_posterior - before.log_posterior;
-            let dispersion = self.dispersion;
-            let gain = Gain { before: &before.fit, after: &law.fit, ln_posterior, dispersion, rows_per_reading: 1.0 };
+            let (dispersion, rows_per_reading) = (self.dispersion, law.fit.rows_per_reading());
+            let gain = Gain { before: &before.fit, after: &law.fit, ln_posterior, dispersion, rows_per_reading };
             let likely = gain.chance(1, self.terms.len()) < SIGNIFICANT;
             let worth = gain.in_dispersions() - self.cost(place);
             likely.then_some((worth, law))

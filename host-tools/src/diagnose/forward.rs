@@ -45,6 +45,11 @@ impl<'a> Selected<'a> {
     pub fn model(&self) -> &Trial<'a> {
         self.found.last().map_or(&self.base, |found| &found.winner.trial)
     }
+
+    /// The dispersion of that model, 1 or more.
+    pub fn dispersion(&self) -> f64 {
+        self.model().fit.dispersion.max(1.0)
+    }
 }
 
 /// Adds effects to a model while they earn their place.
@@ -88,7 +93,7 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         }
     }
     if selected.last.is_none() {
-        selected.left = left(bench, selected.model(), 1.0, known);
+        selected.left = left(bench, selected.model(), selected.dispersion(), known);
     }
     selected.left.retain(Structure::is_significant);
     selected

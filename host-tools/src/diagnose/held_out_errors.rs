@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::document::ErrorPair;
 use super::fit::{CHANNELS, HeldOut};
 use super::folds::{Fold, choose};
 use super::trial::{Bench, Trial};
@@ -20,6 +21,21 @@ impl HeldOutErrors {
     /// Those of rows of which none is predicted yet.
     pub fn none_yet(rows: usize) -> Self {
         Self { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] }
+    }
+
+    /// Whether both models predicted a channel in a row.
+    pub fn has(&self, row: usize, channel: usize) -> bool {
+        self.before[row][channel].is_some() && self.after[row][channel].is_some()
+    }
+
+    /// Root mean square errors of a channel over those of some rows that both models predicted; none without any.
+    pub fn pair(&self, channel: usize, rows: impl Fn(usize) -> bool) -> Option<ErrorPair> {
+        let both = (0..self.before.len()).filter(|row| rows(*row) && self.has(*row, channel));
+        let rmse = |residuals: &[[Option<f64>; CHANNELS]]| {
+            let squares: Vec<f64> = both.clone().filter_map(|row| residuals[row][channel]).map(|r| r * r).collect();
+            (!squares.is_empty()).then(|| f64::sqrt(squares.iter().sum::<f64>() / squares.len() as f64))
+        };
+        Some(ErrorPair { rmse_before: rmse(&self.before)?, rmse_after: rmse(&self.after)? })
     }
 }
 
@@ -60,11 +76,4 @@ pub fn note(predictions: &HeldOut, residuals: &mut [[Option<f64>; CHANNELS]]) {
     for row in predictions.runs.iter().flat_map(|run| &run.rows) {
         residuals[row.row] = row.residual;
     }
-}
-
-/// Root mean square of a channel's residuals over some rows; none without any.
-pub fn rmse(residuals: &[[Option<f64>; CHANNELS]], channel: usize, rows: impl Fn(usize) -> bool) -> Option<f64> {
-    let squares = residuals.iter().enumerate().filter(|(row, _)| rows(*row)).filter_map(|(_, row)| row[channel]);
-    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), residual| (sum + residual * residual, count + 1.0));
-    (count > 0.0).then(|| f64::sqrt(sum / count))
 }

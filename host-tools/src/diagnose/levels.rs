@@ -26,7 +26,7 @@ pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> 
     Some(LevelsLeftOut { slips, channels: error_pairs(&errors, |_| true) })
 }
 
-/// Mean slip and runs of each level, where the runs each stay at one.
+/// Slip (of its lowest run) and runs of each level, where the runs each stay at one.
 fn levels(measurements: &Measurements) -> Option<Vec<(f64, Vec<usize>)>> {
     let mut runs: Vec<(f64, usize)> = Vec::new();
     for run in 0..measurements.runs.len() {
@@ -40,7 +40,7 @@ fn levels(measurements: &Measurements) -> Option<Vec<(f64, Vec<usize>)>> {
     let mut levels: Vec<(f64, Vec<usize>)> = Vec::new();
     for (slip, run) in runs {
         match levels.last_mut() {
-            Some((mean, of_level)) if slip - *mean < SAME_LEVEL => of_level.push(run),
+            Some((lowest, of_level)) if slip - *lowest < SAME_LEVEL => of_level.push(run),
             _ => levels.push((slip, vec![run])),
         }
     }

@@ -43,6 +43,8 @@ pub struct Measurements {
     pub left_out: Vec<LeftOut>,
     /// Which rows were held at one slip or load.
     pub settled: Settled,
+    /// Whether the load is the same number in every row: what was put on the wheel, and no reading of a sensor.
+    pub is_load_set: bool,
     /// Radius of the wheel, m.
     radius_m: f64,
 }
@@ -94,6 +96,7 @@ impl Measurements {
 
     fn in_runs(campaign: &Campaign, usable: &[(usize, [Option<f64>; CHANNELS])], left_out: Vec<LeftOut>) -> Self {
         let noise = channel_noise(campaign, usable);
+        let loads = || usable.iter().filter_map(|(_, readings)| readings[Reading::Load.index()]);
         let mut found = Self {
             rows: Vec::new(),
             places: Vec::new(),
@@ -103,6 +106,7 @@ impl Measurements {
             noise,
             left_out,
             settled: Settled::default(),
+            is_load_set: loads().next().is_some() && !varies(loads()),
             radius_m: campaign.wheel.radius_m,
         };
         let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
@@ -192,6 +196,13 @@ pub fn median(values: Vec<f64>) -> Option<f64> {
 /// The grousers of a campaign's wheel.
 pub fn grousers(campaign: &Campaign) -> Grousers<f64> {
     Grousers { height_m: campaign.grousers.height_m, count: f64::from(campaign.grousers.count) }
+}
+
+/// Whether some numbers differ by more than their rounding.
+pub fn varies(values: impl Iterator<Item = f64>) -> bool {
+    let (low, high) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    high - low > 1e-6 * (low.abs() + high.abs())
 }
 
 fn check_columns(campaign: &Campaign) -> Result<(), HostError> {

@@ -84,9 +84,10 @@ pub fn diagnose(
     options: &DiagnoseOptions,
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Outcome, HostError> {
-    let single = campaign.runs().len() == 1;
+    // Of the runs that can be used: another may only brake.
+    let single = Measurements::without(campaign, options.braking, &[])?.runs.len() == 1;
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
-    let whole = Whole { as_given: campaign, in_runs: apart.as_ref().unwrap_or(campaign) };
+    let whole = Whole { as_given: campaign, in_runs: apart.as_ref().unwrap_or(campaign), is_single: single };
     progress("declared model");
     let measurements = measured(whole.in_runs, options, &[])?;
     let bench = Bench::new(whole.in_runs, &measurements);
@@ -112,6 +113,7 @@ fn ids(selected: &Selected<'_>) -> Vec<&'static str> {
 struct Whole<'a> {
     as_given: &'a Campaign,
     in_runs: &'a Campaign,
+    is_single: bool,
 }
 
 impl Whole<'_> {
@@ -132,11 +134,11 @@ impl Whole<'_> {
         document.data = Some(Fingerprint::of(self.as_given));
         if let Some(structure) = selected.left.first() {
             progress("a law of no list");
-            let dispersion = selected.last.as_ref().map_or(1.0, |step| step.dispersion);
+            let dispersion = selected.last.as_ref().map_or(selected.dispersion(), |step| step.dispersion);
             document.found_law = law(bench, selected.model(), structure, dispersion);
         }
         document.caveats.splice(0..0, in_words(self.as_given, set_aside));
-        if self.as_given.runs().len() == 1 {
+        if self.is_single {
             document.caveats.insert(0, ONE_RUN.to_owned());
         }
         Outcome { document, measurements: measurements.clone(), errors, guilty: selected.guilty.clone() }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::chance::{beside_noise, over_all, squares_gained};
-use super::fit::{Fit, Reading};
+use super::fit::{Fit, Reading, Row};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
 use super::selection::{PARAMETER_COST, TELLS_APART};
@@ -37,7 +37,7 @@ pub struct Structure {
 impl Structure {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        let is_held = self.held_out.is_some_and(|gain| gain.exceeds(0.0) && gain.is_shared());
+        let is_held = self.held_out.is_some_and(|gain| gain.exceeds(HELD_OUT_ERRORS) && gain.is_shared());
         self.p_value < SIGNIFICANT_STRUCTURE && is_held
     }
 }
@@ -45,6 +45,9 @@ impl Structure {
 /// The chance, over all channels and columns, below which a dependence is taken for one. Less than for an effect: behind an
 /// effect stands an equation that was written before the data.
 const SIGNIFICANT_STRUCTURE: f64 = 0.001;
+/// Standard errors over runs by which the gain on those that the fit did not see must exceed nothing: what drifts along each run in its own way
+/// follows a column in some of them.
+const HELD_OUT_ERRORS: f64 = 2.0;
 /// Fewest observations for each coefficient of a dependence.
 const PER_TERM: f64 = 4.0;
 /// Those of each channel that are fitted, of all that a first look is taken at.
@@ -199,14 +202,20 @@ fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Opti
     Some(gain(trial, &linearised.fit_with(&no_terms()).ok()?, after))
 }
 
-/// What a channel's scale is estimated from beside a dependence: its runs, where they have offsets of their own that it does not explain, else
-/// its independent rows.
+/// What a channel's scale is estimated from beside a dependence: its rows, of which several tell as much as an independent one where noise
+/// remembers, or where runs have offsets of their own that the dependence does not explain. Of these the design effect of rows that are drawn
+/// by runs tells how many: 1 + (m − 1) ρ, m rows a run of which pairs correlate by ρ (Kish 1965, Survey Sampling).
 fn observations(bench: &Bench<'_>, with: &Fit, channel: Reading, rows_per_reading: f64) -> f64 {
-    if with.offset_std[channel.index()] > 0.0 {
-        return bench.measurements.runs.len() as f64;
-    }
-    let rows = bench.measurements.rows.iter().filter(|row| row.readings[channel.index()].is_some());
-    rows.count() as f64 / rows_per_reading
+    let c = channel.index();
+    let rows: Vec<&Row> = bench.measurements.rows.iter().filter(|row| row.readings[c].is_some()).collect();
+    let mut runs: Vec<usize> = rows.iter().map(|row| row.run).collect();
+    runs.dedup();
+    let count = rows.len() as f64;
+    let noise_variance = rows.iter().map(|row| (row.noise[c] * with.noise_scale[c]).powi(2)).sum::<f64>() / count;
+    let offset_variance = with.offset_std[c].powi(2);
+    let correlation = offset_variance / (offset_variance + noise_variance);
+    let design_effect = 1.0 + (count / runs.len() as f64 - 1.0) * correlation;
+    count / design_effect.max(rows_per_reading)
 }
 
 /// The chance, over all that were tried, of a gain where the scale is estimated beside it: the likelihood ratio as the F

@@ -6,6 +6,9 @@ use crate::data::campaign::Campaign;
 
 use super::document::{Diagnosis, Verdict};
 
+/// Times the stated noise from which errors on held-out runs are not that noise.
+const BEYOND_NOISE: f64 = 2.0;
+
 /// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document.
 pub fn tell(document: &mut Diagnosis, campaign: &Campaign) {
     document.sentence = sentence(document, campaign);
@@ -31,6 +34,10 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
         Verdict::None if document.channels.is_empty() => {
             format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
         }
+        Verdict::None if let Some((channel, times)) = beyond_noise(document) => format!(
+            "{of}: {model} miss {channel} by {times:.1} times its stated noise, and no candidate and no column explains that: the noise is \
+             larger, or a law is missing that follows nothing measured."
+        ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
         }
@@ -49,6 +56,13 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
             format!("{of}: {model} lack {first}{or}{then}{left}.")
         }
     }
+}
+
+/// The channel that is missed by most of its stated noise on held-out runs, and by how much, where that is far from one.
+fn beyond_noise(document: &Diagnosis) -> Option<(&str, f64)> {
+    let stated = document.channels.iter().filter(|(_, errors)| errors.noise_stated);
+    let missed = stated.map(|(channel, errors)| (channel.as_str(), errors.rmse_after / errors.noise));
+    missed.filter(|(_, times)| *times > BEYOND_NOISE).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 fn what(id: &str) -> String {

@@ -110,6 +110,19 @@ impl EffectForm {
         (self.info.id, self.form.name)
     }
 
+    /// The parameters that are not free and yet not left alone, with their values: what is known exactly, what the form sets, and what others
+    /// refer to.
+    pub fn held(&self, measurements: &Measurements) -> Vec<(&'static str, f64)> {
+        let is_left_alone = |parameter: &ParameterInfo| {
+            let name = parameter.name;
+            !self.known.contains_key(name) && !self.form.has(name) && reference(name, measurements).is_none()
+        };
+        let parameters = self.info.parameters.iter().filter(|parameter| !is_left_alone(parameter));
+        parameters
+            .filter_map(|parameter| Some((parameter.name, self.treatment(parameter, measurements).ok()?)))
+            .collect()
+    }
+
     /// The value at which a parameter is held, or how a fit sees it.
     fn treatment(&self, parameter: &ParameterInfo, measurements: &Measurements) -> Result<f64, Coordinate> {
         let coordinate =
@@ -144,21 +157,15 @@ impl EffectForm {
 
 /// The forms that a declared effect may have: the one that the file states, or those that show and have the parameters it knows.
 fn possible_forms(declared: &DeclaredEffect, measured: impl Fn(&Form) -> bool) -> Vec<&'static Form> {
-    let given = |form: &&Form| declared.known.keys().all(|name| is_part(form, name));
     let all = declared.info.forms.iter();
     let mut forms: Vec<_> = match declared.form {
         Some(form) => vec![form],
-        None => all.clone().filter(|form| measured(form) && given(form)).collect(),
+        None => all.clone().filter(|form| measured(form) && declared.may_be(form)).collect(),
     };
     if forms.is_empty() {
         forms.extend(all.take(1));
     }
     forms
-}
-
-/// Whether a parameter is one that a form frees or sets.
-fn is_part(form: &Form, name: &str) -> bool {
-    form.free.contains(&name) || form.set.iter().any(|(set, _)| *set == name) || name.starts_with("reference")
 }
 
 /// Where the change of a reference only moves another parameter, it is held at the middle of what was measured.

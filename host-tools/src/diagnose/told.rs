@@ -41,7 +41,8 @@ pub fn told(campaign: &Campaign, ids: &[&str]) -> Result<Vec<Option<Told>>, Host
         let others = ids.iter().filter(|id| *id != last);
         let without = others.into_iter().try_fold(declared.clone(), |trial, id| add(&bench, &trial, id))?;
         let with = add(&bench, &without, last)?;
-        let gain = Gain::over(&without, &with, with.fit.dispersion.max(1.0));
+        let rows_per_reading = with.fit.rows_per_reading();
+        let gain = Gain { rows_per_reading, ..Gain::over(&without, &with, with.fit.dispersion.max(1.0)) };
         let gain_per_row = HeldOutGain::over(&held_out(&bench, &without), &held_out(&bench, &with)).per_row;
         Some(Told { p_value: gain.chance(with.added_parameters(), 1), gain_per_row })
     };

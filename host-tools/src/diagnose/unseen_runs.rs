@@ -67,6 +67,11 @@ impl HeldOutGain {
         Self { per_row: sum / rows, std: std / rows, without_most: (sum - most) / rows }
     }
 
+    /// Whether the second model had an answer where the first had one.
+    pub fn has_answer(&self) -> bool {
+        *self != Self::LOST
+    }
+
     /// Whether it is more than so many standard errors.
     pub fn exceeds(&self, errors: f64) -> bool {
         self.per_row > errors * self.std

@@ -8,6 +8,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use super::super::chance::over_all;
 use super::super::document::{Estimate, FoundEffect};
 use super::super::selection::TELLS_APART;
+use super::super::unseen_runs::summed;
 use super::ForceChannels;
 use super::jackknife::{Jackknife, first_stage_strength};
 use super::regression::{Problem, Term};
@@ -86,7 +87,9 @@ fn significant<'a>(problem: &'a Problem, chosen: &[&Term], tried: usize) -> Vec<
         let fit = strong.then(|| Jackknife::fit(problem, &terms)).flatten()?;
         let (value, std) = (*fit.coefficients.last()?, *fit.std.last()?);
         let p_value = chance(value / std, fit.degrees_of_freedom, tried)?;
-        let (gain, gain_std) = gain(&base.log_scores, &fit.log_scores);
+        let gains: Vec<f64> =
+            base.log_scores.iter().zip(&fit.log_scores).map(|(before, after)| after - before).collect();
+        let (gain, gain_std) = summed(&gains);
         is_sensible(term, value).then_some(Tried { term, p_value, gain, gain_std })
     };
     others.filter_map(examine).filter(Tried::is_significant).collect()
@@ -105,15 +108,6 @@ fn chance(t: f64, degrees_of_freedom: f64, tried: usize) -> Option<f64> {
 fn is_sensible(term: &Term, value: f64) -> bool {
     let parameter = effect_info(term.id).and_then(|info| info.parameter(term.parameter));
     parameter.is_some_and(|parameter| (parameter.low..=parameter.high).contains(&value))
-}
-
-/// The sum over runs, and one standard deviation of it.
-fn gain(before: &[f64], after: &[f64]) -> (f64, f64) {
-    let gains: Vec<f64> = before.iter().zip(after).map(|(before, after)| after - before).collect();
-    let count = gains.len() as f64;
-    let sum: f64 = gains.iter().sum();
-    let squares: f64 = gains.iter().map(|gain| (gain - sum / count).powi(2)).sum();
-    (sum, (squares * count / (count - 1.0).max(1.0)).sqrt())
 }
 
 /// What was chosen, with the values of all in one fit.
