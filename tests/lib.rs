@@ -50,7 +50,7 @@ pub fn random(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-/// Queries such as a rover sends: one to six wheels of Kapvik's size, with and without sinkage, 20 to 120 N a wheel.
+/// Queries such as a rover sends: one to six wheels of about Kapvik's size, with and without sinkage, 20 to 120 N a wheel.
 pub fn queries(count: usize, random: &mut ChaCha8Rng) -> Vec<SoilQuery> {
     (0..count).map(|_| query(random)).collect()
 }

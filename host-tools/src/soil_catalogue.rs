@@ -118,6 +118,16 @@ pub enum Incomplete {
     Strength,
 }
 
+impl fmt::Display for Incomplete {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Pressure => "n or its moduli",
+            Self::ReeceWithoutWidth => "the width of the wheel that its moduli are for",
+            Self::Strength => "cohesion or friction angle",
+        })
+    }
+}
+
 impl Completion {
     /// The seed's Table 1: K = 11.4 mm, c₁ = 0.18, c₂ = 0.32; no rebound.
     pub const SEED: Self =

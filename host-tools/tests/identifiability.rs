@@ -71,7 +71,7 @@ fn six_wheels(measurement: &WheelMeasurement, (slip_low, slip_high): (f64, f64),
     information.bound(measurement, WheelsInTurn { wheels: 6, stations_each: 1 }, instants).unwrap()
 }
 
-/// METHODS 7.3. Its figures have no slip noise in them, know the sinkage, n, stiffness, c₁ and c₂ exactly, have nothing that
+/// Against a table of an independent implementation. Its figures have no slip noise in them, know the sinkage, n, stiffness, c₁ and c₂ exactly, have nothing that
 /// lasts, and spread the loads by ±8 % in an order that is not stated. With equal loads, or loads that rise with slip, they
 /// are several times as large; the order of [`Spread`] gives them. The row of equal slips, where the order is of no account,
 /// comes out 3 % lower: the loads of the table were not quite in equal steps.

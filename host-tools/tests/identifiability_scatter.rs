@@ -1,7 +1,7 @@
 //! The bound against the scatter of estimates from simulated measurements of a manoeuvre.
 //!
-//! The estimator knows nothing of the bound's code: forces from the f64 equations at a sinkage that is solved for, balances as
-//! METHODS 3.2 writes them for level ground, all slopes by differences, and a plain Gauss–Newton iteration.
+//! The estimator knows nothing of the bound's code: forces from the f64 equations at a sinkage that is solved for, balances
+//! written out for level ground, all slopes by differences, and a plain Gauss–Newton iteration.
 
 use kapvik_firmware::rover::{PerAxle, Rover};
 use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};

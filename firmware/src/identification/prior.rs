@@ -63,7 +63,7 @@ impl<S: Scalar> Belief<S> {
         self.std.is_some_and(|std| std <= S::zero())
     }
 
-    /// One standard deviation: the stated one, or that of a flat belief, a twelfth root of its range's square.
+    /// One standard deviation: the stated one, or that of a flat belief, the root of a twelfth of its range's square.
     pub fn spread(&self) -> S {
         self.std.unwrap_or((self.high - self.low) * S::constant(0.288_675_134_594_812_9))
     }
@@ -81,8 +81,8 @@ impl<S: Scalar> Belief<S> {
 
 impl<S: Scalar> SoilPrior<S> {
     /// What is believed where nothing is known of the soil but that wheels drive on it: c about 400 Pa and φ about 32°
-    /// within 1.2 in ln c and 6°, K about 13 mm within 0.6 in ln K (METHODS.md, section 7.4, from the table of soils in
-    /// its section 10, as is the rest): a pressure at 15 mm of about 20 kPa within a factor of 2.2, as the sands
+    /// within 1.2 in ln c and 6°, K about 13 mm within 0.6 in ln K, as the soils of the literature have them
+    /// (`kapvik soils`), and so the rest: a pressure at 15 mm of about 20 kPa within a factor of 2.2, as the sands
     /// and regoliths have it, whatever the exponent; n 1.05 ± 0.25; c₁ 0.32 ± 0.12 and c₂ 0.25 ± 0.15, the
     /// spread of the ten wheels with figures of their own. No rear contact.
     pub fn usual() -> Self {

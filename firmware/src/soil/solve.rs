@@ -3,6 +3,7 @@
 /// Solves (`left` + `known`) x = `right` for x, in place of `right`; of both matrices the diagonal and what is above it count.
 #[inline(always)]
 pub fn solve<const N: usize>(left: &mut [[f32; N]; N], known: &[[f32; N]; N], right: &mut [f32; N]) {
+    const { assert!(N <= 6, "one line below for each pivot") };
     left.as_flattened_mut().iter_mut().zip(known.as_flattened()).for_each(|(sum, known)| *sum += known);
     eliminate::<0, N>(left, right);
     eliminate::<1, N>(left, right);

@@ -1,4 +1,4 @@
-//! Maximum a posteriori with errors in variables, against METHODS.md's independent figures and against truths drawn from
+//! Maximum a posteriori with errors in variables, against figures of an independent implementation and against truths drawn from
 //! the prior.
 
 use heapless::Vec as Fixed;
@@ -41,7 +41,7 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance, "{value} against {expected} ± {tolerance}");
 }
 
-/// METHODS.md 6.1, last column: medians of an independent implementation. A degree of φ and half a millimetre of K is
+/// Medians of an independent implementation. A degree of φ and half a millimetre of K is
 /// what its unstated beliefs in n, k, c₁ and c₂ can make.
 #[test]
 fn six_wheels_near_the_prior_as_published() {
@@ -70,7 +70,7 @@ fn six_wheels_far_from_the_prior_as_published() {
     assert!((1192.0..1500.0).contains(&cohesion), "{cohesion} Pa");
 }
 
-/// A single instant tells K, and neither c nor much of φ (METHODS.md, section 1, item 3); a hundred tell both.
+/// A single instant tells K, and neither c nor much of φ; a hundred tell both.
 #[test]
 fn identifiable_is_what_the_data_tell() {
     let told = |design: Design<'_>| {
@@ -82,7 +82,7 @@ fn identifiable_is_what_the_data_tell() {
     assert_eq!(told(Design { slips: &[0.2], ..Design::ONE_INSTANT }), [false, false, true]);
 }
 
-/// METHODS.md 7.3: relative standard deviations, with z and slip known, and 1 (section 1, item 1): a condition number of
+/// Relative standard deviations of an independent implementation, with z and slip known, and for one wheel a condition number of
 /// 1.6e4–3.5e4 in ln c, ln φ, ln K.
 #[test]
 fn cramer_rao_as_published() {
@@ -166,7 +166,7 @@ fn noise_free_data_give_the_truth() {
     }
 }
 
-/// METHODS.md, section 1, item 1: one wheel with everything else known, a condition number of 1.6e4–3.5e4 in ln c, ln φ and
+/// One wheel with everything else known, a condition number of 1.6e4–3.5e4 in ln c, ln φ and
 /// ln K. In φ itself the column is 1/φ as long.
 #[test]
 fn condition_number_of_one_wheel_as_published() {

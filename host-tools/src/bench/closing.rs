@@ -22,7 +22,7 @@ pub struct ClosingArguments {
     /// Simulated rovers of each kind
     #[arg(long, default_value_t = 10_000)]
     cases: usize,
-    /// Seed of the rovers; training has used none above 2³¹ or equal to 1
+    /// Seed of the rovers; training uses 1, and 4294967294 for its check
     #[arg(long, default_value_t = 2026)]
     seed: u32,
     /// Train for seconds only, to see that everything works

@@ -22,7 +22,7 @@ pub struct LimitArguments {
     /// Observations at each noise level
     #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub cases: u32,
-    /// Seed of soils, noise and sampling; training has used none above 2³¹ or equal to 1
+    /// Seed of soils, noise and sampling; training uses 1, and 4294967294 for its check
     #[arg(long, default_value_t = 2026)]
     pub seed: u32,
     /// Whether the sinkage is seen

@@ -45,7 +45,7 @@ pub struct Cases {
     /// Unseen cases of each kind.
     #[arg(long, default_value_t = 20_000)]
     cases: usize,
-    /// Seed of the cases; training has used none above 2³¹ or equal to 1.
+    /// Seed of the cases; training uses 1, and 4294967294 for its check.
     #[arg(long, default_value_t = 2026)]
     seed: u32,
 }

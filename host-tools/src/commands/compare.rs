@@ -18,7 +18,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     cases: u32,
     /// Cases of each situation that the exact posterior is sampled for, which takes a second each
-    #[arg(long, default_value_t = 60)]
+    #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     limit_cases: u32,
     /// Seed of soils, loads and noise
     #[arg(long, default_value_t = 2026)]

@@ -126,6 +126,9 @@ impl<S: Scalar> Forward<S> {
             SinkageError::Input if load <= S::zero() => {
                 table.error_at(row, columns.load, format!("{}: expected a load above 0 N", written(load)))
             }
+            SinkageError::Input if slip.abs() <= S::one() => {
+                self.force_error(table, columns, row, ForceError::Overflow)
+            }
             SinkageError::Input => self.force_error(table, columns, row, ForceError::Slip),
             SinkageError::LoadTooGreat => table.error_at(row, columns.load, self.too_great(slip, load)),
         })

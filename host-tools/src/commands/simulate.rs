@@ -93,6 +93,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
             None => error.to_string(),
         })
     })?;
+    let end_s = traverse.frames().saturating_sub(1) as f64 / arguments.rate;
+    if let Some(fault) = options.faults.iter().find(|fault| fault.between_s.0 > end_s) {
+        let (start_s, _) = fault.between_s;
+        return Err(HostError::Failed(format!(
+            "--effect: a fault from {start_s} s on: expected one within the drive, which ends at {end_s} s"
+        )));
+    }
     let told = write(&arguments.output, &truth, traverse)?;
     println!("{told}, seed {}", arguments.seed);
     println!("{} and {}", arguments.output.display(), truth.display());
@@ -114,7 +121,8 @@ fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Resu
                 (written, last_s, way_m) = (written + 1, 1.0e-6 * frame.time_us as f64, truth.x_m);
                 bar.inc(1);
             }
-            truths.flush().map_err(HostError::file(truths_path))
+            // Before the truth takes its place: it must not stand beside frames that could not be written.
+            frames.flush().map_err(HostError::file(frames_path))
         })
     })?;
     bar.finish_and_clear();
@@ -152,7 +160,7 @@ pub(super) fn soil(name: &str) -> Result<Soil<f64>, HostError> {
     let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
     match soils.iter().find(|soil| soil.id == name) {
         Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {
-            HostError::Failed(format!("{name}: its source leaves open what the equations need ({missing:?})"))
+            HostError::Failed(format!("{name}: its source leaves open what the equations need: {missing}"))
         }),
         None if name.ends_with(".toml") => SoilTable::read_complete(Path::new(name)),
         None => Err(HostError::Failed(format!(

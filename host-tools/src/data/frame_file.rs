@@ -14,7 +14,7 @@ pub(super) const TIME: &str = "t_s";
 
 /// The frames of a file, in the order of time.
 ///
-/// Needed are `t_s`, which must rise from row to row, and at least one sensor. A sensor without a column is absent, one
+/// Needed are `t_s`, which must not fall from row to row, and at least one sensor. A sensor without a column is absent, one
 /// with an empty field gave nothing in that frame, and columns of other names are passed over. `NaN` and `inf` are values:
 /// a sensor may say so, and it is for the flight software to refuse them.
 pub struct FrameReader {
@@ -75,7 +75,9 @@ impl FrameReader {
             Err(self.stream.error_at(row, self.time, format!("{found}: expected {expected}")))
         };
         let Some(time_s) = number else { return refuse("empty".into(), "a time in s") };
-        let Some(time_us) = microseconds(time_s) else { return refuse(time_s.to_string(), "a time of 0 s or more") };
+        let Some(time_us) = microseconds(time_s) else {
+            return refuse(time_s.to_string(), "a time of 0 s or more, at most 1e11 s");
+        };
         match self.last_us {
             Some(last) if time_us < last => {
                 refuse(format!("{time_s}: time runs backwards"), "no earlier time than before")

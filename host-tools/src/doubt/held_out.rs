@@ -1,4 +1,5 @@
-//! How honest standard deviations are before and after, on rows that took no part in training.
+//! How honest standard deviations are before and after, on rows that took no part in training. Errors of sides that start or stop count here
+//! as they do in training: one and a half times.
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};

@@ -18,7 +18,7 @@ pub const PARAMETERS: usize = DIMENSION;
 pub enum Knowledge {
     /// Exactly.
     Known,
-    /// As well as the usual prior has it ([`SoilPrior::usual`]): its standard deviations, about the stated soil.
+    /// As well as the usual prior has it: its standard deviations, about the stated soil.
     Prior,
     /// As well as the prior that the networks are trained with has it: the standard deviations of its ranges, about the
     /// stated soil.

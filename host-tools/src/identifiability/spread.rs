@@ -10,7 +10,7 @@ use super::single_wheel::{Station, WheelMeasurement};
 pub const STATIONS: usize = 6;
 
 /// Place of the load of each station in its range, −1 … 1, in the order of the slips: equal steps in an order that is hardly
-/// correlated with slip. With ±8 % it gives the table of METHODS 7.3 within 1 %, but for one row (3 %).
+/// correlated with slip. With ±8 % it gives the table of an independent implementation (`tests/identifiability.rs`) within 1 %, but for one row (3 %).
 const LOAD_PLACES: [f64; STATIONS] = [1.0, -0.6, 0.6, -0.2, -1.0, 0.2];
 
 /// Slips and loads of six stations.

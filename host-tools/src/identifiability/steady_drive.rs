@@ -2,7 +2,7 @@
 //!
 //! Left and right are alike, so that one side carries half of the weight. Body and links are taken to lie along the ground.
 //! The hub speed and the loads of the three wheels follow from four balances: force along the ground and across it, moment
-//! of the bogie, moment of the rocker with its half of the body's (METHODS 3.2).
+//! of the bogie, moment of the rocker with its half of the body's.
 
 use kapvik_firmware::rover::{
     Axes, Axle, Contact, LinkAngles, PerAxle, Rover, Side, SideLayout, body_moment_nm, bogie_moment_nm,

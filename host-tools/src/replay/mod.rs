@@ -1,6 +1,7 @@
 //! Recorded sensor frames through a flight computer.
 
 mod estimate_file;
+mod gravity_felt;
 pub mod health;
 pub mod naive;
 mod outcome;
@@ -21,6 +22,7 @@ use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
 
 pub use estimate_file::EstimateWriter;
+pub use gravity_felt::{GravityFelt, OtherGravity};
 pub use health::{REASONS, SensorTrouble, sensor_name, troubles};
 pub use outcome::{lines, unknown_columns};
 pub use recording::Recording;
@@ -41,6 +43,8 @@ pub struct Outcome {
     pub soil_changes_us: Vec<u64>,
     /// What is wrong with rover file or load cells, where these do not bear what that says.
     pub misfit: Option<Misfit>,
+    /// What the accelerometer feels in place of gravity, where that is something else.
+    pub other_gravity: Option<OtherGravity>,
     /// How sensors and filters did.
     pub estimator: EstimatorHealth,
     /// Who answered.
@@ -76,8 +80,14 @@ pub fn replay(
     let start = Instant::now();
     let mut counted: Option<Counted> = None;
     let mut weighing = Weighing::of(rover);
-    let weighed = frames.inspect(|frame| frame.iter().for_each(|frame| weighing.take(frame)));
-    computer.frames(weighed, |estimate| {
+    let mut gravity = GravityFelt::of(rover);
+    let looked_at = frames.inspect(|frame| {
+        frame.iter().for_each(|frame| {
+            weighing.take(frame);
+            gravity.take(frame);
+        });
+    });
+    computer.frames(looked_at, |estimate| {
         counted.get_or_insert_with(|| Counted::from(estimate.time_us)).count(&estimate);
         take(&estimate)
     })?;
@@ -85,8 +95,8 @@ pub fn replay(
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
-    let misfit = weighing.misfit();
-    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, misfit, estimator, boot, health })
+    let (misfit, other_gravity) = (weighing.misfit(), gravity.other());
+    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, misfit, other_gravity, estimator, boot, health })
 }
 
 impl Counted {

@@ -63,8 +63,8 @@ pub(super) fn moments<S: Scalar, const N: usize>(problem: &Problem<'_, S>, mode:
     sum.moments(steps)
 }
 
-/// Adds up the normal distributions about fits at all steps along the lines, one line within the other. Returns how many
-/// steps the descents took.
+/// Adds up the normal distributions about fits at all steps along the lines, one line within the other: it calls itself once for
+/// each line, of which there are three at most. Returns how many steps the descents took.
 fn sum_over<S: Scalar, const N: usize>(
     problem: &Problem<'_, S>,
     (fit, normal): (&Fit<S, N>, &Normal<S>),

@@ -1,5 +1,5 @@
 //! Maximum a posteriori with errors in variables: every observation's true sinkage and slip are unknown too, and the
-//! integrals of the wheel–soil equations are taken as they are (METHODS.md, section 7.4).
+//! integrals of the wheel–soil equations are taken as they are.
 //!
 //! Residuals, each over its standard deviation: drawbar pull, load, torque, slip, and the sinkage where it was measured; and
 //! those of the beliefs ([`crate::identification::SoilPrior`]). Their slopes come with the equations (dual numbers); the true

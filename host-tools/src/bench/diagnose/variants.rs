@@ -1,6 +1,6 @@
 //! Listed effects by other equations than the library's: what is measured need not follow the law that we wrote down.
 //!
-//! Numbers as in the catalogue of effects of METHODS.md, section 13, where most of the laws are named.
+//! Most of the laws are ones that the literature has for the same effect.
 
 use kapvik_firmware::terramechanics::Soil;
 

@@ -1,0 +1,87 @@
+//! Whether the accelerometer feels the gravity that the rover file states: one that speaks in other units does not.
+
+use std::fmt;
+
+use kapvik_firmware::rover::Rover;
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+/// Share of gravity by which what is felt in the mean may be off: rovers on wheels hardly speed up, and no scale of a sensor errs by so much.
+const TOLERATED: f64 = 0.1;
+/// Fewest frames that tell.
+const LEAST_FRAMES: u32 = 20;
+
+/// What the accelerometer feels over a drive, in a running sum.
+#[derive(Debug, Clone)]
+pub struct GravityFelt {
+    stated_m_s2: f64,
+    sum_m_s2: f64,
+    frames: u32,
+}
+
+/// An accelerometer that feels another gravity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherGravity {
+    /// What it feels in the mean, m/s².
+    pub felt_m_s2: f64,
+    /// What the rover file states, m/s².
+    pub stated_m_s2: f64,
+}
+
+impl GravityFelt {
+    /// Of a rover, before its first frame.
+    pub fn of(rover: &Rover<f32>) -> Self {
+        Self { stated_m_s2: rover.gravity_m_s2.into(), sum_m_s2: 0.0, frames: 0 }
+    }
+
+    /// Takes a frame in which all axes say something that is within a hundred times gravity.
+    pub fn take(&mut self, frame: &SensorFrame) {
+        let Some(felt) = frame.accel_m_s2.map(|axis| axis.map(f64::from)).all() else { return };
+        let size_m_s2 = felt.x.hypot(felt.y).hypot(felt.z);
+        if size_m_s2 < 100.0 * self.stated_m_s2 {
+            self.sum_m_s2 += size_m_s2;
+            self.frames += 1;
+        }
+    }
+
+    /// What it feels, where that is not gravity.
+    pub fn other(&self) -> Option<OtherGravity> {
+        let (felt_m_s2, stated_m_s2) = (self.sum_m_s2 / f64::from(self.frames), self.stated_m_s2);
+        let is_other = self.frames >= LEAST_FRAMES && (felt_m_s2 - stated_m_s2).abs() > TOLERATED * stated_m_s2;
+        is_other.then_some(OtherGravity { felt_m_s2, stated_m_s2 })
+    }
+}
+
+impl fmt::Display for OtherGravity {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { felt_m_s2, stated_m_s2 } = self;
+        write!(
+            formatter,
+            "the accelerometer feels {felt_m_s2:.2} m/s² where gravity is {stated_m_s2:.2}: it speaks in other units, or gravity is \
+             off, and contact angles and pulls with it"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::rover::Axes;
+
+    use super::*;
+
+    fn felt(z_m_s2: f32, frames: u32) -> Option<OtherGravity> {
+        let mut felt = GravityFelt::of(&Rover::<f64>::assumed().map(|value| value as f32));
+        let accel_m_s2 = Axes { x: Some(0.3), y: Some(f32::NAN), z: Some(z_m_s2) };
+        felt.take(&SensorFrame { accel_m_s2, ..SensorFrame::default() });
+        let accel_m_s2 = Axes { y: Some(0.0), ..accel_m_s2 };
+        (0..frames).for_each(|_| felt.take(&SensorFrame { accel_m_s2, ..SensorFrame::default() }));
+        felt.other()
+    }
+
+    #[test]
+    fn gravities_are_told_of_another() {
+        assert_eq!(felt(9.7, 100), None);
+        assert_eq!(felt(1.0, 10), None, "too few frames tell nothing");
+        let said = felt(1.0, 100).expect("in gravities").to_string();
+        assert!(said.contains("feels 1.04 m/s² where gravity is 9.81"), "{said}");
+    }
+}
