@@ -37,7 +37,7 @@ pub struct Structure {
 impl Structure {
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
-        let is_held = self.held_out.is_some_and(|gain| gain.exceeds(HELD_OUT_ERRORS) && gain.is_shared());
+        let is_held = self.held_out.is_some_and(|gain| gain.chance() < BY_RUNS && gain.is_shared());
         self.p_value < SIGNIFICANT_STRUCTURE && is_held
     }
 }
@@ -45,9 +45,9 @@ impl Structure {
 /// The chance, over all channels and columns, below which a dependence is taken for one. Less than for an effect: behind an
 /// effect stands an equation that was written before the data.
 const SIGNIFICANT_STRUCTURE: f64 = 0.001;
-/// Standard errors over runs by which the gain on those that the fit did not see must exceed nothing: what drifts along each run in its own way
-/// follows a column in some of them.
-const HELD_OUT_ERRORS: f64 = 2.0;
+/// The chance, over runs that the fit did not see, below which they gain by it: what drifts along each run in its own way follows a column in
+/// some of them.
+const BY_RUNS: f64 = 0.01;
 /// Fewest observations for each coefficient of a dependence.
 const PER_TERM: f64 = 4.0;
 /// Those of each channel that are fitted, of all that a first look is taken at.

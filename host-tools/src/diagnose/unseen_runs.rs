@@ -1,6 +1,7 @@
 //! What a model says of runs that it has not seen, and what one model says better than another.
 
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::fit::HeldOutRun;
 use super::trial::{Bench, Trial};
@@ -11,6 +12,9 @@ const GROUPS: usize = 6;
 const FEW_RUNS: usize = 30;
 /// Rows up to which they are.
 const FEW_ROWS: usize = 60;
+
+/// Degrees of freedom by which two runs are judged, too: one would never be enough.
+const LEAST_FREEDOM: f64 = 2.0;
 
 /// Runs dealt out to groups, so that neighbours, which are often alike, are in different ones.
 pub fn groups(runs: usize, rows: usize) -> Vec<Vec<usize>> {
@@ -50,11 +54,13 @@ pub struct HeldOutGain {
     pub std: f64,
     /// What is left of it without the run that gains most.
     pub without_most: f64,
+    /// Over how many runs.
+    pub runs: usize,
 }
 
 impl HeldOutGain {
     /// Of a model that has no answer where the other had one.
-    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0, without_most: f64::NEG_INFINITY };
+    const LOST: Self = Self { per_row: f64::NEG_INFINITY, std: 0.0, without_most: f64::NEG_INFINITY, runs: 0 };
 
     /// Of the second model over the first. Runs for which the first had no answer count for nothing; a second without an answer
     /// where the first had one has lost.
@@ -64,7 +70,7 @@ impl HeldOutGain {
         let rows = before.iter().map(|run| run.rows.len()).sum::<usize>().max(1) as f64;
         let (sum, std) = summed(&gains);
         let most = gains.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        Self { per_row: sum / rows, std: std / rows, without_most: (sum - most) / rows }
+        Self { per_row: sum / rows, std: std / rows, without_most: (sum - most) / rows, runs: gains.len() }
     }
 
     /// Whether the second model had an answer where the first had one.
@@ -75,6 +81,12 @@ impl HeldOutGain {
     /// Whether it is more than so many standard errors.
     pub fn exceeds(&self, errors: f64) -> bool {
         self.per_row > errors * self.std
+    }
+
+    /// The chance of such a gain over runs that gain nothing in the mean: of Student's t.
+    pub fn chance(&self) -> f64 {
+        let freedom = (self.runs as f64 - 1.0).max(LEAST_FREEDOM);
+        StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(self.per_row / self.std.max(f64::MIN_POSITIVE)))
     }
 
     /// Whether more than one run gains. What one alone does, while the others together lose, may be a gross error of its own: a model that is
