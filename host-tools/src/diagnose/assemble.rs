@@ -82,10 +82,9 @@ fn owned(ids: &[&str]) -> Vec<String> {
 
 /// An effect with what it gained when it was found, and its form and parameters as the final `model` has them.
 fn found_effect(measurements: &Measurements, model: &Trial<'_>, winner: &Judged<'_>) -> FoundEffect {
-    let effect = model.specification.effects.iter().find(|effect| effect.info.id == winner.id());
     FoundEffect {
         id: winner.id().to_owned(),
-        form: effect.map_or("", |effect| effect.form.name).to_owned(),
+        form: model.specification.effect(winner.id()).map_or("", |effect| effect.form.name).to_owned(),
         parameters: parameters(measurements, model, winner.id()),
         gain_per_row: winner.held_out.per_row,
         p_value: winner.p_value,
@@ -97,8 +96,7 @@ fn parameters(measurements: &Measurements, trial: &Trial<'_>, id: &str) -> BTree
     let soil = trial.model.soil_count();
     let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (effect, _))| *effect == id);
     let fitted = own.map(|(offset, (_, name))| ((*name).to_owned(), estimate(trial, soil + offset)));
-    let effect = trial.specification.effects.iter().find(|effect| effect.info.id == id);
-    let held = effect.map_or_else(Vec::new, |effect| effect.held(measurements)).into_iter();
+    let held = trial.specification.effect(id).map_or_else(Vec::new, |effect| effect.held(measurements)).into_iter();
     fitted.chain(held.map(|(name, value)| (name.to_owned(), Estimate { value, std: 0.0 }))).collect()
 }
 

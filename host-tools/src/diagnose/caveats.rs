@@ -107,7 +107,7 @@ fn off_by_run<'a>(measurements: &'a Measurements, selected: &'a Selected<'_>) ->
 /// What is said of parameters of an effect that was found which lie on an end of their range, or no further from it than they
 /// are uncertain: how large they are the range says, and not the data. The end at which a parameter does nothing is none.
 fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
-    let Some(effect) = trial.specification.effects.iter().find(|effect| effect.info.id == id) else {
+    let Some(effect) = trial.specification.effect(id) else {
         return Vec::new();
     };
     let coordinates = trial.model.coordinates();

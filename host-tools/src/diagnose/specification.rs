@@ -69,9 +69,14 @@ impl Specification {
         Self { effects }
     }
 
+    /// An effect, if it is among them.
+    pub fn effect(&self, id: &str) -> Option<&EffectForm> {
+        self.effects.iter().find(|effect| effect.info.id == id)
+    }
+
     /// Whether an effect is among them.
     pub fn has(&self, id: &str) -> bool {
-        self.effects.iter().any(|effect| effect.info.id == id)
+        self.effect(id).is_some()
     }
 
     /// Id and form of each, in order.

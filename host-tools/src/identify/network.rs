@@ -1,7 +1,5 @@
 //! Identification by the networks that fly.
 
-use std::borrow::Cow;
-
 use kapvik_firmware::pipeline;
 use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use kapvik_firmware::terramechanics::Soil;
@@ -92,7 +90,7 @@ pub fn identify_rehearsed(
     answer: &mut Answer<'_>,
 ) -> Result<Identification, HostError> {
     let mut identification = identify(campaign, answer)?;
-    let seen = if know_effects { Cow::Borrowed(campaign) } else { Cow::Owned(campaign.without_declared()) };
+    let seen = campaign.as_seen(know_effects);
     if seen.declared.effects.is_empty() {
         identification.runs.iter_mut().filter_map(|run| run.question.as_mut()).for_each(Question::rehearse);
     }

@@ -11,6 +11,7 @@ mod ground;
 mod noise;
 mod repeats;
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use kapvik_firmware::terramechanics::Wheel;
@@ -182,10 +183,13 @@ impl Campaign {
         self
     }
 
-    /// The same as one sees it who knows no effects.
-    #[must_use]
-    pub fn without_declared(&self) -> Self {
-        Self { declared: Declared::default(), ..self.clone() }
+    /// The same as one sees it who knows effects, or who knows none and so is told of none.
+    pub fn as_seen(&self, knows_effects: bool) -> Cow<'_, Self> {
+        if knows_effects {
+            Cow::Borrowed(self)
+        } else {
+            Cow::Owned(Self { declared: Declared::default(), ..self.clone() })
+        }
     }
 
     /// The names of the columns of numbers, `t_s` aside.

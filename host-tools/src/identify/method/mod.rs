@@ -101,7 +101,7 @@ impl Method {
 
     /// A campaign as the method sees it: one that knows no effects is told of none.
     pub fn sees(self, campaign: &Campaign) -> Cow<'_, Campaign> {
-        if self.knows_effects() { Cow::Borrowed(campaign) } else { Cow::Owned(campaign.without_declared()) }
+        campaign.as_seen(self.knows_effects())
     }
 
     /// The most states of a run that the method is given.
