@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use kapvik_firmware::network::FLOWN_PAIRS;
-use kapvik_host::close_loop::{SHIPPED_FIFTH, train};
+use kapvik_host::close_loop::train;
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_host::process::{command, output_of};
 use kapvik_host::train::emit::{Provenance, table_file};
+use kapvik_host::train::fifth_input::Candidate;
 use kapvik_host::train::plan::Plan;
 use kapvik_host::train::world::World;
 use kapvik_tests::{estimates_of_the_recorded_drive, recorded_drive};
@@ -19,7 +20,7 @@ fn other_table(folder: &Path) -> PathBuf {
     let world = World::seed();
     let trained = train(&world, &plan, true).unwrap_or_else(|error| panic!("{error}"));
     let (wheel, loss) = trained.wheel.expect("it was asked for");
-    let provenance = Provenance { plan: &plan, world: &world, fifth: SHIPPED_FIFTH, losses: [loss, trained.loss] };
+    let provenance = Provenance { plan: &plan, world: &world, fifth: Candidate::SHIPPED, losses: [loss, trained.loss] };
     let path = folder.join("other.table");
     fs::write(&path, table_file(wheel, trained.rover, &provenance).to_text()).expect("a folder for tests");
     path

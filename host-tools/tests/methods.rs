@@ -5,9 +5,10 @@ mod support;
 
 use std::path::Path;
 
-use kapvik_host::compare::{CompareOptions, Comparison, Parameter, ParameterScore, compare};
+use kapvik_host::compare::{CompareOptions, Comparison, ParameterScore, compare};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::{Method, identify_by};
+use kapvik_host::parameter::Parameter;
 use kapvik_host::report::identified;
 use serde_json::Value;
 use support::{Made, TOML};

@@ -1,7 +1,6 @@
 //! How near an estimator comes to the posterior mean, which none can beat.
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
@@ -10,6 +9,7 @@ use crate::limit::calibration::{distance_bound, distance_from_uniform};
 use crate::limit::case::{Case, KAPVIK_LOADS, cases};
 use crate::limit::coordinates::Targets;
 use crate::limit::summary::EFFORT;
+use crate::progress::bar;
 use crate::train::dataset::prior_scale;
 use crate::train::scene::Design;
 
@@ -64,7 +64,7 @@ const CONFIDENCE: f64 = 0.99;
 pub fn run(arguments: &LimitArguments, estimator: Option<&Estimator<'_>>) -> Result<(), HostError> {
     for &sinkage in arguments.sinkage.each() {
         for instants in [1, 100] {
-            let bar = progress(arguments.cases, instants);
+            let bar = bar(format!("posteriors, instants: {instants}"), arguments.cases as usize);
             let design = Design::Kapvik { instants, sinkage };
             let found = cases(design, arguments.cases as usize, arguments.seed, KAPVIK_LOADS, &EFFORT, || bar.inc(1));
             bar.finish_and_clear();
@@ -73,12 +73,6 @@ pub fn run(arguments: &LimitArguments, estimator: Option<&Estimator<'_>>) -> Res
         }
     }
     Ok(())
-}
-
-fn progress(cases: u32, instants: u32) -> ProgressBar {
-    let template = "{prefix} {wide_bar} {pos}/{len} {eta}";
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(u64::from(cases)).with_style(style).with_prefix(format!("posteriors, instants: {instants}"))
 }
 
 fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: Option<&Estimator<'_>>) {

@@ -15,12 +15,13 @@ use crate::diagnose::declared_file;
 use crate::diagnose::document::Diagnosis;
 use crate::error::HostError;
 use crate::train::emit::{Provenance, table_file};
+use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
 use crate::train::world::World;
 
 pub use on_campaign::{CampaignSoil, SoilColumn, on_campaign};
 pub use report::{errors_of_forces, errors_of_soil, estimates};
-pub use rover_networks::{Rovers, SHIPPED_FIFTH, Trained, compare, train};
+pub use rover_networks::{Rovers, Trained, compare, train};
 
 /// How the loop is closed.
 #[derive(Debug, Clone, Copy)]
@@ -94,7 +95,7 @@ pub fn close(
     write_text(&path, &declaration)?;
     if let Some((wheel, loss)) = found.wheel {
         let provenance =
-            Provenance { plan: &options.plan, world: after, fifth: SHIPPED_FIFTH, losses: [loss, found.loss] };
+            Provenance { plan: &options.plan, world: after, fifth: Candidate::SHIPPED, losses: [loss, found.loss] };
         write_text(&table, &table_file(wheel, found.rover, &provenance).to_text())?;
     }
     Ok(Closed { forces, soil: Some(soil) })

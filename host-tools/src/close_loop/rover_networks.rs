@@ -3,17 +3,14 @@
 use kapvik_firmware::network::{RoverTable, WheelTable};
 
 use crate::error::HostError;
+use crate::progress::with_progress;
 use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
-use crate::train::progress::with_progress;
 use crate::train::rover_training::{rover_scenes, train_rover};
 use crate::train::scene::{Design, Scene, scenes_in};
 use crate::train::score::{Score, score_rover};
 use crate::train::wheel_training::train_wheel;
 use crate::train::world::World;
-
-/// The fifth input that the flight side makes for the per-wheel network.
-pub const SHIPPED_FIFTH: Candidate = Candidate::ContactAngle;
 
 /// Networks that were trained for one world.
 pub struct Trained {
@@ -35,7 +32,7 @@ pub fn train(world: &World, plan: &Plan, with_wheel: bool) -> Result<Trained, Ho
     let held_out = with_progress("held-out scenes", |_| drawn(plan.held_out, !plan.seed))?;
     let wheel = with_wheel.then(|| {
         let (table, curve) =
-            with_progress("per-wheel network", |bar| train_wheel(plan, SHIPPED_FIFTH, &training, &held_out, bar));
+            with_progress("per-wheel network", |bar| train_wheel(plan, Candidate::SHIPPED, &training, &held_out, bar));
         (table, curve.last())
     });
     let training = with_progress("scenes", |_| rover_scenes(plan, world, training))?;

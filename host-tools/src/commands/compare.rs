@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::compare::{CompareOptions, compare};
 use crate::data::atomic_write::{write_json, write_text};
 use crate::data::outputs;
 use crate::error::HostError;
+use crate::progress::bar;
 use crate::report::compare::{page, terminal};
 
 /// Options of `kapvik compare`.
@@ -46,9 +46,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         seed: arguments.seed,
         only: arguments.only.clone(),
     };
-    let style = ProgressStyle::with_template("answers {wide_bar} {pos}/{len} {eta}");
-    let bar =
-        ProgressBar::new(options.answers()? as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = bar("answers", options.answers()?);
     let comparison = compare(&options, &|| bar.inc(1))?;
     bar.finish_and_clear();
     println!("{}", terminal(&comparison));

@@ -1,14 +1,12 @@
 //! `kapvik observe`: how to drive so that the soil shows.
 
 use std::path::PathBuf;
-use std::str::FromStr;
-use std::time::Duration;
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use kapvik_firmware::terramechanics::Soil;
 
-use super::simulate;
+use super::numbers::{above_zero, not_negative};
+use super::soil_argument;
 use crate::data::atomic_write::write_text;
 use crate::data::outputs;
 use crate::data::rover_file::RoverFile;
@@ -23,6 +21,7 @@ use crate::identifiability::search::Question;
 use crate::identifiability::sensors::{FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LastingErrors, instant_noise};
 use crate::identifiability::single_wheel::WheelMeasurement;
 use crate::identifiability::target::Target;
+use crate::progress::bar;
 use crate::report::identifiability::{Observability, page, picture, terminal};
 
 /// The soil that stands for not knowing it.
@@ -148,7 +147,7 @@ fn observability(arguments: &Arguments) -> Result<Observability, HostError> {
     // The map is only computed where it is drawn.
     let draws = arguments.html.is_some() || arguments.picture.is_some();
     let cells = if draws { SLIP_CELLS * LOAD_CELLS } else { 0 };
-    let bar = progress((question.grid().len() + cells) as u64);
+    let bar = bar("drives", question.grid().len() + cells);
     let advice = Advice::new(&question, || bar.inc(1))
         .map_err(|reason| HostError::Failed(format!("{}: {reason}", arguments.soil)))?;
     let map = if draws { map::map(&map_question, || bar.inc(1)) } else { Vec::new() };
@@ -218,24 +217,7 @@ fn soil(name: &str) -> Result<(Soil<f64>, String), HostError> {
     if name == MIDDLE {
         return Ok((middle_soil(), "the soil in the middle of the prior".to_owned()));
     }
-    Ok((simulate::soil(name)?, format!("soil {name}")))
-}
-
-fn progress(steps: u64) -> ProgressBar {
-    let bar = ProgressBar::new(steps);
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    let number = f64::from_str(text).ok().filter(|number| *number >= 0.0 && number.is_finite());
-    number.ok_or_else(|| "expected a number of 0 or more".to_owned())
-}
-
-fn above_zero(text: &str) -> Result<f64, String> {
-    not_negative(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
+    Ok((soil_argument::soil(name)?, format!("soil {name}")))
 }
 
 fn slope(text: &str) -> Result<f64, String> {

@@ -1,25 +1,23 @@
 //! `kapvik simulate`: sensor frames of a drive, with truth.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
-use std::time::Duration;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
-use kapvik_firmware::terramechanics::Soil;
 
 use crate::data::atomic_write::write_atomically;
 use crate::data::outputs;
 use crate::data::rover_file::RoverFile;
-use crate::data::soil_file::SoilTable;
 use crate::data::truth_file::{truth_path, write_truth};
 use crate::data::{frame_file, truth_file};
 use crate::error::HostError;
+use crate::progress::bar;
 use crate::simulate::effects::RoverEffects;
 use crate::simulate::faults::{FAILURES, Fault};
 use crate::simulate::ground_soils::{Becomes, Change};
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
-use crate::soil_catalogue::{Completion, catalogue};
+
+use super::numbers::above_zero;
+use super::soil_argument;
 
 /// What to simulate, and where it goes.
 #[derive(Args)]
@@ -76,7 +74,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         None => RoverFile::assumed(),
     };
     let (effects, faults) = effects_and_faults(&arguments.effect)?;
-    let soil = arguments.soil.as_deref().map(soil).transpose()?;
+    let soil = arguments.soil.as_deref().map(soil_argument::soil).transpose()?;
     let changes = arguments.then.iter().map(|text| change(text)).collect::<Result<Vec<_>, _>>()?;
     let options = Options {
         duration_s: arguments.duration,
@@ -108,7 +106,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
 
 /// Writes both files, row by row, and gives what is to be told.
 fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Result<String, HostError> {
-    let bar = progress(traverse.frames());
+    let bar = bar("frames", traverse.frames() as usize);
     let (mut written, mut last_s, mut way_m) = (0_u64, 0.0, 0.0);
     write_atomically(frames_path, |frames| {
         write_atomically(truths_path, |truths| {
@@ -135,19 +133,6 @@ fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Resu
     ))
 }
 
-fn progress(frames: u64) -> ProgressBar {
-    let bar = ProgressBar::new(frames);
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} frames {elapsed}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
-}
-
-fn above_zero(text: &str) -> Result<f64, String> {
-    let number = f64::from_str(text).ok().filter(|number| *number > 0.0 && number.is_finite());
-    number.ok_or_else(|| "expected a number above 0".to_owned())
-}
-
 fn rate(text: &str) -> Result<f64, String> {
     above_zero(text)
         .ok()
@@ -155,29 +140,14 @@ fn rate(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number above 0, at most 1000".to_owned())
 }
 
-/// A soil by its name in the catalogue, or from a file.
-pub(super) fn soil(name: &str) -> Result<Soil<f64>, HostError> {
-    let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
-    match soils.iter().find(|soil| soil.id == name) {
-        Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {
-            HostError::Failed(format!("{name}: its source leaves open what the equations need: {missing}"))
-        }),
-        None if name.ends_with(".toml") => SoilTable::read_complete(Path::new(name)),
-        None => Err(HostError::Failed(format!(
-            "{name}: expected a file S.toml, or a soil of the catalogue: {}",
-            soils.iter().map(|soil| soil.id.as_str()).collect::<Vec<_>>().join(", ")
-        ))),
-    }
-}
-
 fn change(text: &str) -> Result<Change, HostError> {
     let expected = || HostError::Failed(format!("--then {text}: expected SOIL@METRES"));
     let (name, metres) = text.rsplit_once('@').ok_or_else(expected)?;
-    let from_m = f64::from_str(metres).ok().filter(|metres| metres.is_finite()).ok_or_else(expected)?;
+    let from_m = metres.parse::<f64>().ok().filter(|metres| metres.is_finite()).ok_or_else(expected)?;
     let becomes = match name {
         "ice-cemented" => Becomes::IceCemented,
         "sublimated" => Becomes::Sublimated,
-        name => Becomes::Soil(soil(name)?),
+        name => Becomes::Soil(soil_argument::soil(name)?),
     };
     Ok(Change { from_m, becomes })
 }
@@ -192,7 +162,7 @@ fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), Ho
             faults.push(Fault::parse(*failure, value).map_err(refuse)?);
             continue;
         }
-        let number = f64::from_str(value).ok().filter(|number| number.is_finite());
+        let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
         // A wrong name is told before a wrong number.
         let mut tried = effects;
         let said =

@@ -8,20 +8,17 @@ use crate::data::atomic_write::write_text;
 use crate::data::campaign::Declared;
 use crate::data::outputs;
 use crate::error::HostError;
+use crate::progress::with_progress;
 use crate::train::comparison::{Row, compare_fifth_inputs, compare_trainers};
 use crate::train::curve::draw;
 use crate::train::emit::{Provenance, table_file};
 use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
 use crate::train::prior::COMPARED_SLOPE_STD_RAD;
-use crate::train::progress::with_progress;
 use crate::train::rover_training::{rover_scenes, train_rover};
 use crate::train::scene::{Design, Scene, scenes_in};
 use crate::train::wheel_training::train_wheel;
 use crate::train::world::World;
-
-/// The fifth input that the flight side makes.
-const SHIPPED: Candidate = Candidate::ContactAngle;
 
 /// Options of `kapvik train`.
 #[derive(Args)]
@@ -71,12 +68,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     print_rows("Fifth inputs (per-wheel network, Adam)", &inputs);
     judge_fifth_inputs(&inputs);
     let (wheel, wheel_curve) =
-        with_progress("per-wheel network", |bar| train_wheel(&plan, SHIPPED, &training, &held_out, bar));
+        with_progress("per-wheel network", |bar| train_wheel(&plan, Candidate::SHIPPED, &training, &held_out, bar));
     let training = with_progress("scenes", |_| rover_scenes(&plan, &world, training))?;
     let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
     println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
     let losses = [wheel_curve.last(), rover_curve.last()];
-    let file = table_file(wheel, rover, &Provenance { plan: &plan, world: &world, fifth: SHIPPED, losses });
+    let file = table_file(wheel, rover, &Provenance { plan: &plan, world: &world, fifth: Candidate::SHIPPED, losses });
     write_text(&arguments.output, &file.to_text())?;
     if let Some(picture) = &arguments.picture {
         let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
@@ -97,7 +94,7 @@ fn judge_fifth_inputs(rows: &[Row]) {
     };
     let easier = Candidate::ALL.into_iter().filter(|&fifth| fifth != Candidate::Sinkage);
     let Some(best) = easier.min_by(|&a, &b| loss(a).total_cmp(&loss(b))) else { return };
-    println!("Best without a sinkage sensor: {}. Shipped: {} (optional).\n", best.name(), SHIPPED.name());
+    println!("Best without a sinkage sensor: {}. Shipped: {} (optional).\n", best.name(), Candidate::SHIPPED.name());
 }
 
 fn print_rows(title: &str, rows: &[Row]) {

@@ -11,7 +11,7 @@ use crate::doubt::emit::{Provenance, source};
 use crate::doubt::held_out::{BeforeAfter, tables};
 use crate::doubt::training::train;
 use crate::error::HostError;
-use crate::train::progress::with_progress;
+use crate::progress::with_progress;
 
 /// Options of `kapvik train-doubt`.
 #[derive(Args)]

@@ -3,8 +3,9 @@
 use kapvik_firmware::identification::map::information;
 use kapvik_firmware::identification::{Belief, SoilPrior};
 
+use crate::parameter::Parameter;
+
 use super::case::Case;
-use super::score::Parameter;
 
 /// Root mean square over the cases of the bound's standard deviations: c (Pa), φ (°), K (mm). Nothing is believed of these
 /// three; stiffness, exponent and peak position are believed as the prior has them, with a normal spread. None where no
@@ -18,11 +19,10 @@ pub fn cramer_rao(cases: &[Case]) -> Option<[f64; 3]> {
 fn bound(case: &Case) -> Option<[f64; 3]> {
     let Case { evidence, soil, .. } = case;
     let told = information(&evidence.wheel, soil, &evidence.observations, &without_strength(&evidence.prior)).ok()?;
-    let in_unit = |parameter: Parameter, std: f64| parameter.scale() * std;
     Some([
-        in_unit(Parameter::Cohesion, soil.cohesion_pa * told.ln_cohesion_std),
-        in_unit(Parameter::FrictionAngle, told.friction_angle_std_rad),
-        in_unit(Parameter::ShearModulus, soil.shear_modulus_m * told.ln_shear_modulus_std),
+        Parameter::Cohesion.shown(soil.cohesion_pa * told.ln_cohesion_std),
+        Parameter::FrictionAngle.shown(told.friction_angle_std_rad),
+        Parameter::ShearModulus.shown(soil.shear_modulus_m * told.ln_shear_modulus_std),
     ])
 }
 

@@ -14,11 +14,12 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::error::HostError;
+use crate::parameter::Parameter;
 
 pub use case::{Case, case};
 pub use contender::{CONTENDERS, Contender};
 pub use measured::{MeasuredRow, measured};
-pub use score::{Parameter, ParameterScore, Score, Timed, is_beaten};
+pub use score::{ParameterScore, Score, Timed, is_beaten};
 pub use situation::{SITUATIONS, Situation, SlipSinkage, Truth};
 
 /// What is to be compared.

@@ -7,18 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
 use crate::identify::method::{Finding, Statement};
+use crate::parameter::Parameter;
 use crate::statistics::{median, quantile, sorted};
-
-/// A parameter of the soil, with the unit in which its errors are told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Parameter {
-    /// c, Pa.
-    Cohesion,
-    /// φ, degrees.
-    FrictionAngle,
-    /// K, mm.
-    ShearModulus,
-}
 
 /// What a contender reached in a situation.
 #[derive(Debug, Clone, Serialize)]
@@ -79,34 +69,21 @@ pub struct Timed {
 }
 
 impl Parameter {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Cohesion, Self::FrictionAngle, Self::ShearModulus];
-
-    /// Of a soil, in the unit of the errors.
-    pub fn of_soil(self, soil: &Soil<f64>) -> f64 {
-        self.scale()
-            * match self {
-                Self::Cohesion => soil.cohesion_pa,
-                Self::FrictionAngle => soil.friction_angle_rad,
-                Self::ShearModulus => soil.shear_modulus_m,
-            }
+    /// Of a soil, in the SI unit.
+    fn of_soil(self, soil: &Soil<f64>) -> f64 {
+        match self {
+            Self::Cohesion => soil.cohesion_pa,
+            Self::FrictionAngle => soil.friction_angle_rad,
+            Self::ShearModulus => soil.shear_modulus_m,
+        }
     }
 
     /// Of a finding, in the SI unit.
-    pub fn of_finding(self, finding: &Finding) -> &Statement {
+    fn of_finding(self, finding: &Finding) -> &Statement {
         match self {
             Self::Cohesion => &finding.cohesion_pa,
             Self::FrictionAngle => &finding.friction_angle_rad,
             Self::ShearModulus => &finding.shear_modulus_m,
-        }
-    }
-
-    /// From the SI unit to that of the errors.
-    pub fn scale(self) -> f64 {
-        match self {
-            Self::Cohesion => 1.0,
-            Self::FrictionAngle => 180.0 / std::f64::consts::PI,
-            Self::ShearModulus => 1000.0,
         }
     }
 }
@@ -146,18 +123,17 @@ impl Score {
 
 impl ParameterScore {
     fn of(parameter: Parameter, found: &[(usize, Soil<f64>, Finding)]) -> Self {
-        let (scale, count) = (parameter.scale(), found.len() as f64);
-        let values = sorted(found.iter().map(|(_, _, finding)| scale * parameter.of_finding(finding).value));
+        let count = found.len() as f64;
+        let values = sorted(found.iter().map(|(_, _, finding)| parameter.shown(parameter.of_finding(finding).value)));
         let error = |(_, soil, finding): &(usize, Soil<f64>, Finding)| {
-            scale * parameter.of_finding(finding).value - parameter.of_soil(soil)
+            parameter.shown(parameter.of_finding(finding).value) - parameter.shown(parameter.of_soil(soil))
         };
         let by_place = found.iter().map(|one| (one.0, error(one).abs())).collect();
         let errors = sorted(found.iter().map(error));
         let sizes = sorted(errors.iter().map(|error| error.abs()));
         let share = |holds: &dyn Fn(f64, &Statement) -> bool| {
-            let held = found
-                .iter()
-                .filter(|(_, soil, finding)| holds(parameter.of_soil(soil) / scale, parameter.of_finding(finding)));
+            let held =
+                found.iter().filter(|(_, soil, finding)| holds(parameter.of_soil(soil), parameter.of_finding(finding)));
             held.count() as f64 / count
         };
         let inside = |truth: f64, [low, high]: [f64; 2]| low <= truth && truth <= high;

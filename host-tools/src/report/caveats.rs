@@ -6,8 +6,8 @@ use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::identify::{IdentifiedRun, NoiseSource};
 
 use super::findings::{EstimateRow, Findings, RowKind};
-use super::parameter::Parameter;
 use super::verdict::Verdict;
+use crate::parameter::Parameter;
 
 /// Loads closer together than this share are one load.
 const ONE_LOAD: f64 = 0.1;

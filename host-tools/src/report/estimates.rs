@@ -7,8 +7,8 @@ use crate::data::campaign::Ground;
 
 use super::draw::{Anchor, Scale, bottom_axis, dot, line, px, ring, text, vertical_band};
 use super::findings::{EstimateRow, RowKind};
-use super::parameter::Parameter;
 use super::verdict::Verdict;
+use crate::parameter::Parameter;
 
 /// Height of a line of the panel.
 const LINE: f64 = 24.0;

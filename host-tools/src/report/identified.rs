@@ -1,7 +1,7 @@
 //! What `identify` says of each run, for the terminal.
 
-use crate::compare::Parameter;
 use crate::identify::{Document, ParameterDocument, RunDocument, SoilDocument};
+use crate::parameter::Parameter;
 
 use super::draw::number;
 use super::terminal::{align_right, plain_table, wrapped};
@@ -49,7 +49,7 @@ pub fn soil_cells(soil: &SoilDocument) -> [String; 3] {
 fn cell(parameter: Option<&ParameterDocument>, kind: Parameter) -> String {
     let Some(told) = parameter else { return "–".to_owned() };
     let digits = usize::from(kind != Parameter::Cohesion);
-    let figure = |value: f64| number(kind.scale() * value, digits, false);
+    let figure = |value: f64| number(kind.shown(value), digits, false);
     let spread = told.std.map_or_else(String::new, |std| format!(" ± {}", figure(std)));
     let text = format!("{}{spread}", figure(told.value));
     match (told.assumed, told.identifiable) {

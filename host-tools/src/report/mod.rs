@@ -25,7 +25,6 @@ pub use facts::{FlightFacts, FlownNetworks, lines as flight_lines, link as link_
 pub use findings::{EstimateRow, Findings, RowKind, fingerprint};
 pub use identified::identified;
 pub use page::page;
-pub use parameter::Parameter;
 pub use picture::picture;
 pub use residual::{ModelCheck, ModelRow, ModelState, Rms};
 pub use terminal::terminal;

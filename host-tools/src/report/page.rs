@@ -12,10 +12,10 @@ use super::estimates::Panel;
 use super::facts;
 use super::findings::{EstimateRow, Findings};
 use super::legend;
-use super::parameter::Parameter;
 use super::residual::{ModelCheck, ModelRow, Rms};
 use super::response::{QUANTITIES, Response};
 use super::verdict::Verdict;
+use crate::parameter::Parameter;
 
 /// How the page looks.
 const PAGE_CSS: &str = include_str!("page.css");

@@ -5,9 +5,9 @@ use maud::{Markup, PreEscaped, html};
 use super::draw::px;
 use super::estimates::Panel;
 use super::findings::Findings;
-use super::parameter::Parameter;
+use super::page::DRAW_CSS;
+use crate::parameter::Parameter;
 
-const CSS: &str = include_str!("draw/draw.css");
 const GAP: f64 = 8.0;
 const BORDER: f64 = 14.0;
 
@@ -40,7 +40,7 @@ pub fn picture(findings: &Findings) -> Option<String> {
     let svg: Markup = html! {
         svg xmlns="http://www.w3.org/2000/svg" class="picture" width=(px(width)) height=(px(height))
             viewBox={ "0 0 " (px(width)) " " (px(height)) } role="img" aria-label={ "Estimated soil: " (name) } {
-            style { (PreEscaped(CSS)) }
+            style { (PreEscaped(DRAW_CSS)) }
             rect class="paper" width="100%" height="100%" {}
             @for (left, panel) in placed {
                 g transform={ "translate(" (px(left)) " " (px(BORDER)) ")" } { (panel.draw()) }

@@ -7,9 +7,9 @@ use kapvik_firmware::soil::SoilEstimate;
 use super::caveats::caveats;
 use super::draw::number;
 use super::findings::{EstimateRow, Findings};
-use super::parameter::Parameter;
 use super::residual::ModelCheck;
 use super::verdict::Verdict;
+use crate::parameter::Parameter;
 
 /// A table of the estimates beside the direct tests, a table of what the equations leave, and the caveats.
 pub fn terminal(findings: &Findings) -> String {

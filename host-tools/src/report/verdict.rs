@@ -5,7 +5,7 @@ use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 use crate::data::campaign::{Ground, Knowledge};
 use crate::identify::at_edge;
 
-use super::parameter::Parameter;
+use crate::parameter::Parameter;
 
 /// What an estimate is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -24,6 +24,9 @@ pub enum Candidate {
 }
 
 impl Candidate {
+    /// The one that the flight side makes, and that the shipped network takes.
+    pub const SHIPPED: Self = Self::ContactAngle;
+
     /// All candidates, in the order of the table.
     pub const ALL: [Self; 5] = [Self::Sinkage, Self::None, Self::ContactAngle, Self::SpeedRatio, Self::BogieSinkage];
 

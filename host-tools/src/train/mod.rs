@@ -23,7 +23,6 @@ pub mod observe;
 pub mod plan;
 pub mod prior;
 mod product;
-pub mod progress;
 mod rank_update;
 pub mod rounding;
 mod rover_block;

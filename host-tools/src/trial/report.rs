@@ -1,6 +1,6 @@
 //! Many drives of a scenario, and what they came to.
 
-use indicatif::{ParallelProgressIterator, ProgressBar};
+use indicatif::ParallelProgressIterator;
 use kapvik_firmware::rover::Rover;
 use rayon::prelude::*;
 
@@ -10,6 +10,7 @@ use super::errors::Errors;
 use super::tally::Tally;
 use super::whiteness::ljung_box;
 use crate::error::HostError;
+use crate::progress::bar;
 use crate::simulate::{Options, Scenario};
 
 /// Drives of one scenario.
@@ -26,7 +27,7 @@ pub struct Trial {
 /// Drives a scenario once for each seed.
 pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>) -> Trial {
     let options = Options::default();
-    let progress = ProgressBar::new(seeds.end - seeds.start).with_message(format!("{scenario:?}"));
+    let progress = bar(format!("{scenario:?}"), (seeds.end - seeds.start) as usize);
     let results: Vec<Result<Drive, HostError>> =
         seeds.into_par_iter().progress_with(progress).map(|seed| Drive::run(scenario, seed, rover, &options)).collect();
     let mut trial = Trial { scenario, drives: Vec::new(), failures: Vec::new() };

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
+use indicatif::ParallelProgressIterator;
 use rayon::prelude::*;
 
 use super::answer::Answer;
@@ -14,6 +14,7 @@ use super::undeclared::effect_ids;
 use super::unlisted::UNLISTED;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
+use crate::progress::bar;
 
 /// A diagnosis that is put to the test: a campaign in, what it says out.
 pub type Diagnoser<'a> = dyn Fn(&Campaign) -> Result<Answer, HostError> + Sync + 'a;
@@ -111,10 +112,4 @@ pub fn save_all(drawn: &[Drawn], folder: &Path) -> Result<(), HostError> {
         );
         drawn.written.save(folder, &drawn.name, &truth)
     })
-}
-
-fn bar(what: &'static str, count: usize) -> ProgressBar {
-    let template = "{prefix} {wide_bar} {pos}/{len} {eta}";
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(count as u64).with_style(style).with_prefix(what)
 }

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::compare::{Compared, Parameter, ParameterScore, Score};
+use crate::compare::{Compared, ParameterScore, Score};
+use crate::parameter::Parameter;
 use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, px, text};
 
 use super::terminal::label;

@@ -2,7 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::compare::{CONTENDERS, Compared, Comparison, Parameter, Score};
+use crate::compare::{CONTENDERS, Compared, Comparison, Score};
+use crate::parameter::Parameter;
 use crate::report::draw::number;
 
 use super::verdict::{is_best, is_in_contest};

@@ -2,7 +2,8 @@
 
 use maud::{DOCTYPE, Markup, html};
 
-use crate::compare::{Compared, Comparison, Parameter, Score};
+use crate::compare::{Compared, Comparison, Score};
+use crate::parameter::Parameter;
 use crate::report::draw::number;
 use crate::report::page::head;
 

@@ -2,7 +2,8 @@
 
 use comfy_table::Table;
 
-use crate::compare::{CONTENDERS, Compared, Comparison, MeasuredRow, Parameter, ParameterScore, Score};
+use crate::compare::{CONTENDERS, Compared, Comparison, MeasuredRow, ParameterScore, Score};
+use crate::parameter::Parameter;
 use crate::report::draw::number;
 use crate::report::identified::{remark, soil_cells};
 use crate::report::terminal::{align_right, plain_table};

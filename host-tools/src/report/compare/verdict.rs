@@ -1,6 +1,7 @@
 //! What follows from a comparison, in sentences.
 
-use crate::compare::{Compared, Comparison, Parameter, Score, is_beaten};
+use crate::compare::{Compared, Comparison, Score, is_beaten};
+use crate::parameter::Parameter;
 use crate::report::draw::number;
 
 use super::terminal::label;

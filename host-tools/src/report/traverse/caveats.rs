@@ -3,7 +3,7 @@
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use super::findings::{Origin, TraverseFindings};
-use crate::report::parameter::Parameter;
+use crate::parameter::Parameter;
 
 /// The caveats that hold for these findings, in plain sentences.
 pub fn caveats(findings: &TraverseFindings) -> Vec<String> {

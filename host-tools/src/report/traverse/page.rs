@@ -11,13 +11,13 @@ use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
 use super::wheel_chart::QUANTITIES;
 use crate::identify::network_refusal;
+use crate::parameter::Parameter;
 use crate::replay::{REASONS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
 use crate::report::legend::entry;
 use crate::report::page::head;
-use crate::report::parameter::Parameter;
 use crate::trial::errors::Errors;
 
 /// The page.

@@ -7,9 +7,9 @@ use super::findings::TraverseFindings;
 use super::soil_chart::{self, SoilChart};
 use super::time_axis::WIDTH;
 use super::wheel_chart::{self, QUANTITIES};
+use crate::parameter::Parameter;
 use crate::report::draw::px;
 use crate::report::page::DRAW_CSS;
-use crate::report::parameter::Parameter;
 
 const BORDER: f64 = 14.0;
 const GAP: f64 = 10.0;

@@ -7,8 +7,8 @@ use super::findings::TraverseFindings;
 use super::samples::Sample;
 use super::time_axis::{self, LEFT, RIGHT, Spread, WIDTH, runs, spreads};
 use crate::data::truth_file::TrueSoil;
+use crate::parameter::Parameter;
 use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, line, path, px, text};
-use crate::report::parameter::Parameter;
 
 /// Height of a chart.
 pub const HEIGHT: f64 = 190.0;

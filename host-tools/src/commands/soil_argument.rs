@@ -1,0 +1,27 @@
+//! A soil as the command line names it.
+
+use std::path::Path;
+
+use kapvik_firmware::terramechanics::Soil;
+
+use crate::data::soil_file::SoilTable;
+use crate::error::HostError;
+use crate::soil_catalogue::{Completion, catalogue};
+
+/// A soil by its name in the catalogue, or from a file.
+///
+/// # Errors
+/// Where there is neither, or it leaves open what the equations need.
+pub fn soil(name: &str) -> Result<Soil<f64>, HostError> {
+    let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
+    match soils.iter().find(|soil| soil.id == name) {
+        Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {
+            HostError::Failed(format!("{name}: its source leaves open what the equations need: {missing}"))
+        }),
+        None if name.ends_with(".toml") => SoilTable::read_complete(Path::new(name)),
+        None => Err(HostError::Failed(format!(
+            "{name}: expected a file S.toml, or a soil of the catalogue: {}",
+            soils.iter().map(|soil| soil.id.as_str()).collect::<Vec<_>>().join(", ")
+        ))),
+    }
+}

@@ -1,0 +1,53 @@
+//! The three parameters of the soil, in the units that people read.
+
+/// Cohesion, friction angle or shear modulus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parameter {
+    /// Cohesion c.
+    Cohesion,
+    /// Angle of internal friction φ.
+    FrictionAngle,
+    /// Shear deformation modulus K.
+    ShearModulus,
+}
+
+impl Parameter {
+    /// All three.
+    pub const ALL: [Self; 3] = [Self::Cohesion, Self::FrictionAngle, Self::ShearModulus];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cohesion => "Cohesion",
+            Self::FrictionAngle => "Friction angle",
+            Self::ShearModulus => "Shear modulus",
+        }
+    }
+
+    /// Its symbol.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Cohesion => "c",
+            Self::FrictionAngle => "φ",
+            Self::ShearModulus => "K",
+        }
+    }
+
+    /// The unit that people read it in.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Cohesion => "Pa",
+            Self::FrictionAngle => "°",
+            Self::ShearModulus => "mm",
+        }
+    }
+
+    /// A number in SI units, in the unit that people read.
+    pub fn shown(self, si: f64) -> f64 {
+        match self {
+            Self::Cohesion => si,
+            Self::FrictionAngle => si.to_degrees(),
+            Self::ShearModulus => 1e3 * si,
+        }
+    }
+}
