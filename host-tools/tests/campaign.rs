@@ -212,8 +212,8 @@ fn rows_that_only_repeat_their_sensors_are_left_out() {
         parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN).expect("a campaign")
     };
     let [once, often] = [logged(1), logged(10)];
-    assert!(once.of_repeats().is_none());
-    assert!(often.of_repeats().expect("told").starts_with("27 rows"));
+    assert!(once.remarks().is_empty());
+    assert!(often.remarks()[0].starts_with("27 rows"));
     assert_eq!(often.rows().iter().map(|row| row.line).collect::<Vec<_>>(), [2, 12, 22]);
     assert_eq!(once.column("slip"), often.column("slip"));
 }
@@ -236,6 +236,19 @@ fn rows_that_agree_in_little_or_stand_in_another_run_stay() {
     ];
     for csv in cases {
         let campaign = parse(csv, PLAIN).expect("a campaign");
-        assert_eq!((campaign.rows().len(), campaign.of_repeats()), (3, None));
+        assert_eq!((campaign.rows().len(), campaign.remarks()), (3, vec![]));
     }
+}
+
+/// What would be no channel without a word: a letter missing, or another unit.
+#[test]
+fn a_column_that_is_nearly_a_channel_is_told() {
+    let remarks = |header: &str| {
+        parse(&format!("{header}\na,0,0.2,11,4.2\nb,0,0.3,11.5,4.3\n"), PLAIN).expect("a campaign").remarks()
+    };
+    let said = remarks("run,t_s,slip,drawbar_pul_n,sinkage_mm");
+    assert!(said[0].contains("`drawbar_pul_n` and none `drawbar_pull_n`"), "{said:?}");
+    assert!(said[1].contains("`sinkage_mm` and none `sinkage_m`"), "{said:?}");
+    assert!(remarks("run,t_s,slip,drawbar_pull_n,humidity").is_empty());
+    assert!(remarks("run,t_s,slip,load_n,load_sd_n").is_empty(), "the load itself is there");
 }

@@ -4,6 +4,7 @@ pub mod atomic_write;
 pub mod campaign;
 pub mod frame_file;
 mod header;
+pub mod misspelling;
 pub mod number_stream;
 pub mod outputs;
 pub mod rover_file;

@@ -4,15 +4,12 @@ use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde_aux::serde_introspection::serde_introspect;
-use strsim::jaro_winkler;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer, Error, ValueDeserializer};
 
+use super::misspelling::nearest;
 use super::text::TextFile;
 use crate::error::HostError;
-
-/// From this likeness of two names on, of 1, one is taken for a misspelling of the other.
-const MISSPELLED: f64 = 0.85;
 
 /// A TOML file.
 #[derive(Debug, Clone)]
@@ -55,8 +52,8 @@ impl TomlFile {
         let further: Vec<_> = further.cloned().collect();
         for key in &further {
             let name = key.get_ref();
-            let in_table = || in_tables.iter().find_map(|names| nearly(name, names));
-            let meant = nearly(name, fields).map(|meant| format!("`{meant}`"));
+            let in_table = || in_tables.iter().find_map(|names| nearest(name, names.iter().copied()));
+            let meant = nearest(name, fields.iter().copied()).map(|meant| format!("`{meant}`"));
             if let Some(meant) = meant.or_else(|| in_table().map(|meant| format!("`{meant}` of a table"))) {
                 return Err(self.error_at(key, format!("unknown field `{name}`: is {meant} meant?")));
             }
@@ -103,9 +100,4 @@ impl TomlFile {
         let start = error.span().map_or(0, |span| span.start);
         self.file.error_at(start, error.message().replace('\n', ", "))
     }
-}
-
-/// The one of these names that a name may be a misspelling of.
-fn nearly(name: &str, names: &'static [&'static str]) -> Option<&'static str> {
-    names.iter().copied().find(|other| jaro_winkler(name, other) >= MISSPELLED)
 }

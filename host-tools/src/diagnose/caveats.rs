@@ -33,7 +33,7 @@ const REMEMBERS: &str = "What is left of a channel goes together from row to row
 /// The caveats, sentence by sentence: those of the campaign's own notes, then what the data cannot decide.
 pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
     let mut said = campaign.notes.clone();
-    said.extend(campaign.of_repeats());
+    said.extend(campaign.remarks());
     let runs = measurements.runs.len();
     if runs < 5 && campaign.runs().len() > 1 {
         said.push(format!("Only {runs} runs: what is found rests on few independent observations."));

@@ -193,7 +193,7 @@ impl Document {
             run.doubt(why);
         }
         let declared = campaign.declared.ids();
-        let mut warnings: Vec<String> = campaign.of_repeats().into_iter().collect();
+        let mut warnings = campaign.remarks();
         if !declared.is_empty() && !method.knows_effects() {
             let effects = declared.join(", ");
             warnings.push(format!("declared effects that the method {} does not know: {effects}", method.name()));

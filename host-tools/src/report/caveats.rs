@@ -21,7 +21,6 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
     [
         Some(provenance(&findings.campaign)),
         noise(findings),
-        findings.campaign.of_repeats(),
         one_load(findings),
         widened(findings),
         explained_by_no_soil(findings),
@@ -32,6 +31,7 @@ pub fn caveats(findings: &Findings) -> Vec<String> {
     ]
     .into_iter()
     .flatten()
+    .chain(findings.campaign.remarks())
     .chain(findings.campaign.notes.iter().cloned())
     .collect()
 }

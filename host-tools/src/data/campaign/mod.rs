@@ -6,6 +6,7 @@ mod carried;
 mod channel;
 mod declared;
 mod fingerprint;
+mod further_columns;
 mod gross_error;
 mod ground;
 mod noise;
@@ -143,8 +144,13 @@ impl Campaign {
         Ok(campaign)
     }
 
+    /// What a reader of any result should know of how the file was read, sentence by sentence.
+    pub fn remarks(&self) -> Vec<String> {
+        self.of_repeats().into_iter().chain(further_columns::misspelt(&self.header)).collect()
+    }
+
     /// What is said where rows of the file were taken out that only repeat what the sensors had said before.
-    pub fn of_repeats(&self) -> Option<String> {
+    fn of_repeats(&self) -> Option<String> {
         (self.repeats > 0).then(|| {
             format!(
                 "{} rows say in every channel of the wheel's sensors what the row before them says: the logger writes faster \
