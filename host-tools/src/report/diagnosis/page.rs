@@ -5,6 +5,7 @@ use maud::{DOCTYPE, Markup, html};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
 use super::{DIAGNOSIS_CSS, errors, laws, prediction, ranking, residual, soil};
+use crate::diagnose::document::Diagnosis;
 use crate::report::page::head;
 
 /// What was done, in five lines.
@@ -40,63 +41,58 @@ pub fn page(findings: &DiagnosisFindings) -> String {
                     (laws::cards(findings))
                 }
                 main {
-                    section {
-                        h2 { "How wrong, before and after" }
-                        p { "Before: " (declared(findings)) ", its soil fitted again. After: the same with "
-                            @if diagnosis.effects.is_empty() { "nothing added, for nothing earned its place" } @else { "what was found" }
-                            ". Every run was predicted by fits that did not know it." }
-                        (errors::section(findings))
-                    }
-                    section {
-                        h2 { "Measured and predicted" }
-                        (prediction::charts(findings))
-                    }
+                    (section("How wrong, before and after", &before_and_after(findings)))
+                    (section("Measured and predicted", &prediction::charts(findings)))
                     @if let Some(guilty) = &findings.guilty { (guilty_section(findings, guilty)) }
-                    @if !diagnosis.candidates.is_empty() {
-                        section {
-                            h2 { "The candidates" }
-                            (ranking::charts(findings))
-                        }
-                    }
+                    @if !diagnosis.candidates.is_empty() { (section("The candidates", &ranking::charts(findings))) }
                     @if !diagnosis.force_channels.is_empty() {
-                        section {
-                            h2 { "Force channels by themselves" }
-                            p { (FORCES_ALONE) }
-                            (laws::by_themselves(&diagnosis.force_channels))
-                        }
+                        (section("Force channels by themselves", &html! { p { (FORCES_ALONE) } (laws::by_themselves(&diagnosis.force_channels)) }))
                     }
-                    section {
-                        h2 { "What is left unexplained" }
-                        (laws::unexplained(&diagnosis.unexplained))
-                    }
-                    section {
-                        h2 { "The soil, before and after" }
-                        p { "Value ± one standard deviation of the fit; thin lines reach over two. Shaded: what was known before. "
-                            strong { "Good forces do not validate soil parameters: " }
-                            "a model that lacks an effect bends them to fit, and parameters that act alike trade places without a "
-                            "trace in the forces." }
-                        (soil::table(findings))
-                    }
-                    section {
-                        h2 { "What to keep in mind" }
-                        ul class="caveats" {
-                            @for caveat in &diagnosis.caveats { li { (caveat) } }
-                            @for left_out in &diagnosis.left_out {
-                                li { (left_out.rows) @if left_out.rows == 1 { " row was" } @else { " rows were" }
-                                    " not used: " (left_out.reason) "." }
-                            }
-                        }
-                    }
-                    section {
-                        h2 { "How it was done" }
-                        ol class="method" { @for line in METHOD { li { (line) } } }
-                    }
+                    (section("What is left unexplained", &laws::unexplained(&diagnosis.unexplained)))
+                    (section("The soil, before and after", &soil_before_and_after(findings)))
+                    (section("What to keep in mind", &caveats(diagnosis)))
+                    (section("How it was done", &html! { ol class="method" { @for line in METHOD { li { (line) } } } }))
                 }
                 footer { "Written by " code { "kapvik diagnose" } "." }
             }
         }
     };
     page.into_string()
+}
+
+fn section(title: &str, body: &Markup) -> Markup {
+    html! { section { h2 { (title) } (body) } }
+}
+
+fn before_and_after(findings: &DiagnosisFindings) -> Markup {
+    html! {
+        p { "Before: " (declared(findings)) ", its soil fitted again. After: the same with "
+            @if findings.diagnosis.effects.is_empty() { "nothing added, for nothing earned its place" } @else { "what was found" }
+            ". Every run was predicted by fits that did not know it." }
+        (errors::section(findings))
+    }
+}
+
+fn soil_before_and_after(findings: &DiagnosisFindings) -> Markup {
+    html! {
+        p { "Value ± one standard deviation of the fit; thin lines reach over two. Shaded: what was known before. "
+            strong { "Good forces do not validate soil parameters: " }
+            "a model that lacks an effect bends them to fit, and parameters that act alike trade places without a "
+            "trace in the forces." }
+        (soil::table(findings))
+    }
+}
+
+fn caveats(diagnosis: &Diagnosis) -> Markup {
+    html! {
+        ul class="caveats" {
+            @for caveat in &diagnosis.caveats { li { (caveat) } }
+            @for left_out in &diagnosis.left_out {
+                li { (left_out.rows) @if left_out.rows == 1 { " row was" } @else { " rows were" }
+                    " not used: " (left_out.reason) "." }
+            }
+        }
+    }
 }
 
 fn declared(findings: &DiagnosisFindings) -> String {
@@ -109,12 +105,11 @@ fn declared(findings: &DiagnosisFindings) -> String {
 fn guilty_section(findings: &DiagnosisFindings, guilty: &str) -> Markup {
     html! {
         @if let Some(charts) = residual::charts(findings, guilty) {
-            section {
-                h2 { "The residual against " (Quantity::of_column(guilty).name.to_lowercase()) }
+            (section(&format!("The residual against {}", Quantity::of_column(guilty).name.to_lowercase()), &html! {
                 p { "Of all columns this is the one that the residual of the declared model follows best. A model that lacks nothing "
                     "leaves dots in the grey band, without a pattern." }
                 (charts)
-            }
+            }))
         }
     }
 }
