@@ -71,3 +71,24 @@ fn of_nine_rows_slip_sinkage_is_named() {
     println!("{named} of 10 are named");
     assert!(named >= 8, "{named} of 10");
 }
+
+/// Without the instant that holds most rows next to nothing is left to fit: the rest is then predicted by no number, and that says nothing.
+#[test]
+fn of_two_instants_or_three_rows_a_diagnosis_comes_about() {
+    let csv = include_str!("../data/ding2011-smooth.csv");
+    let toml = include_str!("../data/ding2011-smooth.toml");
+    let header = csv.lines().next().expect("a header");
+    let rows: Vec<String> = csv.lines().skip(1).map(|row| row.replacen("smooth,0,", "", 1)).collect();
+    let layouts: [&[&str]; 3] = [
+        &["a,0,", "a,0,", "a,0,", "a,0,", "a,5,", "a,0,"],
+        &["", "a,0,", "b,0,", "c,0,"],
+        &["", "a,0,", "a,0,", "a,5,"],
+    ];
+    for layout in layouts {
+        let placed = layout.iter().zip(&rows).filter(|(place, _)| !place.is_empty());
+        let table = placed.fold(format!("{header}\n"), |table, (place, row)| format!("{table}{place}{row}\n"));
+        let campaign = Campaign::parse(Path::new("few.csv"), &table, toml).expect("a campaign");
+        let document = diagnosed(&campaign);
+        assert!(document.effects.iter().all(|effect| effect.p_value.is_finite()), "{layout:?}");
+    }
+}

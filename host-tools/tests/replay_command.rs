@@ -116,11 +116,28 @@ fn columns_of_no_sensor_are_named_once() {
     let case = Case::with(None);
     let text = fs::read_to_string(case.path("frames.csv")).expect("readable");
     assert!(text.starts_with("t_s,wheel_rate_fl_rad_s,"));
-    fs::write(case.path("frames.csv"), text.replacen("wheel_rate_fl_rad_s", "wheel_rate_fl", 1)).expect("written");
+    fs::write(case.path("frames.csv"), text.replacen("wheel_rate_fl_rad_s", "battery_v", 1)).expect("written");
     for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
         let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().success();
         let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
-        assert_eq!(told.matches("columns that name no sensor, and are not used: wheel_rate_fl\n").count(), 1, "{told}");
+        assert_eq!(told.matches("columns that name no sensor, and are not used: battery_v\n").count(), 1, "{told}");
+    }
+}
+
+/// A letter or a unit less, and the filters would do without a sensor that is there.
+#[test]
+fn a_column_that_is_nearly_one_of_a_sensor_is_refused() {
+    let case = Case::with(None);
+    let text = fs::read_to_string(case.path("frames.csv")).expect("readable");
+    fs::write(case.path("frames.csv"), text.replacen("wheel_rate_fl_rad_s", "wheel_rate_fl", 1)).expect("written");
+    for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
+        let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().failure();
+        let told = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+        assert!(
+            told.contains("frames.csv:1:2: `wheel_rate_fl` is no sensor: is `wheel_rate_fl_rad_s` meant?"),
+            "{told}"
+        );
+        assert_eq!((told.lines().count(), case.files()), (1, vec!["frames.csv".to_owned()]));
     }
 }
 

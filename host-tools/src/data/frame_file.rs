@@ -5,7 +5,8 @@ use std::path::Path;
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::number_stream::{NumberStream, Row, microseconds, write_seconds};
+use super::misspelling::column_meant;
+use super::number_stream::{LONGEST_S, NumberStream, Row, microseconds, write_seconds};
 use super::sensor_channels::{names, values, values_mut};
 use crate::error::HostError;
 
@@ -15,7 +16,7 @@ pub(super) const TIME: &str = "t_s";
 /// The frames of a file, in the order of time.
 ///
 /// Needed are `t_s`, which must not fall from row to row, and at least one sensor. A sensor without a column is absent, one
-/// with an empty field gave nothing in that frame, and columns of other names are passed over. `NaN` and `inf` are values:
+/// with an empty field gave nothing in that frame, and columns of other names are passed over, but not those that seem to be a sensor's. `NaN` and `inf` are values:
 /// a sensor may say so, and it is for the flight software to refuse them.
 pub struct FrameReader {
     stream: NumberStream,
@@ -39,7 +40,7 @@ impl FrameReader {
     /// The frames of a table.
     ///
     /// # Errors
-    /// Where its header has no time or no sensor.
+    /// Where its header has no time or no sensor, or a column that is nearly one of a sensor which it has not.
     pub fn new(stream: NumberStream) -> Result<Self, HostError> {
         let time = stream.required_column(TIME)?;
         let columns: Vec<_> = names().iter().map(|name| stream.column(name)).collect();
@@ -47,6 +48,7 @@ impl FrameReader {
             let expected = "no sensor: expected columns such as wheel_rate_fl_rad_s, load_cell_fl_n, accel_x_m_s2";
             return Err(stream.error(1, 1, format!("{expected} in the header (found {})", stream.header().join(", "))));
         }
+        no_misspelt_column(&stream)?;
         Ok(Self { stream, time, columns, last_us: None, is_empty: true })
     }
 
@@ -76,7 +78,8 @@ impl FrameReader {
         };
         let Some(time_s) = number else { return refuse("empty".into(), "a time in s") };
         let Some(time_us) = microseconds(time_s) else {
-            return refuse(time_s.to_string(), "a time of 0 s or more, at most 1e11 s");
+            let expected = format!("a time of 0 s or more, at most {LONGEST_S} s");
+            return refuse(time_s.to_string(), &expected);
         };
         match self.last_us {
             Some(last) if time_us < last => {
@@ -97,6 +100,19 @@ impl Iterator for FrameReader {
             None => is_first.then(|| Err(self.stream.error(2, 1, "no frame: expected one below the header"))),
         }
     }
+}
+
+/// Refuses a header in which a sensor would be absent for the sake of a letter or a unit.
+fn no_misspelt_column(stream: &NumberStream) -> Result<(), HostError> {
+    let header = stream.header();
+    let sensors = names();
+    let absent = || sensors.iter().filter(|name| !header.contains(name)).map(String::as_str);
+    for (place, name) in header.iter().enumerate().filter(|(_, name)| *name != TIME && !sensors.contains(name)) {
+        if let Some(meant) = column_meant(name, absent()) {
+            return Err(stream.error(1, place as u64 + 1, format!("`{name}` is no sensor: is `{meant}` meant?")));
+        }
+    }
+    Ok(())
 }
 
 /// Whether a table is one of sensor frames, by its header: a column of a sensor, or one that is named like an encoder's.

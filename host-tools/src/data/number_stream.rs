@@ -144,10 +144,11 @@ impl NumberStream {
     }
 }
 
+/// The latest time, s: up to 2³¹ s, 68 years, seconds with six decimals come back as the same whole number.
+pub const LONGEST_S: f64 = 2_147_483_648.0;
+
 /// Seconds since the start as µs; `None` where it is no time, or too long for one.
 pub fn microseconds(time_s: f64) -> Option<u64> {
-    // Up to 2^31 s, 68 years, seconds with six decimals come back as the same whole number.
-    const LONGEST_S: f64 = 2_147_483_648.0;
     (0.0..=LONGEST_S).contains(&time_s).then(|| libm::round(1.0e6 * time_s) as u64)
 }
 

@@ -3,11 +3,12 @@
 use std::ops::Range;
 use std::path::Path;
 
-use kapvik_firmware::rover::{Axes, GeometryError, Planar, Rover};
+use kapvik_firmware::rover::{Axes, Planar, Rover};
 use serde::Deserialize;
 use serde_aux::serde_introspection::serde_introspect;
 use toml::Spanned;
 
+use super::rover_fault::RoverFault;
 use super::toml_file::TomlFile;
 use super::wheel_file::{Grousers, LARGEST_M};
 use crate::error::HostError;
@@ -120,28 +121,19 @@ impl RoverFile {
             serde_introspect::<DriveKeys>(),
             serde_introspect::<NoiseKeys>(),
         ];
-        let table: RoverTable = file.whole_and_more(&in_tables)?;
+        let (table, unused): (RoverTable, _) = file.whole_and_more(&in_tables)?;
         table.check_units(file)?;
-        let rover = table.rover();
-        rover.check().map_err(|error| {
-            let place = table.to_blame(error).map_or(0, |span| span.start);
-            file.error_at_offset(place, in_words(error))
-        })?;
-        let mut grousers = GROUSERS;
-        if let Some(height) = &table.wheel.grouser_height_m {
-            grousers.height_m = *height.get_ref();
-            if !(grousers.height_m >= 0.0 && grousers.height_m.is_finite()) {
-                let message = format!("grouser_height_m = {}: expected 0 m or more", grousers.height_m);
-                return Err(file.error_at(height, message));
-            }
+        if let Some(fault) = table.fault() {
+            let place = table.to_blame(fault).map_or(0, |span| span.start);
+            return Err(file.error_at_offset(place, fault.in_words()));
         }
-        grousers.count = table.wheel.grouser_count.unwrap_or(grousers.count);
-        Ok(Self { rover, grousers })
+        unused.tell();
+        Ok(Self { rover: table.rover(), grousers: table.grousers() })
     }
 }
 
 impl RoverTable {
-    /// Refuses numbers that are in other units than the format's.
+    /// Refuses numbers that are in other units than the format's, or below what they count from.
     fn check_units(&self, file: &TomlFile) -> Result<(), HostError> {
         let SuspensionKeys { front_hub, bogie_pivot, middle_hub, rear_hub, half_track, .. } = &self.suspension;
         let numbers = [
@@ -155,6 +147,11 @@ impl RoverTable {
                 let message = format!("{name} = {}: expected {unit}, at most {most}", number.get_ref());
                 return Err(file.error_at(number, message));
             }
+        }
+        let height = &self.wheel.grouser_height_m;
+        if let Some(height) = height.as_ref().filter(|height| !(*height.get_ref() >= 0.0)) {
+            let message = format!("grouser_height_m = {}: expected 0 m or more", height.get_ref());
+            return Err(file.error_at(height, message));
         }
         let points = [
             ("front_hub", front_hub),
@@ -210,83 +207,66 @@ impl RoverTable {
         rover
     }
 
-    /// Where the key stands that an error is about: the first that is wrong by itself, else the first that is there.
-    fn to_blame(&self, error: GeometryError) -> Option<Range<usize>> {
-        let Self { wheel, suspension, drive, noise, .. } = self;
-        let numbers = |keys: &[&Number]| {
-            let there = || keys.iter().filter_map(|key| key.as_ref());
-            let wrong = there().find(|key| !(*key.get_ref() > 0.0 && key.get_ref().is_finite()));
-            wrong.or_else(|| there().next()).map(Spanned::span)
-        };
-        let points = |keys: &[&Point<2>]| {
-            let there = || keys.iter().filter_map(|key| key.as_ref());
-            let wrong = there().find(|key| key.get_ref().0.iter().any(|coordinate| !coordinate.is_finite()));
-            wrong.or_else(|| there().next()).map(Spanned::span)
-        };
-        let centre = suspension.centre_of_mass.as_ref().map(Spanned::span);
-        let SuspensionKeys { front_hub, bogie_pivot, middle_hub, rear_hub, half_track, .. } = suspension;
-        match error {
-            GeometryError::Weight => numbers(&[&self.mass_kg, &self.gravity_m_s2]),
-            GeometryError::Wheel => numbers(&[&wheel.radius_m, &wheel.width_m]),
-            GeometryError::Coordinate => {
-                let bad_centre = suspension
-                    .centre_of_mass
-                    .as_ref()
-                    .filter(|centre| centre.get_ref().0.iter().any(|coordinate| !coordinate.is_finite()));
-                let possible = |track: f64| track > 0.0 && track.is_finite();
-                let bad_track = half_track.as_ref().filter(|track| !possible(*track.get_ref()));
-                let single = bad_track.map(Spanned::span).or(bad_centre.map(Spanned::span));
-                single.or_else(|| points(&[front_hub, bogie_pivot, middle_hub, rear_hub]))
-            }
-            GeometryError::HubOrder => points(&[front_hub, middle_hub, rear_hub, bogie_pivot]),
-            GeometryError::BogiePivot => points(&[bogie_pivot, middle_hub, rear_hub, front_hub]),
-            GeometryError::LeverArm => {
-                let below = |key: &&&Point<2>| key.as_ref().is_some_and(|point| point.get_ref().0[1] >= 0.0);
-                let hubs = [front_hub, middle_hub, rear_hub];
-                hubs.iter().find(below).map_or_else(|| points(&hubs), |key| points(&[*key]))
-            }
-            GeometryError::CentreOfMass => centre.or_else(|| points(&[front_hub, bogie_pivot])),
-            GeometryError::Inertia => numbers(&[&drive.reflected_inertia_kg_m2]),
-            GeometryError::Noise => numbers(&[
-                &noise.wheel_rate_rad_s,
-                &noise.motor_torque_nm,
-                &noise.load_cell_n,
-                &noise.angle_rad,
-                &noise.accel_m_s2,
-                &noise.gyro_rad_s,
-                &noise.velocity_m_s,
-            ]),
+    fn grousers(&self) -> Grousers {
+        let WheelKeys { grouser_height_m, grouser_count, .. } = &self.wheel;
+        Grousers {
+            height_m: grouser_height_m.as_ref().map_or(GROUSERS.height_m, |height| *height.get_ref()),
+            count: grouser_count.unwrap_or(GROUSERS.count),
         }
     }
+
+    fn fault(&self) -> Option<RoverFault> {
+        RoverFault::of(&self.rover(), self.grousers())
+    }
+
+    /// Where the key stands without which a fault would not be there; where it takes several, the last of these.
+    fn to_blame(&self, fault: RoverFault) -> Option<Range<usize>> {
+        let is_cause = |table: &Self| table.fault() != Some(fault);
+        let alone = || {
+            TAKE.iter().find_map(|take| {
+                let mut without = self.clone();
+                take(&mut without).filter(|_| is_cause(&without))
+            })
+        };
+        let together = || {
+            let mut without = self.clone();
+            TAKE.iter().find_map(|take| take(&mut without).filter(|_| is_cause(&without)))
+        };
+        alone().or_else(together)
+    }
+}
+
+/// Takes a key out of a table, and says where it stood.
+type TakeKey = fn(&mut RoverTable) -> Option<Range<usize>>;
+
+/// One for each key, in the order of the format.
+const TAKE: [TakeKey; 19] = [
+    |table| span(table.mass_kg.take()),
+    |table| span(table.gravity_m_s2.take()),
+    |table| span(table.wheel.radius_m.take()),
+    |table| span(table.wheel.width_m.take()),
+    |table| span(table.wheel.grouser_height_m.take()),
+    |table| span(table.suspension.front_hub.take()),
+    |table| span(table.suspension.bogie_pivot.take()),
+    |table| span(table.suspension.middle_hub.take()),
+    |table| span(table.suspension.rear_hub.take()),
+    |table| span(table.suspension.half_track.take()),
+    |table| span(table.suspension.centre_of_mass.take()),
+    |table| span(table.drive.reflected_inertia_kg_m2.take()),
+    |table| span(table.noise.wheel_rate_rad_s.take()),
+    |table| span(table.noise.motor_torque_nm.take()),
+    |table| span(table.noise.load_cell_n.take()),
+    |table| span(table.noise.angle_rad.take()),
+    |table| span(table.noise.accel_m_s2.take()),
+    |table| span(table.noise.gyro_rad_s.take()),
+    |table| span(table.noise.velocity_m_s.take()),
+];
+
+fn span<T>(key: Option<Spanned<T>>) -> Option<Range<usize>> {
+    key.map(|key| key.span())
 }
 
 /// Whether a number is larger than can be; what is no number is refused as such elsewhere.
 fn is_beyond(number: f64, most: f64) -> bool {
     number.is_finite() && number.abs() > most
-}
-
-/// What a person is told of an impossible rover.
-fn in_words(error: GeometryError) -> &'static str {
-    match error {
-        GeometryError::Weight => "no rover weighs this: expected a mass and a gravity above 0",
-        GeometryError::Wheel => "no wheel has this size: expected a radius and a width above 0 m",
-        GeometryError::Coordinate => {
-            "the suspension is nowhere: expected finite coordinates and a half_track above 0 m"
-        }
-        GeometryError::HubOrder => {
-            "the hubs are out of order: expected front_hub, middle_hub, rear_hub from front to rear"
-        }
-        GeometryError::BogiePivot => {
-            "the bogie would not stand: expected bogie_pivot behind front_hub, middle_hub ahead of it and rear_hub behind"
-        }
-        GeometryError::LeverArm => {
-            "drawbar pull would have no lever arm: expected front_hub below the differential axis (z < 0), middle_hub and \
-             rear_hub below the bogie pivot (z < 0)"
-        }
-        GeometryError::CentreOfMass => {
-            "the rover would not stand: expected centre_of_mass between bogie_pivot and front_hub, and between the sides"
-        }
-        GeometryError::Inertia => "no drive has this inertia: expected reflected_inertia_kg_m2 above 0",
-        GeometryError::Noise => "no sensor has this noise: expected standard deviations above 0",
-    }
 }

@@ -7,9 +7,21 @@ use serde_aux::serde_introspection::serde_introspect;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer, Error, ValueDeserializer};
 
-use super::misspelling::nearest;
+use super::misspelling::key_meant;
 use super::text::TextFile;
 use crate::error::HostError;
+
+/// Keys of a file that nobody reads, each with its place.
+#[must_use]
+#[derive(Debug)]
+pub struct UnusedKeys(Vec<HostError>);
+
+impl UnusedKeys {
+    /// Tells them on standard error: once the file is known to be good, so that an error stands there alone.
+    pub fn tell(&self) {
+        self.0.iter().for_each(|key| eprintln!("kapvik: {key}"));
+    }
+}
 
 /// A TOML file.
 #[derive(Debug, Clone)]
@@ -39,30 +51,31 @@ impl TomlFile {
         toml::from_str(self.file.text()).map_err(|error| self.error(&error))
     }
 
-    /// The whole file as a `T`, a struct that lets unknown keys pass; keys and tables at its top that `T` has not are told on standard
-    /// error and not used, for who keeps a file may note more in it than this program reads.
+    /// The whole file as a `T`, a struct that lets unknown keys pass; and the keys and tables at its top that `T` has not, which are not used,
+    /// for who keeps a file may note more in it than this program reads.
     ///
     /// # Errors
     /// Where the file is not TOML, or not a `T`, or has such a key whose name is nearly one of `T`'s, or of `in_tables`: of what stands in
     /// the tables of a `T`.
-    pub fn whole_and_more<T: DeserializeOwned>(&self, in_tables: &[&'static [&'static str]]) -> Result<T, HostError> {
+    pub fn whole_and_more<T: DeserializeOwned>(
+        &self,
+        in_tables: &[&'static [&'static str]],
+    ) -> Result<(T, UnusedKeys), HostError> {
         let document = DeTable::parse(self.file.text()).map_err(|error| self.error(&error))?;
         let fields = serde_introspect::<T>();
         let further = document.get_ref().keys().filter(|key| !fields.contains(&key.get_ref().as_ref()));
         let further: Vec<_> = further.cloned().collect();
         for key in &further {
             let name = key.get_ref();
-            let in_table = || in_tables.iter().find_map(|names| nearest(name, names.iter().copied()));
-            let meant = nearest(name, fields.iter().copied()).map(|meant| format!("`{meant}`"));
+            let in_table = || in_tables.iter().find_map(|names| key_meant(name, names));
+            let meant = key_meant(name, fields).map(|meant| format!("`{meant}`"));
             if let Some(meant) = meant.or_else(|| in_table().map(|meant| format!("`{meant}` of a table"))) {
                 return Err(self.error_at(key, format!("unknown field `{name}`: is {meant} meant?")));
             }
         }
         let whole = T::deserialize(Deserializer::from(document)).map_err(|error| self.error(&error))?;
-        for key in &further {
-            eprintln!("kapvik: {}", self.error_at(key, format!("`{}` is not used", key.get_ref())));
-        }
-        Ok(whole)
+        let unused = further.iter().map(|key| self.error_at(key, format!("`{}` is not used", key.get_ref())));
+        Ok((whole, UnusedKeys(unused.collect())))
     }
 
     /// The table `[name]` as a `T`; without such a table, the whole file as a `T`.

@@ -12,8 +12,11 @@ pub fn squares_gained(ln_ratio: f64, freedom: f64) -> f64 {
 }
 
 /// The chance that so many parameters that change nothing lessen squares by as much, over the variance of a noise that is known with so many
-/// degrees of freedom: of Fisher's ratio.
+/// degrees of freedom: of Fisher's ratio. 1 where the squares are no number.
 pub fn beside_noise(squares: f64, parameters: f64, freedom: f64) -> f64 {
+    if squares.is_nan() {
+        return 1.0;
+    }
     FisherSnedecor::new(parameters, freedom).map_or(1.0, |law| law.sf(squares / parameters))
 }
 

@@ -68,6 +68,27 @@ fn impossible_rovers_are_refused_at_the_key_to_blame() {
         ("[suspension]\ncentre_of_mass = [1.0, 0.0, 0.0]\n", "r.toml:2:18: the rover would not stand"),
         ("[drive]\nreflected_inertia_kg_m2 = 0\n", "r.toml:2:27: no drive has this inertia"),
         ("[noise]\nload_cell_n = 0.5\ngyro_rad_s = 0\n", "r.toml:3:14: no sensor has this noise"),
+        // The key whose value is wrong, wherever it stands among others that are right.
+        (
+            "[suspension]\nfront_hub = [0.35, -0.2]\nrear_hub = [0.175, -0.1]\n",
+            "r.toml:3:12: the hubs are out of order",
+        ),
+        (
+            "[suspension]\nfront_hub = [0.35, -0.2]\nbogie_pivot = [0.5, -0.1]\n",
+            "r.toml:3:15: the hubs are out of order",
+        ),
+        ("[suspension]\nbogie_pivot = [0.1, -0.1]\ncentre_of_mass = [0, 0, 0.05]\n", "r.toml:2:15: "),
+        ("[noise]\ngyro_rad_s = 0\nload_cell_n = -1\n", "r.toml:2:14: no sensor has this noise"),
+        ("gravity_m_s2 = 981\n", "r.toml:1:16: no rover drives there"),
+        ("[wheel]\nradius_m = 0.5\n", "r.toml:2:12: two wheels of a side"),
+        ("[suspension]\nmiddle_hub = [0.5, -0.1]\n", "r.toml:2:14: two wheels of a side"),
+        ("[suspension]\nhalf_track = 0.02\n", "r.toml:2:14: the wheels of both sides"),
+        ("[suspension]\ncentre_of_mass = [0, 0, 50]\n", "r.toml:2:18: nothing is so heavy there"),
+        ("[suspension]\ncentre_of_mass = [0, 0, -5]\n", "r.toml:2:18: nothing is so heavy there"),
+        ("[wheel]\ngrouser_height_m = 5\n", "r.toml:2:20: no wheel has such grousers"),
+        // What is no number in those of the flight computer.
+        ("mass_kg = 1e-50\n", "r.toml:1:11: no rover weighs this"),
+        ("[noise]\nload_cell_n = 1e300\n", "r.toml:2:15: no sensor has this noise"),
         ("[suspension]\nfront_hub = [0.35]\n", "r.toml:2:13: "),
         ("mass = 41.0\n", "r.toml:1:1: unknown field `mass`"),
         ("half_track = 0.4\n", "r.toml:1:1: unknown field `half_track`: is `half_track` of a table meant?"),
@@ -93,6 +114,8 @@ fn frames_are_read_as_they_are_written() {
     );
     assert_eq!(found[1].gyro_rad_s.z, Some(f32::NEG_INFINITY));
     assert_eq!(found[1].rocker_angle_rad, None, "no column, no sensor");
+    let misspelt = frames("t_s,accel_x_m_s2,load_cell_fl\n0,0,65\n").expect_err("a sensor without its unit");
+    assert_eq!(misspelt, "f.csv:1:3: `load_cell_fl` is no sensor: is `load_cell_fl_n` meant?");
     let none = frames("t_s,accel_x_m_s2\n").expect_err("no frame");
     assert_eq!(none, "f.csv:2:1: no frame: expected one below the header");
 }

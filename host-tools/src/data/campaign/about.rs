@@ -10,7 +10,7 @@ use toml::Spanned;
 use crate::error::HostError;
 
 use super::super::soil_file::SoilTable;
-use super::super::toml_file::TomlFile;
+use super::super::toml_file::{TomlFile, UnusedKeys};
 use super::super::wheel_file::WheelTable;
 use super::declared::DeclaredTable;
 
@@ -84,14 +84,16 @@ fn standard_gravity() -> Spanned<f64> {
 }
 
 impl About {
-    pub fn read(file: &TomlFile) -> Result<Self, HostError> {
-        let about: Self = file.whole_and_more(&[serde_introspect::<WheelTable>(), serde_introspect::<SoilTable>()])?;
+    /// The file, and what of it is not used.
+    pub fn read(file: &TomlFile) -> Result<(Self, UnusedKeys), HostError> {
+        let (about, unused): (Self, _) =
+            file.whole_and_more(&[serde_introspect::<WheelTable>(), serde_introspect::<SoilTable>()])?;
         about.wheel.check(file)?;
         let gravity = *about.gravity_m_s2.get_ref();
         if !(gravity > 0.0 && gravity.is_finite()) {
             let message = format!("gravity_m_s2 = {gravity}: expected a number above 0 m/s²");
             return Err(file.error_at(&about.gravity_m_s2, message));
         }
-        Ok(about)
+        Ok((about, unused))
     }
 }

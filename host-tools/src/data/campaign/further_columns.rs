@@ -1,6 +1,6 @@
 //! Columns that the format does not name.
 
-use crate::data::misspelling::nearest;
+use crate::data::misspelling::column_meant;
 
 use super::Channel;
 
@@ -10,7 +10,7 @@ pub(super) fn misspelt(header: &[String]) -> impl Iterator<Item = String> + '_ {
     let missing = move || Channel::ALL.map(Channel::name).into_iter().filter(move |name| !has(name));
     let further = header.iter().filter(|name| Channel::from_name(name).is_none() && *name != "run");
     further.filter_map(move |name| {
-        let meant = nearest(name, missing())?;
+        let meant = column_meant(name, missing())?;
         Some(format!("The table has a column `{name}` and none `{meant}`: if that is meant, it is not read as such."))
     })
 }

@@ -113,7 +113,7 @@ impl Campaign {
     }
 
     fn assemble(path: &Path, table: &Table, toml: &TomlFile) -> Result<Self, HostError> {
-        let about = about::About::read(toml)?;
+        let (about, unused) = about::About::read(toml)?;
         let mut rows = row_ids(table)?;
         let mut columns = numeric_columns(table)?;
         let repeats = repeats::take_out(&mut rows, &mut columns);
@@ -141,6 +141,7 @@ impl Campaign {
         }
         campaign.plausible = Plausible::of(&campaign);
         campaign.check_units()?;
+        unused.tell();
         Ok(campaign)
     }
 

@@ -55,7 +55,8 @@ pub(super) fn judge(
         }
         judged.rows.push(seen);
     }
-    judged.log_score = Some(total);
+    // What is left of a fit without most of the readings may be no number.
+    judged.log_score = Some(total).filter(|total| total.is_finite());
     judged
 }
 
