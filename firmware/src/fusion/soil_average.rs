@@ -10,6 +10,11 @@ const LENGTH_M: f32 = 6.0;
 const INDEPENDENT_M: f32 = 0.6;
 /// What an instant outside the training range counts, over one inside.
 const OUTSIDE_COUNTS: f32 = 0.05;
+/// By how many standard deviations of the prior ln c may be greater where ice cements the grains. The soils that the networks know have a
+/// cohesion of 3 kPa at most, such a soil up to twice as much: what the network says of it is then no better than the prior.
+const CEMENTED_LN_COHESION: f32 = 1.0;
+/// The least log-variance of φ there, over that of the prior (3.7°): the networks put into φ what they do not know as cohesion.
+const CEMENTED_FRICTION_ANGLE: f32 = -0.9;
 /// Variance over that of the prior below which an instant counts no more than at it.
 const LEAST_VARIANCE: f32 = 0.01;
 
@@ -25,6 +30,8 @@ pub(super) struct SoilAverage {
     targets: [TargetAverage; TARGETS],
     inside: WeightedTravelMean,
     travel_m: f32,
+    /// Whether ice may cement the soil.
+    may_be_cemented: bool,
 }
 
 /// The average of one target.
@@ -47,9 +54,15 @@ impl TargetAverage {
 }
 
 impl SoilAverage {
-    /// An empty average.
-    pub const fn new() -> Self {
-        Self { targets: [TargetAverage::EMPTY; TARGETS], inside: WeightedTravelMean::new(LENGTH_M), travel_m: 0.0 }
+    /// An empty average, of a soil that ice may cement or not.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn new(may_be_cemented: bool) -> Self {
+        Self {
+            targets: [TargetAverage::EMPTY; TARGETS],
+            inside: WeightedTravelMean::new(LENGTH_M),
+            travel_m: 0.0,
+            may_be_cemented,
+        }
     }
 
     /// Takes the outputs of an instant that held over some travel, m, with its inputs inside the training range or not.
@@ -78,7 +91,8 @@ impl SoilAverage {
 
     /// How many independent instants the average is worth.
     pub fn instants(&self) -> f32 {
-        1.0 + if self.travel_m < LENGTH_M { self.travel_m } else { LENGTH_M } / INDEPENDENT_M
+        let travel_m = if self.travel_m < LENGTH_M { self.travel_m } else { LENGTH_M };
+        1.0 + travel_m / INDEPENDENT_M
     }
 
     /// Whether most of what was learned came from inputs inside the training range.
@@ -100,6 +114,10 @@ impl SoilAverage {
             let lasting = if lasting < whole { lasting } else { whole };
             (target.mean.mean(), math::ln(lasting + share * (whole - lasting)))
         });
+        if self.may_be_cemented {
+            let v1 = if v1 < CEMENTED_FRICTION_ANGLE { CEMENTED_FRICTION_ANGLE } else { v1 };
+            return Some([m0 + CEMENTED_LN_COHESION, m1, m2, 0.0, v1, v2]);
+        }
         Some([m0, m1, m2, v0, v1, v2])
     }
 }

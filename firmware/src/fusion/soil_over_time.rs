@@ -2,6 +2,7 @@
 
 use heapless::Vec;
 
+use super::resistance_watch::Stiffness;
 use super::rover_soil::RoverSoil;
 use super::soil_average::SoilAverage;
 use super::soil_change::SoilChangeDetector;
@@ -36,7 +37,7 @@ impl SoilOverTime {
         let wheelbase_m = suspension.front_hub.x - (suspension.bogie_pivot.x + suspension.rear_hub.x);
         Self {
             wheel: rover.wheel,
-            average: SoilAverage::new(),
+            average: SoilAverage::new(false),
             changes: SoilChangeDetector::new(rover.wheel.radius_m, wheelbase_m),
             backward: PerSide::both(false),
             asks_what_lasts: false,
@@ -59,8 +60,9 @@ impl SoilOverTime {
         };
         let left_again = self.follow_direction(wheels, backward);
         let wheel_soils = wheels.as_ref().map(|side| side.as_ref().map(|wheel| self.under_wheel(wheel)));
-        if self.changes.tick(wheels, travel_m).is_some() || left_again {
-            self.average = SoilAverage::new();
+        let change = self.changes.tick(wheels, travel_m);
+        if change.is_some() || left_again {
+            self.average = SoilAverage::new(change == Some(Stiffness::Rises));
         }
         let rover = self.under_rover(wheels, travel_m);
         (wheel_soils, rover)
@@ -107,8 +109,9 @@ impl SoilOverTime {
         let [drawbar_pull_n, load_n, torque_nm, slip] = squares.map(|square| math::sqrt(square / count));
         let noise = WheelNoise { drawbar_pull_n, load_n, torque_nm, slip, sinkage_m: 1.0 };
         let query = SoilQuery { wheel: self.wheel, noise, slope: None, wheels: states };
-        self.take(query, math::sqrt(shared / count), travel_m)?;
-        self.fused(taking_part).ok_or(Refusal::NotRolling)
+        // What a network refuses to look at leaves what was learned before.
+        let refusal = self.take(query, math::sqrt(shared / count), travel_m).err();
+        self.fused(taking_part).ok_or(refusal.unwrap_or(Refusal::NotRolling))
     }
 
     /// Asks the rover network, in turn as it is and what would last without noise.
