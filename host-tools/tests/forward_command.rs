@@ -206,7 +206,10 @@ fn descriptions_that_are_wrong_are_refused_by_line_and_column() {
         (SOIL.replace("k_phi = 2407400.0\n", ""), "s.toml:1:1: k_phi is missing"),
         (SOIL.replace("c1 = 0.18\n", ""), "s.toml:1:1: c1 is missing"),
         (SOIL.replace("K = 0.0114\n", ""), "s.toml:1:1: K is missing"),
-        (SOIL.replace("phi = 0.5567600313861911", "phi = 31.9"), "s.toml:5:7: phi = 31.9: expected an angle in rad"),
+        (
+            SOIL.replace("phi = 0.5567600313861911", "phi = 31.9"),
+            "s.toml:5:7: phi = 31.9: expected a number from 0 to 1.5708",
+        ),
         (SOIL.replace("n = 1.1", "n = { min = 1.0, max = 1.2 }"), "s.toml:1:5: n = 1 … 1.2: expected one value"),
         (SOIL.replace("n = 1.1", "n = nan"), "s.toml:1:5: n = NaN: expected a finite number"),
         (SOIL.replace("n = 1.1", "n = { value = 1.1, sdt = 1 }"), "s.toml:1:5: expected a number"),

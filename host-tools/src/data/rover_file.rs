@@ -149,7 +149,7 @@ impl RoverTable {
             }
         }
         let height = &self.wheel.grouser_height_m;
-        if let Some(height) = height.as_ref().filter(|height| !(*height.get_ref() >= 0.0)) {
+        if let Some(height) = height.as_ref().filter(|height| *height.get_ref() < 0.0 || height.get_ref().is_nan()) {
             let message = format!("grouser_height_m = {}: expected 0 m or more", height.get_ref());
             return Err(file.error_at(height, message));
         }

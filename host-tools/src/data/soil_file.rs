@@ -1,5 +1,6 @@
 //! The `[soil]` table of campaigns and soil files.
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use kapvik_firmware::terramechanics::Soil;
@@ -86,24 +87,24 @@ impl SoilTable {
     pub fn complete(&self, file: &TomlFile) -> Result<Soil<f64>, HostError> {
         let (cohesive_modulus, frictional_modulus) = self.moduli(file)?;
         let soil = Soil {
-            sinkage_exponent: required(file, "n", &self.n, at_least_zero)?,
+            sinkage_exponent: required(file, "n", &self.n)?,
             cohesive_modulus,
             frictional_modulus,
-            cohesion_pa: required(file, "c", &self.c, at_least_zero)?,
-            friction_angle_rad: required(file, "phi", &self.phi, up_to_a_right_angle)?,
-            shear_modulus_m: required(file, "K", &self.shear_modulus, at_least_zero)?,
-            peak_stress_c1: required(file, "c1", &self.c1, any_number)?,
-            peak_stress_c2: required(file, "c2", &self.c2, any_number)?,
-            rebound_ratio: optional(file, "eta", &self.eta, zero_to_one)?.unwrap_or(0.0),
+            cohesion_pa: required(file, "c", &self.c)?,
+            friction_angle_rad: required(file, "phi", &self.phi)?,
+            shear_modulus_m: required(file, "K", &self.shear_modulus)?,
+            peak_stress_c1: required(file, "c1", &self.c1)?,
+            peak_stress_c2: required(file, "c2", &self.c2)?,
+            rebound_ratio: optional(file, "eta", &self.eta)?.unwrap_or(0.0),
         };
         Ok(soil)
     }
 
     /// k_c and k_phi, however the file gives them.
     fn moduli(&self, file: &TomlFile) -> Result<(f64, f64), HostError> {
-        let k_c = optional(file, "k_c", &self.k_c, any_number)?;
-        let k_phi = optional(file, "k_phi", &self.k_phi, any_number)?;
-        match (optional(file, "k_eff", &self.k_eff, any_number)?, k_phi) {
+        let k_c = optional(file, "k_c", &self.k_c)?;
+        let k_phi = optional(file, "k_phi", &self.k_phi)?;
+        match (optional(file, "k_eff", &self.k_eff)?, k_phi) {
             (Some(k_eff), None) if k_c.is_none() => Ok((0.0, k_eff)),
             (Some(_), _) => {
                 let place = self.k_eff.as_ref().map_or(0, |k_eff| k_eff.span().start);
@@ -116,54 +117,60 @@ impl SoilTable {
     }
 }
 
-/// Says what a number should have been, if it is not that.
-type Range = fn(f64) -> Result<(), &'static str>;
-
-fn any_number(_: f64) -> Result<(), &'static str> {
-    Ok(())
+/// What a parameter of a soil can be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SoilRange {
+    pub least: f64,
+    pub greatest: f64,
 }
 
-fn at_least_zero(value: f64) -> Result<(), &'static str> {
-    if value >= 0.0 { Ok(()) } else { Err("a number of 0 or more") }
-}
+impl SoilRange {
+    /// That of a key of `[soil]`: beyond it a file is in other units, or of the wrong sign.
+    pub fn of(key: &str) -> Self {
+        let (least, greatest) = match key {
+            "n" => (0.0, 5.0),
+            "phi" => (0.0, FRAC_PI_2.next_down()),
+            "K" | "eta" => (0.0, 1.0),
+            "c1" | "c2" => (-2.0, 2.0),
+            "k_c" => (f64::NEG_INFINITY, f64::INFINITY),
+            _ => (0.0, f64::INFINITY),
+        };
+        Self { least, greatest }
+    }
 
-fn zero_to_one(value: f64) -> Result<(), &'static str> {
-    if (0.0..=1.0).contains(&value) { Ok(()) } else { Err("a number from 0 to 1") }
-}
-
-fn up_to_a_right_angle(value: f64) -> Result<(), &'static str> {
-    if (0.0..std::f64::consts::FRAC_PI_2).contains(&value) {
-        Ok(())
-    } else {
-        Err("an angle in rad, from 0 to below π/2")
+    /// What was expected, if a value is not that.
+    pub fn check(self, value: f64) -> Result<(), String> {
+        let Self { least, greatest } = self;
+        if value.is_finite() && (least..=greatest).contains(&value) {
+            return Ok(());
+        }
+        Err(if least == f64::NEG_INFINITY {
+            "a finite number".to_owned()
+        } else if greatest.is_finite() && value.is_finite() {
+            format!("a number from {least} to {greatest:.4}")
+        } else {
+            format!("a number of {least} or more")
+        })
     }
 }
 
-fn required(
-    file: &TomlFile,
-    name: &str,
-    parameter: &Option<Spanned<Parameter>>,
-    range: Range,
-) -> Result<f64, HostError> {
-    optional(file, name, parameter, range)?
+fn required(file: &TomlFile, name: &str, parameter: &Option<Spanned<Parameter>>) -> Result<f64, HostError> {
+    optional(file, name, parameter)?
         .ok_or_else(|| file.error_at_start(format!("{name} is missing: the equations need it")))
 }
 
-fn optional(
-    file: &TomlFile,
-    name: &str,
-    parameter: &Option<Spanned<Parameter>>,
-    range: Range,
-) -> Result<Option<f64>, HostError> {
+fn optional(file: &TomlFile, name: &str, parameter: &Option<Spanned<Parameter>>) -> Result<Option<f64>, HostError> {
     let Some(parameter) = parameter else { return Ok(None) };
     let refuse =
-        |found: String, expected| Err(file.error_at(parameter, format!("{name} = {found}: expected {expected}")));
+        |found: String, expected: &str| Err(file.error_at(parameter, format!("{name} = {found}: expected {expected}")));
     match *parameter.get_ref() {
-        Parameter::Exact(value) | Parameter::Known(Known { value, .. }) if value.is_finite() => match range(value) {
+        Parameter::Exact(value) | Parameter::Known(Known { value, .. }) if !value.is_finite() => {
+            refuse(value.to_string(), "a finite number")
+        }
+        Parameter::Exact(value) | Parameter::Known(Known { value, .. }) => match SoilRange::of(name).check(value) {
             Ok(()) => Ok(Some(value)),
-            Err(expected) => refuse(value.to_string(), expected),
+            Err(expected) => refuse(value.to_string(), &expected),
         },
-        Parameter::Exact(value) | Parameter::Known(Known { value, .. }) => refuse(value.to_string(), "a finite number"),
         Parameter::Free(Bounds { min, max }) => {
             refuse(format!("{min} … {max}"), "one value, as the equations need one")
         }

@@ -53,7 +53,7 @@ pub fn assemble(
         found_law: None,
         channels: channels(measurements, selected, errors),
         leave_level_out: levels,
-        ends_apart: ends_apart(measurements, errors),
+        ends_apart: ends_apart(measurements, selected, errors),
         soil_before: soil(&selected.base),
         soil_after: soil(selected.model()),
         candidates: listed(measurements, selected),
@@ -63,6 +63,7 @@ pub fn assemble(
     };
     document.caveats.extend(by_themselves.caveats.iter().cloned());
     document.caveats.extend(without_answer(measurements, &document.held_out_runs));
+    document.caveats.extend(no_error_falls(&document));
     super::sentence::tell(&mut document, campaign);
     document
 }
@@ -108,8 +109,8 @@ fn estimate(trial: &Trial<'_>, place: usize) -> Estimate {
 fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
     let first = selected.found.first();
     let step = first.map(|found| &found.step).or(selected.last.as_ref())?;
-    let winner = first.map_or("", |found| found.winner.id());
-    let next = step.ranking.iter().find(|judged| judged.id() != winner && judged.held_out.has_answer())?;
+    let is_adopted = |judged: &Judged<'_>| selected.found.iter().any(|found| found.winner.id() == judged.id());
+    let next = step.ranking.iter().find(|judged| !is_adopted(judged) && judged.held_out.has_answer())?;
     let form = next.effect().map_or("", |effect| effect.form.name).to_owned();
     Some(RunnerUp { id: next.id().to_owned(), form, gain_per_row: next.held_out.per_row })
 }
@@ -133,13 +134,29 @@ fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver]) -> Vec<Unexplain
     selected.left.iter().map(entry).chain(others).take(MOST_UNEXPLAINED).collect()
 }
 
+/// The measured channels whose errors are told. Those of a load say in newtons what those of the sinkage say in metres; a sinkage that lags
+/// behind tells of no load.
+pub fn told(measurements: &Measurements, selected: &Selected<'_>) -> Vec<Reading> {
+    let lags = selected.model().specification.effect("sinkage-lag").is_some();
+    let load = (!lags).then_some(Reading::Load);
+    Reading::JUDGED.into_iter().chain(load).filter(|reading| measurements.has(*reading)).collect()
+}
+
 /// Every measured channel that a model predicts.
 fn channels(
     measurements: &Measurements,
     selected: &Selected<'_>,
     errors: &HeldOutErrors,
 ) -> BTreeMap<String, ChannelErrors> {
-    let judged = Reading::JUDGED.into_iter().filter(|reading| measurements.has(*reading));
+    let noise_of = |reading: Reading| {
+        let noise = measurements.noise[reading.index()];
+        noise.std * if noise.stated { 1.0 } else { selected.model().fit.noise_scale[reading.index()] }
+    };
+    // As many newtons as a metre of sinkage is worth.
+    let by_sinkage = || {
+        let rmse = |reading: Reading| errors.pair(reading.index(), |_| true).map(|pair| pair.rmse_after);
+        noise_of(Reading::Sinkage) * rmse(Reading::Load).unwrap_or(0.0) / rmse(Reading::Sinkage).unwrap_or(1.0)
+    };
     let of = |reading: Reading| {
         let channel = reading.index();
         let runs = measurements.rows_of_run.iter().filter(|rows| rows.iter().any(|row| errors.has(*row, channel)));
@@ -148,12 +165,12 @@ fn channels(
         Some(ChannelErrors {
             rmse_before,
             rmse_after,
-            noise: noise.std * if noise.stated { 1.0 } else { selected.model().fit.noise_scale[channel] },
+            noise: if reading == Reading::Load { noise_of(reading).hypot(by_sinkage()) } else { noise_of(reading) },
             noise_stated: noise.stated,
             runs: runs.count(),
         })
     };
-    judged.filter_map(|reading| Some((name(reading), of(reading)?))).collect()
+    told(measurements, selected).into_iter().filter_map(|reading| Some((name(reading), of(reading)?))).collect()
 }
 
 fn name(reading: Reading) -> String {
@@ -179,14 +196,29 @@ fn without_answer(measurements: &Measurements, predicted: &[String]) -> Option<S
     })
 }
 
+/// What is said where something was found and no channel is predicted the better for it.
+fn no_error_falls(document: &Diagnosis) -> Option<String> {
+    let falls = document.channels.values().any(|errors| errors.rmse_after < errors.rmse_before);
+    (!document.effects.is_empty() && !document.channels.is_empty() && !falls).then(|| {
+        "No root mean square error falls on runs that no fit knew: what was found makes them more probable, as by saying better what is \
+         uncertain, but predicts none of them better."
+            .to_owned()
+    })
+}
+
 /// Root mean square errors before and after on some rows, by channel.
-pub fn error_pairs(errors: &HeldOutErrors, rows: impl Fn(usize) -> bool + Copy) -> BTreeMap<String, ErrorPair> {
-    let pair = |reading: Reading| Some((name(reading), errors.pair(reading.index(), rows)?));
-    Reading::JUDGED.into_iter().filter_map(pair).collect()
+pub fn error_pairs(
+    errors: &HeldOutErrors,
+    channels: &[Reading],
+    rows: impl Fn(usize) -> bool + Copy,
+) -> BTreeMap<String, ErrorPair> {
+    let pair = |reading: &Reading| Some((name(*reading), errors.pair(reading.index(), rows)?));
+    channels.iter().filter_map(pair).collect()
 }
 
 /// Of few runs, those at the lowest and the highest slip by themselves.
-fn ends_apart(measurements: &Measurements, errors: &HeldOutErrors) -> Option<EndsApart> {
+fn ends_apart(measurements: &Measurements, selected: &Selected<'_>, errors: &HeldOutErrors) -> Option<EndsApart> {
+    let channels = told(measurements, selected);
     let count = measurements.runs.len();
     if !(4..=FEW_RUNS).contains(&count) {
         return None;
@@ -196,8 +228,8 @@ fn ends_apart(measurements: &Measurements, errors: &HeldOutErrors) -> Option<End
     let at_end = |row: usize| ends.contains(&measurements.rows[row].run);
     Some(EndsApart {
         runs: ends.iter().map(|run| measurements.runs[*run].clone()).collect(),
-        ends: error_pairs(errors, at_end),
-        between: error_pairs(errors, |row| !at_end(row)),
+        ends: error_pairs(errors, &channels, at_end),
+        between: error_pairs(errors, &channels, |row| !at_end(row)),
     })
 }
 

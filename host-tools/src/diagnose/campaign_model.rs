@@ -9,7 +9,7 @@ use kapvik_firmware::terramechanics::{Soil, Wheel};
 use crate::data::campaign::Campaign;
 
 use super::fit::{CHANNELS, Coordinate, Latent, Model, Prediction};
-use super::measurements::{Measurements, grousers};
+use super::measurements::Measurements;
 use super::site::{Bare, Carried, SLOTS, Site, Sloped};
 use super::soil_coordinates::{SoilParameter, Treatment, treatments};
 use super::specification::Specification;
@@ -61,7 +61,7 @@ impl<'a> CampaignModel<'a> {
         Self {
             measurements,
             wheel: campaign.wheel,
-            grousers: grousers(campaign),
+            grousers: campaign.grousers.of_library(),
             gravity_m_s2: campaign.gravity_m_s2,
             soil,
             soil_free,

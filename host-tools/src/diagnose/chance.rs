@@ -8,7 +8,8 @@ const GREATEST_LN_RATIO: f64 = 300.0;
 /// By how much a sum of squares is less, over the variance of the noise that the rest tells with so many degrees of freedom, where the logarithm
 /// of the ratio of the two sums is `ln_ratio`.
 pub fn squares_gained(ln_ratio: f64, freedom: f64) -> f64 {
-    freedom * ln_ratio.min(GREATEST_LN_RATIO).exp_m1()
+    // Of two sums of nothing the ratio is no number, and nothing is gained.
+    if ln_ratio.is_nan() { 0.0 } else { freedom * ln_ratio.min(GREATEST_LN_RATIO).exp_m1() }
 }
 
 /// The chance that so many parameters that change nothing lessen squares by as much, over the variance of a noise that is known with so many

@@ -1,6 +1,6 @@
 //! Whole levels of slip left out, which asks more of a model than runs beside others at the same slip.
 
-use super::assemble::error_pairs;
+use super::assemble::{error_pairs, told};
 use super::document::LevelsLeftOut;
 use super::forward::Selected;
 use super::held_out_errors::{HeldOutErrors, note};
@@ -12,18 +12,19 @@ const SAME_LEVEL: f64 = 0.03;
 /// Most levels that are told apart; more is a spread.
 const MOST_LEVELS: usize = 12;
 
-/// Errors with each level of slip left out of the fits of both models in turn; none where slips do not come in levels of
-/// several runs. The effects are those that all runs chose.
+/// Errors with each level of slip left out of the fits of both models in turn, as far as both predict it; none where slips do not come in
+/// levels of several runs. The effects are those that all runs chose.
 pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> Option<LevelsLeftOut> {
-    let levels = levels(measurements)?;
     let mut errors = HeldOutErrors::none_yet(measurements.rows.len());
-    for (_, runs) in &levels {
-        let predict = |trial: &Trial<'_>| trial.fit.leave_out_exact(&trial.model, runs).ok();
-        note(&predict(&selected.base)?, &mut errors.before);
-        note(&predict(selected.model())?, &mut errors.after);
+    let mut slips = Vec::new();
+    for (slip, runs) in levels(measurements)? {
+        let predict = |trial: &Trial<'_>| trial.fit.leave_out_exact(&trial.model, &runs).ok();
+        let (Some(before), Some(after)) = (predict(&selected.base), predict(selected.model())) else { continue };
+        note(&before, &mut errors.before);
+        note(&after, &mut errors.after);
+        slips.push(slip);
     }
-    let slips = levels.into_iter().map(|(slip, _)| slip).collect();
-    Some(LevelsLeftOut { slips, channels: error_pairs(&errors, |_| true) })
+    Some(LevelsLeftOut { slips, channels: error_pairs(&errors, &told(measurements, selected), |_| true) })
 }
 
 /// Slip (of its lowest run) and runs of each level, where the runs each stay at one.

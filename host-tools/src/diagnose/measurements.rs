@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use kapvik_firmware::terramechanics::effects::{Conditions, Grousers};
+use kapvik_firmware::terramechanics::effects::Conditions;
 
 use crate::data::campaign::{Campaign, Channel};
 use crate::error::HostError;
@@ -191,11 +191,6 @@ fn thinned(run: &[usize], all: usize) -> impl Iterator<Item = usize> {
 /// The middle of some numbers; none of none.
 pub fn median(values: Vec<f64>) -> Option<f64> {
     (!values.is_empty()).then(|| statistics::median(values))
-}
-
-/// The grousers of a campaign's wheel.
-pub fn grousers(campaign: &Campaign) -> Grousers<f64> {
-    Grousers { height_m: campaign.grousers.height_m, count: f64::from(campaign.grousers.count) }
 }
 
 /// Whether some numbers differ by more than their rounding.

@@ -18,6 +18,8 @@ pub struct Noise {
 const SLIP_STD: f64 = 0.002;
 /// Load over its middle value, likewise.
 const LOAD_SHARE: f64 = 0.005;
+/// Fewest rows with one before and one after from which scatter is known.
+const LEAST_BENDS: usize = 8;
 /// Rows alike in slip.
 const LIKE_SLIP: f64 = 0.01;
 /// Rows alike in load, as a share of it.
@@ -31,16 +33,17 @@ pub fn channel_noise(campaign: &Campaign, rows: &[(usize, [Option<f64>; CHANNELS
         let values = || rows.iter().filter_map(|(_, readings)| readings[reading.index()]).collect::<Vec<_>>();
         match campaign.noise.of(channel) {
             Some(std) if std > 0.0 => Noise { std, stated: true },
-            _ => Noise { std: guess(reading, rows).max(1e-9 + 1e-4 * spread(values())), stated: false },
+            _ => Noise { std: guess(campaign, reading, rows).max(1e-9 + 1e-4 * spread(values())), stated: false },
         }
     })
 }
 
-fn guess(reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> f64 {
+fn guess(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> f64 {
     let values = || rows.iter().filter_map(|(_, readings)| readings[reading.index()]).collect::<Vec<_>>();
+    let at_most = |std: f64| within_runs(campaign, reading, rows).map_or(std, |scatter| std.min(scatter));
     match reading {
-        Reading::Slip => SLIP_STD,
-        Reading::Load => LOAD_SHARE * median(values()).unwrap_or(0.0).abs(),
+        Reading::Slip => at_most(SLIP_STD),
+        Reading::Load => at_most(LOAD_SHARE * median(values()).unwrap_or(0.0).abs()),
         _ => from_like_rows(reading, rows).unwrap_or(0.1 * spread(values())),
     }
 }
@@ -50,6 +53,21 @@ fn spread(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0);
     0.5 * (at(0.9) - at(0.1)).abs()
+}
+
+/// From the middle size of how far a reading is from the mean of those before and after it in its run: white noise, and how it bends. None
+/// where there are few, or most are the same number: it was set, and nothing read it.
+fn within_runs(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
+    let bend = |three: &[(usize, [Option<f64>; CHANNELS])]| {
+        let [(before, _), (at, _), (after, _)] = three else { return None };
+        let runs = [before, at, after].map(|row| &campaign.rows()[*row].run);
+        let [before, at, after] = [three[0].1, three[1].1, three[2].1].map(|readings| readings[reading.index()]);
+        (runs[0] == runs[1] && runs[1] == runs[2]).then_some((before? - 2.0 * at? + after?).abs())
+    };
+    let sizes: Vec<f64> = rows.windows(3).filter_map(bend).collect();
+    // The median of |N(0, 6σ²)| is 0.6745 √6 σ.
+    let std = (sizes.len() >= LEAST_BENDS).then(|| median(sizes).unwrap_or(0.0) / (0.6745 * f64::sqrt(6.0)));
+    std.filter(|std| *std > 0.0)
 }
 
 /// From the middle size of the differences between rows that follow each other in slip and are alike.

@@ -96,13 +96,17 @@ pub fn diagnose(
         return Ok(whole.concluded(&bench, &selected, &[], progress));
     };
     progress("without rows that stand alone");
-    let fewer = measured(whole.in_runs, options, &lone.rows)?;
-    let without = Bench::new(whole.in_runs, &fewer);
-    let again = select(&without, declared_model(&without)?, progress);
+    let fewer = measured(whole.in_runs, options, &lone.rows);
+    let without = fewer.as_ref().ok().map(|fewer| Bench::new(whole.in_runs, fewer));
+    let declared = without.as_ref().and_then(|without| Some((without, declared_model(without).ok()?)));
+    let Some((without, declared)) = declared else {
+        return Ok(whole.concluded(&bench, &selected, &[], progress));
+    };
+    let again = select(without, declared, progress);
     if lone.are_explained && !selected.found.is_empty() && ids(&again) == ids(&selected) {
         return Ok(whole.concluded(&bench, &selected, &[], progress));
     }
-    Ok(whole.concluded(&without, &again, &lone.rows, progress))
+    Ok(whole.concluded(without, &again, &lone.rows, progress))
 }
 
 fn ids(selected: &Selected<'_>) -> Vec<&'static str> {

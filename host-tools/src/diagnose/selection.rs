@@ -31,6 +31,9 @@ const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;
 /// The chance below which any gain on runs that were not seen is enough.
 const BEYOND_DOUBT: f64 = 1e-4;
+/// The chance below which an effect must be of a size that is beyond doubt, too; and the standard deviations that are.
+const BY_FAR: f64 = 1e-6;
+const NEUTRAL_ERRORS: f64 = 2.5;
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 /// The same where noise does not explain what is left in any case, so that chances are guesses.
@@ -66,7 +69,10 @@ impl Judged<'_> {
     pub fn is_significant(&self) -> bool {
         let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
         let is_held = self.held_out.exceeds(errors) && self.held_out.is_shared();
-        self.p_value < SIGNIFICANT && is_held && !self.trial.is_out_of_bounds()
+        // Where a gain is beyond chance by far and the effect's size is not, the two do not speak of the same noise: estimated beside offsets
+        // of whole runs, it may come out far too small.
+        let is_contradicted = self.p_value < BY_FAR && self.trial.may_be_neutral(NEUTRAL_ERRORS);
+        self.p_value < SIGNIFICANT && is_held && !is_contradicted && !self.trial.is_out_of_bounds()
     }
 
     /// Whether chance does not explain what it gains, whether or not it may be the effect.

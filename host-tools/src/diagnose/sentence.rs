@@ -2,7 +2,7 @@
 
 use kapvik_firmware::terramechanics::effects::effect_info;
 
-use crate::data::campaign::Campaign;
+use crate::data::campaign::{Campaign, Channel};
 
 use super::document::{Diagnosis, Verdict};
 
@@ -23,7 +23,7 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
     let model = if document.declared.is_empty() {
         "the seed's equations".to_owned()
     } else {
-        format!("the declared model ({})", document.declared.join(", "))
+        format!("the seed's equations with {} declared", document.declared.join(", "))
     };
     let of = &campaign.name;
     let left = document.unexplained.first().map(|left| match left.regressor.as_str() {
@@ -34,10 +34,15 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
         Verdict::None if document.channels.is_empty() => {
             format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
         }
-        Verdict::None if let Some((channel, times)) = beyond_noise(document) => format!(
-            "{of}: {model} miss {channel} by {times:.1} times its stated noise, and no candidate and no column explains that: the noise is \
+        Verdict::None
+            if let Some((channel, times)) =
+                beyond_noise(document).filter(|_| campaign.column(Channel::Load.name()).is_some()) =>
+        {
+            format!(
+                "{of}: {model} miss {channel} by {times:.1} times its stated noise, and no candidate and no column explains that: the noise is \
              larger, or a law is missing that follows nothing measured."
-        ),
+            )
+        }
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
         }

@@ -379,6 +379,18 @@ impl Trial<'_> {
         })
     }
 
+    /// Whether all parameters of the last effect lie so few standard deviations from doing nothing.
+    pub fn may_be_neutral(&self, errors: f64) -> bool {
+        let Some(effect) = self.specification.effects.last() else { return true };
+        let mut own = self.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
+        own.all(|(place, (_, name))| {
+            let place = self.model.soil_count() + place;
+            let variance = self.fit.covariance[(place, place)].max(0.0) * self.fit.dispersion.max(1.0);
+            let neutral = effect.info.parameter(name).map_or(f64::NAN, |info| info.neutral);
+            (self.fit.parameters[place] - neutral).abs() <= errors * variance.sqrt()
+        })
+    }
+
     /// Parameters that its effects free.
     pub fn effect_parameters(&self) -> usize {
         self.model.effect_parameters().len()

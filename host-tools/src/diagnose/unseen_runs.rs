@@ -92,7 +92,7 @@ impl HeldOutGain {
     /// Whether more than one run gains. What one alone does, while the others together lose, may be a gross error of its own: a model that is
     /// less sure of such a row is surprised the less.
     pub fn is_shared(&self) -> bool {
-        self.without_most > 0.0
+        self.runs > 1 && self.without_most > 0.0
     }
 }
 

@@ -5,6 +5,8 @@
 //! attitude that is misaligned tilts accelerometer and gyro; a wrong rolling radius makes the wheels turn otherwise. What
 //! has no channel on the rover means nothing here, and is refused.
 
+use std::ops::RangeInclusive;
+
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Effects, Form, effect_info};
 
 /// Effects on soil, sensors and drives.
@@ -24,13 +26,18 @@ pub struct RoverEffects {
 struct OwnEffect {
     id: &'static str,
     place: fn(&mut RoverEffects, f64),
+    range: RangeInclusive<f64>,
 }
 
 const OWN: [OwnEffect; 4] = [
-    OwnEffect { id: "drive-viscosity", place: |e, value| _ = e.library.set("drive-friction", "viscous_nm_s", value) },
-    OwnEffect { id: "rolling-radius", place: |e, value| e.rolling_radius_m = value },
-    OwnEffect { id: "velocity-scale", place: |e, value| e.velocity_scale = value },
-    OwnEffect { id: "latency", place: |e, value| e.latency_s = value },
+    OwnEffect {
+        id: "drive-viscosity",
+        place: |e, value| _ = e.library.set("drive-friction", "viscous_nm_s", value),
+        range: -100.0..=100.0,
+    },
+    OwnEffect { id: "rolling-radius", place: |e, value| e.rolling_radius_m = value, range: -0.02..=0.1 },
+    OwnEffect { id: "velocity-scale", place: |e, value| e.velocity_scale = value, range: -0.5..=1.0 },
+    OwnEffect { id: "latency", place: |e, value| e.latency_s = value, range: 0.0..=10.0 },
 ];
 
 impl Default for RoverEffects {
@@ -48,6 +55,9 @@ impl RoverEffects {
     /// rover, or the value is outside its bounds.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), String> {
         if let Some(own) = OWN.iter().find(|own| own.id == name) {
+            if !own.range.contains(&value) {
+                return Err(format!("{value}: expected {} to {}", own.range.start(), own.range.end()));
+            }
             (own.place)(self, value);
             return Ok(());
         }

@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use crate::error::HostError;
 
-use super::super::soil_file::Parameter;
+use super::super::soil_file::{Parameter, SoilRange};
 use super::super::text::TextFile;
 use super::super::toml_file::TomlFile;
 use super::ground::{Knowledge, knowledge};
@@ -174,7 +174,12 @@ fn parameter(
         let message = format!("no parameter `{}` of {}: expected {}", name.get_ref(), info.id, names.join(", "));
         return Err(file.error_at(name, message));
     };
-    let known = knowledge(file, parameter.name, &Spanned::new(entry.span(), known), parameter.low, parameter.high)?;
+    let known = knowledge(
+        file,
+        parameter.name,
+        &Spanned::new(entry.span(), known),
+        SoilRange { least: parameter.low, greatest: parameter.high },
+    )?;
     Ok((parameter.name, known))
 }
 

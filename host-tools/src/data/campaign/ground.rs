@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::error::HostError;
 
-use super::super::soil_file::{Bounds, Known, Parameter, SoilTable};
+use super::super::soil_file::{Bounds, Known, Parameter, SoilRange, SoilTable};
 use super::super::toml_file::TomlFile;
 
 /// What is known of one parameter.
@@ -91,25 +91,23 @@ impl Ground {
     /// # Errors
     /// At the parameter that is outside its range or given twice.
     pub(super) fn read(table: &SoilTable, file: &TomlFile) -> Result<Self, HostError> {
-        let read = |name, place: &Option<Spanned<Parameter>>, least, greatest| {
-            place.as_ref().map(|parameter| knowledge(file, name, parameter, least, greatest)).transpose()
+        let read = |name, place: &Option<Spanned<Parameter>>| {
+            place.as_ref().map(|parameter| knowledge(file, name, parameter, SoilRange::of(name))).transpose()
         };
-        let any = (f64::NEG_INFINITY, f64::INFINITY);
-        let upright = std::f64::consts::FRAC_PI_2;
         if let (Some(k_eff), true) = (&table.k_eff, table.k_c.is_some() || table.k_phi.is_some()) {
             return Err(file.error_at(k_eff, "k_eff beside k_c or k_phi: expected k_eff alone, or k_c and k_phi"));
         }
         Ok(Self {
-            sinkage_exponent: read("n", &table.n, 0.0, any.1)?,
-            cohesive_modulus: read("k_c", &table.k_c, any.0, any.1)?,
-            frictional_modulus: read("k_phi", &table.k_phi, any.0, any.1)?,
-            stiffness: read("k_eff", &table.k_eff, 0.0, any.1)?,
-            cohesion_pa: read("c", &table.c, 0.0, any.1)?,
-            friction_angle_rad: read("phi", &table.phi, 0.0, upright)?,
-            shear_modulus_m: read("K", &table.shear_modulus, 0.0, any.1)?,
-            peak_stress_c1: read("c1", &table.c1, any.0, any.1)?,
-            peak_stress_c2: read("c2", &table.c2, any.0, any.1)?,
-            rebound_ratio: read("eta", &table.eta, 0.0, 1.0)?,
+            sinkage_exponent: read("n", &table.n)?,
+            cohesive_modulus: read("k_c", &table.k_c)?,
+            frictional_modulus: read("k_phi", &table.k_phi)?,
+            stiffness: read("k_eff", &table.k_eff)?,
+            cohesion_pa: read("c", &table.c)?,
+            friction_angle_rad: read("phi", &table.phi)?,
+            shear_modulus_m: read("K", &table.shear_modulus)?,
+            peak_stress_c1: read("c1", &table.c1)?,
+            peak_stress_c2: read("c2", &table.c2)?,
+            rebound_ratio: read("eta", &table.eta)?,
         })
     }
 
@@ -132,15 +130,13 @@ impl Ground {
     }
 }
 
-/// What a file says of a parameter that may lie between `least` and `greatest`.
+/// What a file says of a parameter that may lie in a range.
 pub(super) fn knowledge(
     file: &TomlFile,
     name: &str,
     parameter: &Spanned<Parameter>,
-    least: f64,
-    greatest: f64,
+    range: SoilRange,
 ) -> Result<Knowledge, HostError> {
-    let inside = |value: f64| value.is_finite() && (least..=greatest).contains(&value);
     let refuse = |what: String| Err(file.error_at(parameter, format!("{name}: {what}")));
     let (known, low, high) = match *parameter.get_ref() {
         Parameter::Exact(value) => (Knowledge::Value { value, std: 0.0 }, value, value),
@@ -158,10 +154,10 @@ pub(super) fn knowledge(
             (Knowledge::Between { min, max }, min, max)
         }
     };
-    match [low, high].into_iter().find(|&value| !inside(value)) {
-        None => Ok(known),
-        Some(value) if least == f64::NEG_INFINITY => refuse(format!("{value}: expected a finite number")),
-        Some(value) if greatest == f64::INFINITY => refuse(format!("{value}: expected a number of {least} or more")),
-        Some(value) => refuse(format!("{value}: expected a number from {least} to {greatest:.4}")),
+    for value in [low, high] {
+        if let Err(expected) = range.check(value) {
+            return refuse(format!("{value}: expected {expected}"));
+        }
     }
+    Ok(known)
 }

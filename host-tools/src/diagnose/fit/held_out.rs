@@ -40,7 +40,8 @@ impl HeldOutRun {
     }
 }
 
-/// Prediction of one row from its slip and load. Slip and load themselves are never judged, nor is what stood in for a load.
+/// Prediction of one row from its slip and load. Slip and load themselves are never judged, nor is what stood in for a load; of a load whose
+/// sinkage is measured, too, the residual is that of the load which this sinkage asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldOutRow {
     /// Index of the row.

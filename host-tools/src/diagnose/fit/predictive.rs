@@ -16,6 +16,9 @@ use super::observation::{CHANNELS, Reading, Row};
 use super::problem::{Problem, RunRows};
 use super::state::Scales;
 
+/// Power of the load with which a sinkage goes, below which it tells no load; steady wheels have 0.4 to 0.8.
+const LEAST_POWER: f64 = 0.35;
+
 /// Judges the prediction of a run by parameters of covariance `covariance`.
 pub(super) fn judge(
     problem: &Problem<'_>,
@@ -52,6 +55,9 @@ pub(super) fn judge(
                 judged.judged[c] += 1;
                 total += score;
             }
+            if sources.contains(&Reading::Load) {
+                seen.residual[Reading::Load.index()] = load_residual(row, prediction);
+            }
         }
         judged.rows.push(seen);
     }
@@ -68,6 +74,16 @@ fn residuals<'a>(
 ) -> impl Iterator<Item = (usize, f64)> + 'a {
     let judged = Reading::JUDGED.into_iter().filter(move |reading| !sources.contains(reading)).map(Reading::index);
     judged.filter_map(|c| Some((c, row.readings[c]? - prediction.value[c])))
+}
+
+/// The load as measured less that under which the model's wheel sinks as deep as was measured, to first order. None where the sinkage hardly
+/// follows the load, as while it lags behind: any load would then do.
+fn load_residual(row: &Row, prediction: &Prediction) -> Option<f64> {
+    let [load, sinkage] = [Reading::Load, Reading::Sinkage].map(Reading::index);
+    let (measured_n, measured_m, predicted_m) =
+        (row.readings[load]?, row.readings[sinkage]?, prediction.value[sinkage]);
+    let by_load = prediction.slopes.by_load[sinkage];
+    (by_load * measured_n > LEAST_POWER * predicted_m).then(|| (predicted_m - measured_m) / by_load)
 }
 
 /// What is known of parameters, offsets and the errors of a row's two source readings, in this order.
