@@ -94,16 +94,13 @@ fn found_effect(measurements: &Measurements, model: &Trial<'_>, winner: &Judged<
 
 /// The parameters of one of a trial's effects, as fitted; those at which its form holds it have no spread.
 fn parameters(measurements: &Measurements, trial: &Trial<'_>, id: &str) -> BTreeMap<String, Estimate> {
-    let soil = trial.model.soil_count();
-    let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (effect, _))| *effect == id);
-    let fitted = own.map(|(offset, (_, name))| ((*name).to_owned(), estimate(trial, soil + offset)));
+    let fitted = trial.places_of(id).map(|(place, name)| (name.to_owned(), estimate(trial, place)));
     let held = trial.specification.effect(id).map_or_else(Vec::new, |effect| effect.held(measurements)).into_iter();
     fitted.chain(held.map(|(name, value)| (name.to_owned(), Estimate { value, std: 0.0 }))).collect()
 }
 
 fn estimate(trial: &Trial<'_>, place: usize) -> Estimate {
-    let variance = trial.fit.covariance[(place, place)].max(0.0) * trial.fit.dispersion.max(1.0);
-    Estimate { value: trial.fit.parameters[place], std: variance.sqrt() }
+    Estimate { value: trial.fit.parameters[place], std: trial.std(place) }
 }
 
 fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {

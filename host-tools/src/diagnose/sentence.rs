@@ -34,15 +34,10 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
         Verdict::None if document.channels.is_empty() => {
             format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
         }
-        Verdict::None
-            if let Some((channel, times)) =
-                beyond_noise(document).filter(|_| campaign.column(Channel::Load.name()).is_some()) =>
-        {
-            format!(
-                "{of}: {model} miss {channel} by {times:.1} times its stated noise, and no candidate and no column explains that: the noise is \
+        Verdict::None if let Some((channel, times)) = beyond_noise(document, campaign) => format!(
+            "{of}: {model} miss {channel} by {times:.1} times its stated noise, and no candidate and no column explains that: the noise is \
              larger, or a law is missing that follows nothing measured."
-            )
-        }
+        ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
         }
@@ -63,8 +58,10 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
     }
 }
 
-/// The channel that is missed by most of its stated noise on held-out runs, and by how much, where that is far from one.
-fn beyond_noise(document: &Diagnosis) -> Option<(&str, f64)> {
+/// The channel that is missed by most of its stated noise on held-out runs, and by how much, where that is far from one. None where no load
+/// is measured: what stands in for it has a noise of its own.
+fn beyond_noise<'a>(document: &'a Diagnosis, campaign: &Campaign) -> Option<(&'a str, f64)> {
+    campaign.column(Channel::Load.name())?;
     let stated = document.channels.iter().filter(|(_, errors)| errors.noise_stated);
     let missed = stated.map(|(channel, errors)| (channel.as_str(), errors.rmse_after / errors.noise));
     missed.filter(|(_, times)| *times > BEYOND_NOISE).max_by(|a, b| a.1.total_cmp(&b.1))

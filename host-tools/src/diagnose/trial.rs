@@ -369,11 +369,9 @@ impl Trial<'_> {
     /// shape that may be absent, and is, the data say just that.
     pub fn is_out_of_bounds(&self) -> bool {
         let Some(effect) = self.specification.effects.last() else { return false };
-        let mut own = self.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
-        own.any(|(place, (_, name))| {
-            let place = self.model.soil_count() + place;
-            let is_size = effect.form.free.first() == Some(name);
-            let neutral = effect.info.parameters.iter().find(|info| info.name == *name).map(|info| info.neutral);
+        self.places_of(effect.info.id).any(|(place, name)| {
+            let is_size = effect.form.free.first() == Some(&name);
+            let neutral = effect.info.parameter(name).map(|info| info.neutral);
             let beyond = self.fit.beyond_bound(place);
             if is_size { beyond > BEYOND_BOUND } else { beyond > 0.0 && neutral != Some(self.fit.parameters[place]) }
         })
@@ -382,13 +380,21 @@ impl Trial<'_> {
     /// Whether all parameters of the last effect lie so few standard deviations from doing nothing.
     pub fn may_be_neutral(&self, errors: f64) -> bool {
         let Some(effect) = self.specification.effects.last() else { return true };
-        let mut own = self.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
-        own.all(|(place, (_, name))| {
-            let place = self.model.soil_count() + place;
-            let variance = self.fit.covariance[(place, place)].max(0.0) * self.fit.dispersion.max(1.0);
+        self.places_of(effect.info.id).all(|(place, name)| {
             let neutral = effect.info.parameter(name).map_or(f64::NAN, |info| info.neutral);
-            (self.fit.parameters[place] - neutral).abs() <= errors * variance.sqrt()
+            (self.fit.parameters[place] - neutral).abs() <= errors * self.std(place)
         })
+    }
+
+    /// Places and names of the parameters that an effect frees.
+    pub fn places_of(&self, id: &str) -> impl Iterator<Item = (usize, &'static str)> {
+        let freed = self.model.effect_parameters().iter().enumerate().filter(move |(_, (effect, _))| *effect == id);
+        freed.map(|(place, (_, name))| (self.model.soil_count() + place, *name))
+    }
+
+    /// Standard deviation of the parameter at a place, widened by what the model misses the data by.
+    pub fn std(&self, place: usize) -> f64 {
+        (self.fit.covariance[(place, place)].max(0.0) * self.fit.dispersion.max(1.0)).sqrt()
     }
 
     /// Parameters that its effects free.
