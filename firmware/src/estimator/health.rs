@@ -141,7 +141,7 @@ pub struct SensorHealth {
 }
 
 /// How the estimator does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EstimatorHealth {
     /// Frames taken.
     #[serde(with = "crate::outlined")]
@@ -163,4 +163,40 @@ pub struct EstimatorHealth {
     pub relearned: u32,
     /// The sensors.
     pub sensors: PerSensor<SensorHealth>,
+}
+
+impl EstimatorHealth {
+    /// Before the first frame. A constant, for it is all zeros: to set each count by itself takes flash.
+    pub const NOTHING: Self = {
+        const SENSOR: SensorHealth = SensorHealth {
+            missing: 0,
+            not_finite: 0,
+            out_of_range: 0,
+            stuck: 0,
+            surprising: 0,
+            on_probation: 0,
+            dropped: false,
+        };
+        const SIDE: PerAxle<SensorHealth> = PerAxle { front: SENSOR, middle: SENSOR, rear: SENSOR };
+        const WHEELS: PerWheel<SensorHealth> = PerSide { left: SIDE, right: SIDE };
+        const AXES: Axes<SensorHealth> = Axes { x: SENSOR, y: SENSOR, z: SENSOR };
+        Self {
+            frames: 0,
+            repeated_frames: 0,
+            backward_frames: 0,
+            gaps: 0,
+            filter_resets: 0,
+            relearned: 0,
+            sensors: PerSensor {
+                wheel_rate: WHEELS,
+                motor_torque: WHEELS,
+                load_cell: WHEELS,
+                bogie_angle: PerSide { left: SENSOR, right: SENSOR },
+                rocker_angle: SENSOR,
+                accel: AXES,
+                gyro: AXES,
+                velocity: AXES,
+            },
+        }
+    };
 }

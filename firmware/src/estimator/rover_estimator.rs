@@ -48,7 +48,7 @@ impl<S: Scalar> Common<S> {
             rover: *rover,
             gates: SensorGates::new(&rover.map(Scalar::to_f32)),
             attitude: Attitude::new(rover.gravity_m_s2),
-            health: EstimatorHealth::default(),
+            health: EstimatorHealth::NOTHING,
             troubles_before: (0, 0),
             last_time_us: None,
             from_the_past: 0,

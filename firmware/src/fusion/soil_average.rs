@@ -1,6 +1,6 @@
 //! The average of what the rover network says along the way.
 
-use super::travel_mean::WeightedTravelMean;
+use super::travel_mean::WeightedTravelMeans;
 use crate::math;
 use crate::network::{OUTPUTS, TARGETS};
 
@@ -28,7 +28,6 @@ const LEAST_VARIANCE: f32 = 0.01;
 #[derive(Debug, Clone)]
 pub(super) struct SoilAverage {
     targets: [TargetAverage; TARGETS],
-    inside: WeightedTravelMean,
     travel_m: f32,
     /// Whether ice may cement the soil.
     may_be_cemented: bool,
@@ -37,46 +36,46 @@ pub(super) struct SoilAverage {
 /// The average of one target.
 #[derive(Debug, Clone, Copy)]
 struct TargetAverage {
-    mean: WeightedTravelMean,
-    std: WeightedTravelMean,
-    lasting_std: WeightedTravelMean,
+    /// Mean, standard deviation over that of the prior, and 1 for inputs inside the training range.
+    said: WeightedTravelMeans<3>,
+    lasting_std: WeightedTravelMeans<1>,
     /// The weight of the last instant.
     weight: f32,
 }
 
 impl TargetAverage {
-    const EMPTY: Self = Self {
-        mean: WeightedTravelMean::new(LENGTH_M),
-        std: WeightedTravelMean::new(LENGTH_M),
-        lasting_std: WeightedTravelMean::new(LENGTH_M),
-        weight: 1.0,
-    };
+    const EMPTY: Self =
+        Self { said: WeightedTravelMeans::new(LENGTH_M), lasting_std: WeightedTravelMeans::new(LENGTH_M), weight: 1.0 };
+
+    /// The mean, and the log-variance where this share of what does not last is left.
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn outputs(&self, share: f32) -> (f32, f32) {
+        let square = |std: f32| std * std;
+        let ([mean, std, _], [lasting_std]) = (*self.said.means(), *self.lasting_std.means());
+        let whole = square(std);
+        // Until it is known what lasts, everything does.
+        let lasting = if self.lasting_std.is_empty() { whole } else { square(lasting_std) };
+        let lasting = if lasting < whole { lasting } else { whole };
+        (mean, math::ln(lasting + share * (whole - lasting)))
+    }
 }
 
 impl SoilAverage {
     /// An empty average, of a soil that ice may cement or not.
     #[inline(never)] // flash is scarcer than the time of a call
     pub fn new(may_be_cemented: bool) -> Self {
-        Self {
-            targets: [TargetAverage::EMPTY; TARGETS],
-            inside: WeightedTravelMean::new(LENGTH_M),
-            travel_m: 0.0,
-            may_be_cemented,
-        }
+        Self { targets: [TargetAverage::EMPTY; TARGETS], travel_m: 0.0, may_be_cemented }
     }
 
     /// Takes the outputs of an instant that held over some travel, m, with its inputs inside the training range or not.
     pub fn take(&mut self, outputs: &[f32; OUTPUTS], inside: bool, travel_m: f32) {
         let [m0, m1, m2, v0, v1, v2] = *outputs;
-        let counts = if inside { 1.0 } else { OUTSIDE_COUNTS };
+        let (counts, inside) = if inside { (1.0, 1.0) } else { (OUTSIDE_COUNTS, 0.0) };
         for (target, (m, v)) in self.targets.iter_mut().zip([(m0, v0), (m1, v1), (m2, v2)]) {
             let variance = variance_over_prior(v);
             target.weight = counts / (variance * variance);
-            target.mean.take(m, target.weight, travel_m);
-            target.std.take(math::sqrt(variance), target.weight, travel_m);
+            target.said.take(&[m, math::sqrt(variance), inside], target.weight, travel_m);
         }
-        let [_, friction_angle, _] = &self.targets;
-        self.inside.take(if inside { 1.0 } else { 0.0 }, friction_angle.weight, travel_m);
         self.travel_m += travel_m;
     }
 
@@ -85,7 +84,7 @@ impl SoilAverage {
         let [.., v0, v1, v2] = *outputs;
         for (target, v) in self.targets.iter_mut().zip([v0, v1, v2]) {
             let variance = variance_over_prior(v);
-            target.lasting_std.take(math::sqrt(variance), target.weight, travel_m);
+            target.lasting_std.take(&[math::sqrt(variance)], target.weight, travel_m);
         }
     }
 
@@ -95,9 +94,11 @@ impl SoilAverage {
         1.0 + travel_m / INDEPENDENT_M
     }
 
-    /// Whether most of what was learned came from inputs inside the training range.
+    /// Whether most of what was learned of φ came from inputs inside the training range.
     pub fn inside_training_range(&self) -> bool {
-        self.inside.mean() > 0.5
+        let [_, friction_angle, _] = &self.targets;
+        let [_, _, inside] = *friction_angle.said.means();
+        inside > 0.5
     }
 
     /// The average as outputs; none before the first instant.
@@ -106,14 +107,7 @@ impl SoilAverage {
             return None;
         }
         let share = 1.0 / self.instants();
-        let [(m0, v0), (m1, v1), (m2, v2)] = self.targets.map(|target| {
-            let square = |std: f32| std * std;
-            let whole = square(target.std.mean());
-            // Until it is known what lasts, everything does.
-            let lasting = if target.lasting_std.is_empty() { whole } else { square(target.lasting_std.mean()) };
-            let lasting = if lasting < whole { lasting } else { whole };
-            (target.mean.mean(), math::ln(lasting + share * (whole - lasting)))
-        });
+        let [(m0, v0), (m1, v1), (m2, v2)] = self.targets.each_ref().map(|target| target.outputs(share));
         if self.may_be_cemented {
             let v1 = if v1 < CEMENTED_FRICTION_ANGLE { CEMENTED_FRICTION_ANGLE } else { v1 };
             return Some([m0 + CEMENTED_LN_COHESION, m1, m2, 0.0, v1, v2]);

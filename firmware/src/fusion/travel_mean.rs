@@ -40,37 +40,39 @@ impl TravelMean {
     }
 }
 
-/// A mean of weighed values that forgets with travel.
+/// Means of values that are weighed alike, which forget with travel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct WeightedTravelMean {
+pub(super) struct WeightedTravelMeans<const VALUES: usize> {
     length_m: f32,
     weight_m: f32,
-    mean: f32,
+    means: [f32; VALUES],
 }
 
-impl WeightedTravelMean {
-    /// An empty mean over a length, m.
+impl<const VALUES: usize> WeightedTravelMeans<VALUES> {
+    /// Empty means over a length, m.
     pub const fn new(length_m: f32) -> Self {
-        Self { length_m, weight_m: 0.0, mean: 0.0 }
+        Self { length_m, weight_m: 0.0, means: [0.0; VALUES] }
     }
 
-    /// Takes a value of some weight (> 0) that held over some travel, m.
-    pub fn take(&mut self, value: f32, weight: f32, travel_m: f32) {
+    /// Takes values of some weight (> 0) that held over some travel, m.
+    #[inline(never)] // flash is scarcer than the time of a call
+    pub fn take(&mut self, values: &[f32; VALUES], weight: f32, travel_m: f32) {
         let forgotten = travel_m / self.length_m;
         let kept = if forgotten < 1.0 { 1.0 - forgotten } else { 0.0 };
         let added = weight * travel_m;
         self.weight_m = kept * self.weight_m + added;
         if added > 0.0 {
-            self.mean += added / self.weight_m * (value - self.mean);
+            let share = added / self.weight_m;
+            self.means.iter_mut().zip(values).for_each(|(mean, value)| *mean += share * (value - *mean));
         }
     }
 
-    /// The mean.
-    pub fn mean(&self) -> f32 {
-        self.mean
+    /// The means.
+    pub fn means(&self) -> &[f32; VALUES] {
+        &self.means
     }
 
-    /// Whether it has taken nothing yet.
+    /// Whether they have taken nothing yet.
     pub fn is_empty(&self) -> bool {
         self.weight_m <= 0.0
     }
@@ -78,7 +80,7 @@ impl WeightedTravelMean {
 
 #[cfg(test)]
 mod tests {
-    use super::{TravelMean, WeightedTravelMean};
+    use super::{TravelMean, WeightedTravelMeans};
 
     #[test]
     fn a_mean_weighs_equally_until_its_length_is_full_and_forgets_then() {
@@ -91,10 +93,12 @@ mod tests {
 
     #[test]
     fn what_weighs_little_changes_little() {
-        let mut mean = WeightedTravelMean::new(1.0e6);
-        assert!(mean.is_empty());
-        mean.take(1.0, 100.0, 0.5);
-        mean.take(0.0, 1.0, 0.5);
-        assert!((mean.mean() - 100.0 / 101.0).abs() < 1.0e-5);
+        let mut means = WeightedTravelMeans::new(1.0e6);
+        assert!(means.is_empty());
+        means.take(&[1.0, 3.0], 100.0, 0.5);
+        means.take(&[0.0, 3.0], 1.0, 0.5);
+        let [changing, steady] = *means.means();
+        assert!((changing - 100.0 / 101.0).abs() < 1.0e-5);
+        assert!((steady - 3.0).abs() < 1.0e-5);
     }
 }

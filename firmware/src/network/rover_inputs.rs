@@ -21,7 +21,7 @@ pub fn rover_inputs(
     if let Some((shared, others)) = inputs.split_first_chunk_mut() {
         *shared = *context;
         let (slots, rest) = others.as_chunks_mut();
-        let by_slip = in_order(&seen, count);
+        let by_slip = in_order(seen.get(..count).unwrap_or_default());
         for (slot, place) in slots.iter_mut().enumerate() {
             let wheel = by_slip.get(slot * count / ROVER_WHEELS).and_then(|&wheel| seen.get(wheel));
             *place = *wheel.unwrap_or(&[0.0; WHEEL_FEATURES]);
@@ -31,10 +31,11 @@ pub fn rover_inputs(
     inputs
 }
 
-/// The places of the first `count` wheels, the one with the least slip first.
-fn in_order(wheels: &[[f32; WHEEL_FEATURES]; ROVER_WHEELS], count: usize) -> [usize; ROVER_WHEELS] {
+/// The places of so many wheels at most, the one with the least slip first.
+#[inline(never)] // where it is known how many wheels there can be, each is compared with each in code of its own
+fn in_order(wheels: &[[f32; WHEEL_FEATURES]]) -> [usize; ROVER_WHEELS] {
     let mut ranks = [0; ROVER_WHEELS];
-    for (later, wheel) in wheels.iter().enumerate().take(count) {
+    for (later, wheel) in wheels.iter().enumerate() {
         let mut rank = later;
         for (peer, of_peer) in wheels.iter().zip(&mut ranks).take(later) {
             if is_before(wheel, peer) {
@@ -45,7 +46,7 @@ fn in_order(wheels: &[[f32; WHEEL_FEATURES]; ROVER_WHEELS], count: usize) -> [us
         ranks.get_mut(later).into_iter().for_each(|place| *place = rank);
     }
     let mut places = [0; ROVER_WHEELS];
-    for (place, rank) in ranks.into_iter().enumerate().take(count) {
+    for (place, rank) in ranks.into_iter().enumerate().take(wheels.len()) {
         places.get_mut(rank).into_iter().for_each(|ranked| *ranked = place);
     }
     places

@@ -174,7 +174,7 @@ impl<U: Read + ReadReady + Write, B: Board> Telemetry<U, B> {
     }
 
     fn estimator_health(&self) -> EstimatorHealth {
-        self.estimation.as_ref().map_or_else(EstimatorHealth::default, |estimation| *estimation.health())
+        self.estimation.as_ref().map_or(EstimatorHealth::NOTHING, |estimation| *estimation.health())
     }
 
     fn estimate(&mut self, query: &SoilQuery) -> QueryAnswer {

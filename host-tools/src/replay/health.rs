@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn only_trouble_is_told() {
-        let mut health = EstimatorHealth { frames: 9, ..EstimatorHealth::default() };
+        let mut health = EstimatorHealth { frames: 9, ..EstimatorHealth::NOTHING };
         assert_eq!(troubles(&health), []);
         health.sensors.load_cell.right.middle.stuck = 4;
         health.sensors.load_cell.right.middle.dropped = true;
