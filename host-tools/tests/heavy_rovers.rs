@@ -56,3 +56,18 @@ fn on_hills_a_heavy_rover_claims_no_more_than_it_knows() {
         }
     }
 }
+
+/// Ten kilograms on the Moon weigh 2.7 N a wheel, of which cells that go with it err by 0.05 N: such wheels are on the ground.
+#[test]
+fn a_light_rover_s_wheels_are_on_the_ground() {
+    let mut rover = Rover::<f64>::assumed();
+    (rover.mass_kg, rover.gravity_m_s2) = (10.0, 1.62);
+    (rover.wheel.radius_m, rover.wheel.width_m) = (0.05, 0.047);
+    rover.drive.reflected_inertia_kg_m2 = 0.2;
+    (rover.noise.load_cell_n, rover.noise.motor_torque_nm) = (0.05, 0.003);
+    let (what, errors) = errors(Scenario::Hills, &rover);
+    let load = errors.of(Quantity::Load);
+    let [_, two] = load.coverage();
+    println!("{what}: load {:.3} of the raw sensors', {two:.2} within", load.over_naive());
+    assert!(load.over_naive() <= 1.0 && two >= 0.95, "{what}: {} {two}", load.over_naive());
+}

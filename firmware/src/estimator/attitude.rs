@@ -30,6 +30,13 @@ const PATIENCE: u8 = 8;
 const UNSEEN_ACCELERATION: f64 = 0.5;
 /// A change of the measured speed up to this many of its standard deviations is taken for noise.
 const SPEED_NOISE: f64 = 4.0;
+/// One standard deviation of the pitch of a rover that stands somewhere, rad.
+const STEEP: f64 = 0.2;
+/// A pitch of a greater standard deviation is lost, rad. One standard deviation with which angles are told against the gyro where nothing was
+/// felt ever, rad; and the variance of a specific force that is not to be believed, (m/s²)².
+const LOST: f64 = 0.01;
+const AGAINST_GYRO: f64 = 2.0e-3;
+const NOT_TO_BE_BELIEVED: f64 = 1.0e6;
 /// What the rover may turn at without a gyro to tell, rad/s.
 const UNSEEN_TURN: f64 = 0.05;
 
@@ -43,7 +50,7 @@ impl<S: Scalar> Attitude<S> {
             specific_force,
             rate_rad_s: (S::zero(), S::one()),
             felt_rad: None,
-            felt_std_rad: S::one(),
+            felt_std_rad: S::constant(AGAINST_GYRO),
             speed_m_s: None,
             since_s: S::zero(),
         }
@@ -59,19 +66,28 @@ impl<S: Scalar> Attitude<S> {
         self.pitch.variance
     }
 
+    /// The same where the accelerometer could not be used in the last frame, up to what slopes a rover stands on; else nothing.
+    pub fn unfelt_variance(&self) -> S {
+        match self.felt_rad {
+            Some(_) => S::zero(),
+            None => self.pitch.variance.min(S::constant(STEEP * STEEP)),
+        }
+    }
+
     /// Rate of the pitch that the gyro tells, rad/s, nose-up, and its standard deviation.
     pub fn rate_rad_s(&self) -> (S, S) {
         self.rate_rad_s
     }
 
-    /// The pitch that the accelerometer alone felt in the last frame, rad; none where it could not be used.
-    pub fn felt_rad(&self) -> Option<S> {
-        self.felt_rad
+    /// The pitch that the accelerometer alone felt in the last frame, rad; none where it could not be used; and its standard deviation. Where it
+    /// was not felt for so long that hardly anything is known of it, that of the gyro: all angles are told against it then, and err alike.
+    pub fn felt_rad(&self) -> (Option<S>, S) {
+        (if self.is_lost() { Some(self.pitch.mean) } else { self.felt_rad }, self.felt_std_rad)
     }
 
-    /// Its standard deviation, rad.
-    pub fn felt_std_rad(&self) -> S {
-        self.felt_std_rad
+    /// Whether the pitch was not felt for so long, or never.
+    fn is_lost(&self) -> bool {
+        self.felt_rad.is_none() && self.pitch.variance > S::constant(LOST * LOST)
     }
 
     /// The specific force, m/s²: as it is felt, or as the pitch says.
@@ -79,8 +95,12 @@ impl<S: Scalar> Attitude<S> {
         &self.specific_force
     }
 
-    /// Variance of it along and across the body in the plane of the sides, (m/s²)², with an accelerometer of such noise, m/s².
+    /// Variance of it along and across the body in the plane of the sides, (m/s²)², with an accelerometer of such noise, m/s². What follows from
+    /// a pitch that is lost errs alike in all frames, and is not to be believed in any.
     pub fn force_variance(&self, noise_m_s2: S) -> S {
+        if self.is_lost() {
+            return S::constant(NOT_TO_BE_BELIEVED);
+        }
         let Axes { x, z, .. } = self.specific_force;
         let turned = if self.felt_rad.is_some() { S::zero() } else { (x * x + z * z) * self.pitch.variance };
         noise_m_s2 * noise_m_s2 + turned
@@ -98,10 +118,13 @@ impl<S: Scalar> Attitude<S> {
         self.felt_rad = None;
         self.turn(gyro, step_s, noise.gyro_rad_s);
         let accelerates = self.accelerates(speed_m_s, step_s, noise.velocity_m_s);
-        self.carry_force();
-        let Axes { x: Some(x), y, z: Some(z) } = accel else { return false };
+        let Axes { x: Some(x), y, z: Some(z) } = accel else {
+            self.carry_force();
+            return false;
+        };
         let in_plane = (x * x + z * z).sqrt();
         if in_plane < S::constant(0.1) || z < S::zero() {
+            self.carry_force();
             return true;
         }
         let angle = S::constant(core::f64::consts::FRAC_PI_2) - (x / in_plane).acos();
@@ -111,6 +134,7 @@ impl<S: Scalar> Attitude<S> {
         let surprising = innovation * innovation > S::constant(GATE) * variance;
         if surprising && self.contradictions < PATIENCE {
             self.contradictions += 1;
+            self.carry_force();
             return true;
         }
         if surprising {
@@ -213,5 +237,17 @@ mod tests {
         let Axes { x, z, .. } = *attitude.specific_force_m_s2();
         assert!((x - 9.81 * 0.2_f64.sin()).abs() < 0.02 && (z - 9.81 * 0.2_f64.cos()).abs() < 0.02, "{x} {z}");
         assert!(attitude.force_variance(noise.accel_m_s2) > felt);
+        assert!(attitude.unfelt_variance() > 0.0 && attitude.felt_rad().0.is_none(), "still known by the gyro");
+    }
+
+    /// Without an accelerometer from the start all is told against the gyro, and nothing of gravity is believed.
+    #[test]
+    fn a_pitch_that_was_never_felt_is_lost() {
+        let noise = Rover::<f64>::assumed().noise;
+        let mut attitude = Attitude::new(9.81);
+        let gyro = Axes { x: Some(0.0), y: Some(-0.1), z: Some(0.0) };
+        (0..10).for_each(|_| _ = attitude.tick(Axes::default(), gyro, Some(0.02), 0.1, &noise));
+        assert!((attitude.felt_rad().0.expect("the gyro's") - 0.1).abs() < 1.0e-9);
+        assert!(attitude.unfelt_variance() > 0.03 && attitude.force_variance(noise.accel_m_s2) > 1.0e5);
     }
 }

@@ -173,6 +173,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.model.body_pitch
     }
 
+    /// By what variance contact angles may all be off that nothing but the links tells, rad².
+    pub fn unrisen_variance(&self) -> S {
+        self.joints.unrisen_variance()
+    }
+
     /// How load that shifts turns the bogie.
     pub fn load_shift(&self) -> &LoadShift<S> {
         &self.load_shift
@@ -285,8 +290,10 @@ impl<S: Scalar> ContactAngleFilter<S> {
             self.roughness.learn(&motion, readings, noise);
         }
         let (velocity, velocity_std) = (&readings.axis_velocity_m_s, &readings.velocity_std_m_s);
-        let noise_std = [velocity_std.x, velocity_std.z, rocker.1, bogie.1, attitude.felt_std_rad()];
-        let measured = [velocity.x, velocity.z, rocker.0, bogie.0, attitude.felt_rad()];
+        let rise = self.rise((velocity.z, velocity_std.z), step_s);
+        let felt = attitude.felt_rad();
+        let noise_std = [velocity_std.x, rise.1, rocker.1, bogie.1, felt.1];
+        let measured = [velocity.x, rise.0, rocker.0, bogie.0, felt.0];
         let model = self.model;
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
         self.load_shift.follow(self.links().middle - bogie_before, step_s);
@@ -310,6 +317,13 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
+    }
+
+    /// How fast the axis rises, m/s, and its standard deviation.
+    fn rise(&mut self, measured: (Option<S>, S), step_s: S) -> (Option<S>, S) {
+        let [ratio, .., rocker, bogie, body] = *self.filter.estimate().mean();
+        let links_rad = S::constant(0.5) * (rocker + bogie) - body;
+        self.joints.rise(measured, step_s, ratio * self.model.rim_speed_m_s, links_rad)
     }
 
     fn follow_trends(&mut self, step_s: S, before: &PerAxle<S>, variances: &PerAxle<S>, told: bool) {

@@ -1,51 +1,95 @@
-//! What is taken for the angles of the joints, where their sensors say nothing too.
+//! What is taken for the angles of the joints and for the rise of the axis, where their sensors say nothing too.
 
 use super::trend::LEAST_TRAVEL;
 use crate::scalar::Scalar;
 
-/// A joint's sensor that has been silent for so long is not awaited any more, s: between two frames of ten a second, so that rounding decides
+/// A sensor that has been silent for so long is not awaited any more, s: between two frames of ten a second, so that rounding decides
 /// nothing.
 const AWAITED_S: f64 = 4.95;
 /// A joint lies near its angle on plane ground, within so much as one standard deviation, rad: hills of a wheelbase or more bend it by half
 /// of that, rocks of a wheel's radius by a little more than that.
 const USUAL_RAD: f64 = 0.1;
+/// The axis rises as steeply as its links lie, within so much as one standard deviation, rad: on hills and rocks, where each wheel is off by
+/// twice that.
+const USUAL_RISE_RAD: f64 = 0.04;
 /// On the way it takes another angle after so much travel, m: most of a wheelbase.
 const ALIKE_M: f64 = 0.2;
 
-/// How long each joint of a side has been silent, s: rocker against body, bogie against rocker.
+/// How long each joint of a side has been silent, s: rocker against body, bogie against rocker; and the velocimeter of how fast it rises.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Joints<S> {
     silent_s: [S; 2],
+    rise_silent_s: S,
 }
 
 impl<S: Scalar> Joints<S> {
-    /// Both may be heard yet.
+    /// All may be heard yet.
     pub fn new() -> Self {
-        Self { silent_s: [S::zero(); 2] }
+        Self { silent_s: [S::zero(); 2], rise_silent_s: S::zero() }
     }
 
     /// The angle of each joint, rad, with its standard deviation: as measured; of one that is silent for good, what joints usually are, told
     /// in each frame so weakly that it is told once in the travel after which it is another. Otherwise links would drift away without end,
     /// since nothing else tells how they lie.
     pub fn tick(&mut self, readings: [Option<S>; 2], noise_rad: S, travel_m: S, step_s: S) -> [(Option<S>, S); 2] {
-        let frames = S::constant(2.0 * ALIKE_M) / travel_m.max(S::constant(LEAST_TRAVEL));
-        let usual = (S::constant(USUAL_RAD * USUAL_RAD) * frames).sqrt();
+        let usual = (S::zero(), S::constant(USUAL_RAD) * root_of_frames(travel_m));
         let [rocker, bogie] = &mut self.silent_s;
         let [of_rocker, of_bogie] = readings;
-        let heard = |silent_s: &mut S, reading: Option<S>| {
-            *silent_s = if reading.is_some() { S::zero() } else { *silent_s + step_s };
-            match reading {
-                Some(_) => (reading, noise_rad),
-                None => (Some(S::zero()).filter(|_| *silent_s > S::constant(AWAITED_S)), usual),
-            }
-        };
-        [heard(rocker, of_rocker), heard(bogie, of_bogie)]
+        [heard(rocker, step_s, (of_rocker, noise_rad), usual), heard(bogie, step_s, (of_bogie, noise_rad), usual)]
     }
+
+    /// How fast the axis rises, m/s, with its standard deviation: as measured; or so weakly, at this speed, m/s, what its links tell that lie
+    /// so steep against the body, rad. Otherwise contact angles would drift away without end where they steepen alike.
+    pub fn rise(&mut self, measured: (Option<S>, S), step_s: S, speed_m_s: S, links_rad: S) -> (Option<S>, S) {
+        let std = S::constant(USUAL_RISE_RAD) * speed_m_s.abs() * root_of_frames(speed_m_s.abs() * step_s);
+        heard(&mut self.rise_silent_s, step_s, measured, (speed_m_s * links_rad, std))
+    }
+
+    /// By what variance the axis may rise otherwise than contact angles say that are known by nothing but this, rad².
+    pub fn unrisen_variance(&self) -> S {
+        let unheard = self.rise_silent_s > S::constant(AWAITED_S);
+        if unheard { S::constant(USUAL_RISE_RAD * USUAL_RISE_RAD) } else { S::zero() }
+    }
+}
+
+/// The square root of how many frames of such travel make twice the way after which links lie otherwise.
+fn root_of_frames<S: Scalar>(travel_m: S) -> S {
+    (S::constant(2.0 * ALIKE_M) / travel_m.max(S::constant(LEAST_TRAVEL))).sqrt()
+}
+
+/// A reading with its standard deviation, where there is one; else what is usual, from when it is not awaited any more.
+#[inline(never)] // flash is scarcer than the time of a call
+fn heard<S: Scalar>(
+    silent_s: &mut S,
+    step_s: S,
+    reading: (Option<S>, S),
+    (usual, usual_std): (S, S),
+) -> (Option<S>, S) {
+    if reading.0.is_some() {
+        *silent_s = S::zero();
+        return reading;
+    }
+    *silent_s += step_s;
+    (Some(usual).filter(|_| *silent_s > S::constant(AWAITED_S)), usual_std)
 }
 
 #[cfg(test)]
 mod tests {
     use super::Joints;
+
+    /// The axis rises as it is measured; while that is missed for a moment nothing is told; and when it is silent for good, its links.
+    #[test]
+    fn an_axis_of_which_nothing_is_heard_rises_with_its_links() {
+        let mut joints = Joints::<f64>::new();
+        let measured = (Some(0.004), 5.0e-4);
+        assert_eq!(joints.rise(measured, 0.1, 0.02, 0.1), measured);
+        assert_eq!(joints.unrisen_variance(), 0.0);
+        let told: Vec<_> = (0..60).map(|_| joints.rise((None, 5.0e-4), 0.1, 0.02, 0.1)).collect();
+        assert!(told.iter().take(49).all(|(rise, _)| rise.is_none()));
+        let Some((Some(rise), std)) = told.last() else { panic!("nothing is told: {told:?}") };
+        assert!((rise - 0.002).abs() < 1e-12 && *std > 0.04 * 0.02, "{rise} ± {std}");
+        assert!((joints.unrisen_variance() - 0.0016).abs() < 1e-12);
+    }
 
     /// A joint that is heard is believed; one that has just fallen silent is awaited; and what is told of one that is silent for good is, over
     /// the way after which it is another, one angle of 0 ± 0.1 rad.

@@ -24,6 +24,7 @@
 mod activity;
 mod attitude;
 mod bogie_stop;
+mod camera_error;
 mod compaction;
 pub mod contact_angle;
 mod contact_angle_model;
@@ -40,6 +41,7 @@ mod hub_on_ground;
 mod joints;
 mod load_shift;
 mod remembered_terrain;
+mod rim_speed;
 mod roughness;
 mod rover_estimator;
 mod runs;

@@ -51,10 +51,13 @@ impl<S: Scalar> SideEstimator<S> {
         let mut stds = self.variances(forces, &contacts);
         if self.doubt.its_turn() {
             let inputs = self.doubt_inputs(&stds, &contacts);
-            self.doubt.take(&inputs);
+            self.doubt.take(&inputs, self.speed_m_s().to_f32());
         }
         let times = self.doubt.times();
         stds.iter_mut().zip(times).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());
+        let unfelt = self.unfelt_pitch_variance;
+        let (quantities, _) = stds.as_chunks_mut::<QUANTITIES>();
+        quantities.iter_mut().for_each(|[_, _, angle, ..]| *angle = (*angle * *angle + unfelt).sqrt());
         let [.., sum_std] = stds;
         let PerAxle { front, middle, rear } = &contacts;
         let sum = middle.pull_n + rear.pull_n;
@@ -87,7 +90,12 @@ impl<S: Scalar> SideEstimator<S> {
     /// How the errors of each wheel's estimates belong together, with such forces on the hubs.
     pub fn covariances(&self, forces: &HubForces<S>) -> PerAxle<WheelCovariance<S>> {
         let wheels = self.stated(forces, &self.contacts(forces));
-        wheels.zip(of_wheels(&self.doubt.times())).map(|(covariance, doubt)| covariance.times(doubt))
+        wheels.zip(of_wheels(&self.doubt.times())).map(|(covariance, doubt)| {
+            let mut covariance = covariance.times(doubt);
+            let [[of_angle, ..], ..] = &mut covariance.contact;
+            *of_angle += self.unfelt_pitch_variance;
+            covariance
+        })
     }
 
     /// What the filters would have believed, with such forces on the hubs.
@@ -129,18 +137,23 @@ impl<S: Scalar> SideEstimator<S> {
             [_, *torque, *slip] = filter.estimate().variances();
             let [of_angle, of_load, of_pull] = &contact.errors;
             // The same as of the others, of the one angle that it hangs on.
-            let by_angle = of_angle.left * path + self.digging_in.terrain().beside_paths();
+            let by_angle = of_angle.left * path + self.beside_paths();
             *angle = by_angle + forces.variance_of_sum(&of_angle.by_forces);
             (*load, *pull) = (self.variance(forces, of_load), self.variance(forces, of_pull));
         }
         variances
     }
 
+    /// By what variance each contact angle errs beside what its filter states, rad².
+    fn beside_paths(&self) -> S {
+        self.digging_in.terrain().beside_paths() + self.angles.unrisen_variance()
+    }
+
     /// Variance of an error. While wheels dig in, each contact angle errs by itself, too.
     #[inline(never)] // flash is scarcer than the time of a call
     fn variance(&self, forces: &HubForces<S>, of: &ErrorOf<S>) -> S {
         let mut by_angles = of.left * self.angles.estimate().variance_of_sum(&of.by_angles);
-        let beside_paths = self.digging_in.terrain().beside_paths();
+        let beside_paths = self.beside_paths();
         if beside_paths > S::zero() {
             let [_, front, middle, rear, ..] = of.by_angles;
             by_angles += beside_paths * (front * front + middle * middle + rear * rear);
@@ -155,7 +168,7 @@ impl<S: Scalar> SideEstimator<S> {
         let by_themselves = front * other_front + middle * other_middle + rear * other_rear;
         let by_angles = one.left.min(other.left)
             * self.angles.estimate().covariance_of_sums(&one.by_angles, &other.by_angles)
-            + self.digging_in.terrain().beside_paths() * by_themselves;
+            + self.beside_paths() * by_themselves;
         by_angles + forces.covariance_of_sums(&one.by_forces, &other.by_forces) + one.by_split * other.by_split
     }
 }

@@ -1,6 +1,6 @@
 //! The filters of one side, and what they say together.
 
-use super::activity::what_it_does;
+use super::activity::{STANDING, what_it_does};
 use super::attitude::Attitude;
 use super::bogie_stop::AlongLinks;
 use super::compaction::{Compaction, Correction};
@@ -12,6 +12,7 @@ use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::hub_on_ground::HubOnGround;
 use super::load_shift::HubShift;
+use super::rim_speed::RimSpeed;
 use super::scale::Scale;
 use super::side_frame::{SENSORS, SideFrame};
 use super::sinking::Sinking;
@@ -24,9 +25,9 @@ use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
-/// Below this force on its cell a wheel is lifted, N, of set K0; or below three standard deviations, but not above the other.
-const LIFTED_N: f64 = 2.0;
-const GREATEST_LIFTED_N: f64 = 6.0;
+/// Below this force on its cell a wheel is lifted, over its load at rest; or below three standard deviations, but not above the other.
+const LIFTED: f64 = 0.03;
+const GREATEST_LIFTED: f64 = 0.09;
 /// A wheel has started after so long, s.
 const SETTLING_S: f64 = 0.75;
 /// After so long its wandering is learned afresh, s; and it has settled a tenth of a second later, give or take half of that.
@@ -45,7 +46,6 @@ const CREEP: f64 = 1.0e-3;
 #[derive(Debug, Clone)]
 pub(super) struct SideEstimator<S> {
     pub(super) rover: Rover<S>,
-    scale: Scale<S>,
     y_m: S,
     pub(super) angles: ContactAngleFilter<S>,
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
@@ -54,13 +54,15 @@ pub(super) struct SideEstimator<S> {
     /// How long each wheel has not stood, s, up to when it has settled.
     rolling_s: PerAxle<S>,
     pub(super) motion: RollingMotion<S>,
-    rim_speed_m_s: S,
+    rims: RimSpeed<S>,
     /// Which wheels bear no load that their cells can tell from none.
     pub(super) lifted: PerAxle<bool>,
     /// Whether a wheel stands, or has just started.
     starts: bool,
     /// Whether the torque of a wheel swings.
     pub(super) swings: bool,
+    /// Variance of the body's pitch where no accelerometer tells it: by that all contact angles err alike, which no force along them shows.
+    pub(super) unfelt_pitch_variance: S,
     pub(super) digging_in: DiggingIn<S>,
     sinking: Sinking<S>,
     /// Of the front wheel, and of the bogie's two together.
@@ -108,7 +110,6 @@ impl<S: Scalar> SideEstimator<S> {
         let scale = Scale::of(rover);
         Self {
             rover: *rover,
-            scale,
             y_m: rover.suspension.y_m(side),
             motion: angles.motion(),
             angles,
@@ -116,10 +117,11 @@ impl<S: Scalar> SideEstimator<S> {
             forces: HubForceFilter::new(rover, phase),
             activity: PerAxle::default(),
             rolling_s: PerAxle::all(S::zero()),
-            rim_speed_m_s: S::zero(),
+            rims: RimSpeed::unheard(),
             lifted: PerAxle::all(false),
             starts: true,
             swings: false,
+            unfelt_pitch_variance: S::zero(),
             digging_in: DiggingIn::new(&scale),
             sinking: Sinking::new(&scale),
             compaction: [Compaction::new(); 2],
@@ -168,18 +170,19 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// Whether its rims turn back.
     pub fn rolls_back(&self) -> bool {
-        self.rim_speed_m_s < S::zero()
+        self.rims.speed_m_s() < S::zero()
     }
 
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();
         self.doubt.take_turns(step_s.to_f32());
+        self.unfelt_pitch_variance = attitude.unfelt_variance();
         let readings = self.side_readings(step_s, frame);
         self.silent = frame.silent(&readings.axis_velocity_m_s);
-        self.follow_rims(&frame.wheel_rate_rad_s);
+        self.follow_rims(step_s, &frame.wheel_rate_rad_s, readings.axis_velocity_m_s.x);
         let slopes = *self.sinking.slopes();
-        let told = self.angles.tick(step_s, self.rim_speed_m_s, &slopes, attitude, &readings, &self.rover.noise);
+        let told = self.angles.tick(step_s, self.rims.speed_m_s(), &slopes, attitude, &readings, &self.rover.noise);
         surprises.of_side(&told);
         self.told.angles = told;
         self.motion = self.angles.motion();
@@ -210,28 +213,21 @@ impl<S: Scalar> SideEstimator<S> {
         }
     }
 
-    /// The speed of the rims, m/s: the median of what encoders there are, so that one blocked wheel does not matter.
-    fn follow_rims(&mut self, rates: &PerAxle<Option<S>>) {
+    fn follow_rims(&mut self, step_s: S, rates: &PerAxle<Option<S>>, velocity_m_s: Option<S>) {
         let (rocker, bogie) = (self.motion.rocker_rate_rad_s, self.motion.bogie_rate_rad_s);
-        let speed = |rate: Option<S>, link: S| rate.map(|rate| (rate - link) * self.rover.wheel.radius_m);
-        let speeds = (speed(rates.front, rocker), speed(rates.middle, bogie), speed(rates.rear, bogie));
-        self.rim_speed_m_s = match speeds {
-            (Some(a), Some(b), Some(c)) => a.min(b).max(a.max(b).min(c)),
-            (Some(a), Some(b), None) | (Some(a), None, Some(b)) | (None, Some(a), Some(b)) => {
-                (a + b) * S::constant(0.5)
-            }
-            (Some(a), None, None) | (None, Some(a), None) | (None, None, Some(a)) => a,
-            (None, None, None) => self.rim_speed_m_s,
-        };
+        let links = PerAxle { front: rocker, middle: bogie, rear: bogie };
+        let speeds_m_s =
+            rates.zip(links).map(|(rate, link)| rate.map(|rate| (rate - link) * self.rover.wheel.radius_m));
+        self.rims.follow(step_s, &speeds_m_s, velocity_m_s);
     }
 
     /// Speeds of the hubs along their contacts: the measured velocity of the axis, and what the joints add to it.
     fn wheel_frames(&self, readings: &SideReadings<S>, body_pitch: (S, S)) -> PerAxle<WheelFrame<S>> {
         let motion = &self.motion;
-        let measured = match readings.axis_velocity_m_s {
-            Planar { x: Some(x), z: Some(z) } => Some(Planar { x, z }.turned(body_pitch)),
-            _ => None,
-        };
+        // Where the velocimeter does not say how fast it rises, what the links tell of that.
+        let Planar { x, z } = readings.axis_velocity_m_s;
+        let z = z.unwrap_or(motion.axis_velocity_m_s.turned_back(body_pitch).z);
+        let measured = x.map(|x| Planar { x, z }.turned(body_pitch));
         let velocity_variance = readings.velocity_std_m_s.x * readings.velocity_std_m_s.x;
         let variances = self.angles.hub_speed_variances(self.speed_m_s());
         let shifts = self.angles.load_shift().hubs(&self.rover.suspension);
@@ -266,6 +262,8 @@ impl<S: Scalar> SideEstimator<S> {
         let steady = S::constant(STEADY_S);
         let counts_s = step_s.min(S::constant(LONGEST_STEP_S));
         let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
+        let others_stand = self.rims.speed_m_s().abs() < S::constant(STANDING);
+        let others_rad_s = self.rims.speed_m_s() / self.rover.wheel.radius_m;
         let [mut starts, mut settles, mut stands, mut swings] = [false; 4];
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.rolling_s.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
@@ -275,6 +273,9 @@ impl<S: Scalar> SideEstimator<S> {
             filters.zip(told).zip(inputs).into_array()
         {
             let rate = rate.map(|rate| rate - wheel.link_rate_rad_s);
+            if rate.is_none() && (others_stand || *rolling < S::constant(SETTLING_S)) {
+                filter.suppose_rate(others_rad_s);
+            }
             let rim = self.rover.wheel.radius_m * filter.rate_before(rate);
             let now = what_it_does(rim, wheel.hub_speed_m_s, *activity);
             let speeds = SpeedReadings {
@@ -306,6 +307,7 @@ impl<S: Scalar> SideEstimator<S> {
                 side_swings: self.swings,
                 shared_speed_std_m_s: noise.velocity_m_s,
                 roughness,
+                settled: *rolling >= S::constant(SETTLED_S),
                 motor_torque_nm: torque,
                 motor_torque_std_nm: noise.motor_torque_nm,
             };
@@ -320,7 +322,7 @@ impl<S: Scalar> SideEstimator<S> {
         if settles {
             self.forces.settle();
         }
-        let rolled = Rolled { stands, speed_m_s: self.speed_m_s(), rim_speed_m_s: self.rim_speed_m_s, step_s };
+        let rolled = Rolled { stands, speed_m_s: self.speed_m_s(), rim_speed_m_s: self.rims.speed_m_s(), step_s };
         self.digging_in.follow(&rolled, &mut self.angles);
     }
 
@@ -352,17 +354,20 @@ impl<S: Scalar> SideEstimator<S> {
         };
         let [.., rocker_pitch, bogie_pitch, _] = *self.angles.estimate().mean();
         let told = self.told_along_links();
-        let travel = self.rim_speed_m_s.abs().max(S::constant(CREEP)) * step_s;
+        let travel = self.rims.speed_m_s().abs().max(S::constant(CREEP)) * step_s;
         self.told.forces = self.forces.tick((step_s, travel), bogie_pitch - rocker_pitch, &told, &readings);
         surprises.of_cells(&self.told.forces);
         self.lifted = self.lifted();
     }
 
     fn lifted(&self) -> PerAxle<bool> {
+        let at_rest_n = self.rover.load_at_rest_n();
+        let (least, greatest) = (S::constant(LIFTED) * at_rest_n, S::constant(GREATEST_LIFTED) * at_rest_n);
         let [front, middle, rear, ..] = self.forces.estimate().stds();
-        self.forces.cells_n().zip(PerAxle { front, middle, rear }).map(|(force, std)| {
-            force < self.scale.force_n(LIFTED_N).max(S::constant(3.0) * std).min(self.scale.force_n(GREATEST_LIFTED_N))
-        })
+        self.forces
+            .cells_n()
+            .zip(PerAxle { front, middle, rear })
+            .map(|(force, std)| force < (S::constant(3.0) * std).max(least).min(greatest))
     }
 
     /// What torques and loads tell of the forces along the links: by the split of a bogie's pull, and by what of the torques has not compacted

@@ -6,18 +6,24 @@
 //! A wheel that slips more meets more torque: shear stress grows with shear displacement, and a torque that drifts takes the slip
 //! with it. So the drive's torque tells of slip what the camera sees but through its noise.
 
+mod process;
+#[cfg(test)]
+mod tests;
+
 use super::activity::BLOCKED;
+use super::camera_error::CameraError;
 use super::drive_inertia::DriveInertia;
 use super::scale::Scale;
 use super::slip_by_speeds::SpeedReadings;
-use super::slip_torque_model::travel_over_rim;
 use super::swing::Swing;
-use super::trend::{Trends, beside_trend, restlessness};
+use super::trend::Trends;
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
-use crate::filter::{Fate, Gaussian, Innovation, Prediction, SigmaPointFilter};
+use crate::filter::{Fate, Gaussian, Innovation, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
+
+pub(super) use process::TORQUE_DRIFT_NM;
 
 pub use super::slip_torque_model::{MEASUREMENTS, STATES, SlipTorqueModel};
 
@@ -34,6 +40,8 @@ pub(super) struct WheelReadings<S> {
     pub roughness: S,
     /// Whether the torque of a wheel of this side swung in the frame before: grousers are on all of them.
     pub side_swings: bool,
+    /// Whether the wheel rolls as it will: it neither starts nor stops.
+    pub settled: bool,
     /// Torque of the drive, N·m.
     pub motor_torque_nm: Option<S>,
     /// One standard deviation of that, N·m.
@@ -42,40 +50,23 @@ pub(super) struct WheelReadings<S> {
 
 /// One standard deviation of what is not known at all. All torques here are of set K0, and go with the [scale](Scale) of a rover.
 const UNKNOWN: [f64; STATES] = [1.0, 3.0, 0.3];
-/// Nominal drift over a metre of travel: 0.3 N·m and a tenth of slip over a wheel radius.
-pub(super) const TORQUE_DRIFT_NM: f64 = 1.1;
-const SLIP_DRIFT: f64 = 0.37;
 /// What the torque did is remembered over the length of a contact, three centimetres at two a second: its sensor tells it well, and where
 /// a rock was passed it is calm at once.
 const TORQUE_FORGOTTEN: f64 = 0.7;
-/// How much of the ground's roughness the slip feels: rough ground drives it steadily one way for long, which a single
-/// measurement of speed hardly shows.
-const SLIP_FROM_ROUGHNESS: f64 = 0.1;
-/// Drift of a slip goes with that of its torque, over load and radius: from 0.6 to 2 times as much, the more the farther the wheel
-/// slips, with a correlation of 0.8 to 0.9 on every kind of ground. What is left to the slip by itself, as a standard deviation.
-const SLIP_BY_ITSELF: f64 = 0.6;
-/// What the torque of a drive may be off by when its sensor is silent, N·m.
-const UNSEEN_TORQUE_NM: f64 = 2.0;
 /// How much of the torque a wheel forgets in each frame in which it stands or has just started, N·m: what breaks loose
 /// within one frame. And of its slip in a second, as a random walk.
 const UNSETTLED_TORQUE_NM: f64 = 1.0;
 const UNSETTLED_SLIP: f64 = 0.2;
-/// Where a torque swings: a change of rate, squared, up to this many variances of its measurement is taken for noise, and the slip changes by
-/// about this part of what would go with the torque, one way or the other.
-const RATE_NOISE: f64 = 16.0;
-const SWINGS_SLIP: f64 = 0.3;
 /// What is added to what is not known of a state that has moved, as standard deviations: where the rims change speed, torque
 /// and slip follow within a second.
 const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
-/// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
-const BESIDE_TREND: f64 = 0.6;
 /// The share of an update's way that counts as the trend's, over the gain of the filter.
 const LEARNED: f64 = 0.25;
-/// These parts of how fast torque and slip wander count as restless. A torque's rate is learned over a short way, and a slip's from a
-/// velocimeter whose noise is the size of what it is to tell: on plane ground, too, they seem to drift by some hundredths of
-/// the nominal rate.
-const TORQUE_AT_REST: f64 = 0.4;
-const SLIP_AT_REST: f64 = 0.15;
+/// A torque hardly tells a rate that its noise makes uncertain by so many times what the encoder does.
+const HARDLY_TOLD: f64 = 8.0;
+/// One standard deviation of a wheel's rate about that of the others, over that; and of one that stands, rad/s.
+const UNLIKE_OTHERS: f64 = 0.4;
+const SUPPOSED_AT_REST: f64 = 0.01;
 /// The slip that a wheel starts with, and its standard deviation.
 const STARTING_SLIP: [f64; 2] = [0.2, 0.4];
 
@@ -91,7 +82,7 @@ pub(super) struct SlipTorqueFilter<S> {
     inertia: DriveInertia<S>,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
-    shared_slip_variance: S,
+    camera_error: CameraError<S>,
     watch: Watch<MEASUREMENTS>,
     /// Of torque and slip.
     trends: Trends<S, 2>,
@@ -118,7 +109,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             inertia: DriveInertia::steady(),
             torque_rate: WalkRate::new(phase).forgetting(TORQUE_FORGOTTEN),
             slip_rate: WalkRate::new(phase + 2),
-            shared_slip_variance: S::zero(),
+            camera_error: CameraError::none(),
             watch: Watch::new(),
             trends: Trends::new(),
             drift_variances: [S::zero(); 2],
@@ -137,9 +128,15 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         if variance > S::constant(0.25 * unknown * unknown) { measured.unwrap_or(rate) } else { rate }
     }
 
+    /// The wheel stands or starts, and its encoder is silent: its rate is about that of the other wheels of its side, rad/s.
+    pub fn suppose_rate(&mut self, others_rad_s: S) {
+        let std = S::constant(UNLIKE_OTHERS) * others_rad_s.abs() + S::constant(SUPPOSED_AT_REST);
+        let _ = self.filter.forget(0, others_rad_s, std);
+    }
+
     /// Variance of the part of the slip's error that comes from the camera, and so is common to all wheels.
     pub fn shared_slip_variance(&self) -> S {
-        self.shared_slip_variance
+        self.camera_error.variance()
     }
 
     /// Whether its torque swings faster than ground makes torques drift.
@@ -192,29 +189,26 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     fn restart_slip(&mut self, mean: S, std: S) {
         let _ = self.filter.forget(2, mean, std);
         self.trends.forget();
-        self.shared_slip_variance = S::zero();
+        self.camera_error = CameraError::none();
     }
 
     /// Carries the state a step further, over so much travel, and takes what was measured.
     pub fn tick(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
         self.learn_rates(step_s, travel_m, readings);
         self.swing.take(readings.motor_torque_nm, readings.motor_torque_std_nm * self.scale.torque);
-        let swinging = readings.motor_torque_nm.filter(|_| readings.side_swings || self.swings());
-        match swinging {
-            Some(torque) => self.swing_over(step_s, travel_m, torque, readings),
+        let swings = readings.side_swings || self.swings();
+        let says_most = swings || readings.speeds.rate_rad_s.is_none();
+        let by_drive = readings.motor_torque_nm.filter(|_| says_most);
+        match by_drive {
+            Some(torque) if swings => self.swing_over(step_s, travel_m, torque, readings),
+            Some(torque) => self.hold_rate(step_s, travel_m, torque, readings),
             None => self.predict(step_s, travel_m, readings),
         }
         let [_, torque, slip] = *self.filter.estimate().mean();
-        let model = self.model;
-        let told = self.filter.update(
-            |state| model.measure(state),
-            &[readings.speeds.rate_rad_s, readings.speeds.hub_speed_m_s],
-            &[readings.rate_std_rad_s, readings.speeds.hub_speed_std_m_s],
-            self.watch.gate(),
-        );
-        self.share_camera_error(readings);
+        let told = self.update(step_s, readings);
+        self.camera_error.follow(self.filter.estimate(), self.model.radius_m, readings);
         self.follow_inertia(readings);
-        if swinging.is_none() {
+        if by_drive.is_none() {
             self.follow_trends(travel_m, [torque, slip], readings);
         }
         match self.watch.judge(&told) {
@@ -225,80 +219,27 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         told
     }
 
-    fn predict(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) {
-        self.model.motor_torque_nm = readings.motor_torque_nm;
-        let model = self.model;
-        let slip_factor = self.slip_factor(readings);
-        let torque_factor = self.torque_rate.factor();
-        let restless = [
-            restlessness(S::constant(TORQUE_AT_REST) * torque_factor),
-            restlessness(S::constant(SLIP_AT_REST) * slip_factor),
-        ];
-        self.trends.expect(restless);
-        let [torque_trend, slip_trend] = self.trends.per_m();
-        let [rate, ..] = *self.filter.estimate().mean();
-        // A wheel that drives backward slips more as its torque falls. While the drive does not say its torque, nothing tells how the
-        // two go together, and the torque's return would throw the slip off.
-        let (shared, by_itself) = match readings.motor_torque_nm {
-            Some(_) if rate < S::zero() => (-self.slip_per_torque, S::constant(SLIP_BY_ITSELF)),
-            Some(_) => (self.slip_per_torque, S::constant(SLIP_BY_ITSELF)),
-            None => (S::zero(), S::one()),
-        };
-        let process = |state: &[S; STATES]| {
-            let [rate, torque, slip] = *state;
-            let [acceleration, ..] = model.rates(state);
-            let torque = torque + travel_m * torque_trend;
-            [rate + step_s * acceleration, torque, slip + travel_m * slip_trend - shared * torque]
-        };
-        let torque_std = match readings.motor_torque_nm {
-            Some(_) => readings.motor_torque_std_nm,
-            None => S::constant(UNSEEN_TORQUE_NM) * self.scale.torque,
-        };
-        let drift = |nominal: S, factor: S, restless: S| nominal * factor * beside_trend(BESIDE_TREND, restless);
-        let [of_torque, of_slip] = self.nominal_variances(travel_m);
-        let [restless_torque, restless_slip] = restless;
-        self.drift_variances =
-            [drift(of_torque, torque_factor, restless_torque), drift(of_slip, slip_factor, restless_slip)];
-        let [torque, slip] = self.drift_variances.map(S::sqrt);
-        let noise = [step_s * torque_std * self.model.inverse_inertia, torque, by_itself * slip];
-        // Where it is not done the mean has stayed, slip and all.
-        if self.filter.predict(process, &noise) == Prediction::Done {
-            self.filter.shear(1, 2, shared);
+    /// Takes in what was measured. Where the torque hardly tells the rate a step on, as in a drive of little inertia, the encoder comes first:
+    /// the speed of the hub goes with rate and slip multiplied, and over all the rates that there might be it would tell little of the slip.
+    fn update(&mut self, step_s: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
+        let SpeedReadings { rate_rad_s, hub_speed_m_s, .. } = readings.speeds;
+        let by_torque = step_s * readings.motor_torque_std_nm * self.model.inverse_inertia;
+        let at_once = by_torque <= S::constant(HARDLY_TOLD) * readings.rate_std_rad_s;
+        let mut told = self.take(&[rate_rad_s, hub_speed_m_s.filter(|_| at_once)], readings);
+        if !at_once {
+            told = told.followed_by(self.take(&[None, hub_speed_m_s], readings));
         }
+        told
     }
 
-    /// The same where the torque swings: then it is what the drive gives now, but for what the drive's inertia takes where the rate changes
-    /// by more than noise; what it was a frame ago tells nothing.
-    fn swing_over(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
-        self.trends.forget();
-        self.trends.expect([S::zero(); 2]);
-        let square = |value: S| value * value;
-        let [rate, torque_before, _] = *self.filter.estimate().mean();
-        let [_, of_slip] = self.nominal_variances(travel_m);
-        let slip_factor = self.slip_factor(readings);
-        let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * (motor_torque_nm - torque_before);
-        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
-        let turned = (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero());
-        let per_torque = step_s * self.model.inverse_inertia;
-        let unseen = square(S::constant(UNSEEN_TORQUE_NM) * self.scale.torque);
-        let noise = readings.motor_torque_std_nm;
-        let torque_variance = square(noise) + (turned / square(per_torque)).min(unseen);
-        let rate_std = per_torque * noise + turned.sqrt();
-        let slip_std = (of_slip * slip_factor + square(slipped)).sqrt();
-        let _ = self.filter.random_walk(&[rate_std, S::zero(), slip_std]);
-        let _ = self.filter.forget(1, motor_torque_nm, torque_variance.sqrt());
-    }
-
-    /// How fast the slip wanders, over the nominal drift, as a variance.
-    fn slip_factor(&self, readings: &WheelReadings<S>) -> S {
-        self.slip_rate.factor() + S::constant(SLIP_FROM_ROUGHNESS) * readings.roughness
-    }
-
-    /// Variances of what torque and slip nominally drift by over so much travel.
-    fn nominal_variances(&self, travel_m: S) -> [S; 2] {
-        let [_, of_torque] = self.scale.travels_m(travel_m);
-        let square = |drift: f64| S::constant(drift * drift);
-        [square(TORQUE_DRIFT_NM) * of_torque, square(SLIP_DRIFT) * travel_m]
+    fn take(
+        &mut self,
+        measured: &[Option<S>; MEASUREMENTS],
+        readings: &WheelReadings<S>,
+    ) -> Innovation<S, MEASUREMENTS> {
+        let model = self.model;
+        let noise = [readings.rate_std_rad_s, readings.speeds.hub_speed_std_m_s];
+        self.filter.update(|state| model.measure(state), measured, &noise, self.watch.gate())
     }
 
     fn follow_trends(&mut self, travel_m: S, before: [S; 2], readings: &WheelReadings<S>) {
@@ -357,30 +298,9 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         };
         self.inertia.follow(larger, readings.motor_torque_std_nm);
     }
-
-    /// Follows the camera's error through the filter: the gain g of the slip on the hub's speed takes the new error in, and
-    /// 1 − g h of the old one stays, h being the slope of the speed in the slip.
-    fn share_camera_error(&mut self, readings: &WheelReadings<S>) {
-        if readings.speeds.hub_speed_m_s.is_none() {
-            return;
-        }
-        let [rate, _, slip] = *self.filter.estimate().mean();
-        let [_, _, slip_variance] = self.filter.estimate().variances();
-        let ratio = travel_over_rim(slip);
-        let rim = self.model.radius_m * rate;
-        let slope = if slip >= S::zero() { rim } else { rim * ratio * ratio };
-        let noise = readings.speeds.hub_speed_std_m_s;
-        let gain = slope * slip_variance / (noise * noise);
-        let kept = S::one() - gain * slope;
-        let taken = gain * readings.shared_speed_std_m_s;
-        self.shared_slip_variance = (kept * kept * self.shared_slip_variance + taken * taken).min(slip_variance);
-    }
 }
 
 /// Standard deviations of the states for a rover, given those for K0.
 fn of_rover<S: Scalar>(&[rate, torque, slip]: &[f64; STATES], scale: &Scale<S>) -> [S; STATES] {
     [S::constant(rate), S::constant(torque) * scale.torque, S::constant(slip)]
 }
-
-#[cfg(test)]
-mod tests;

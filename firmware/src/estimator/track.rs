@@ -106,10 +106,16 @@ impl<S: Scalar> Track<S> {
     }
 
     /// How many pieces before the front wheel's own a place is that is so far behind its hub, m; none where it is not known.
-    #[inline(never)] // flash is scarcer than the time of a call
     fn back(&self, behind_m: S) -> Option<usize> {
-        let back = (behind_m * self.pieces_per_m - self.on).max(S::zero()).to_f32() as usize + 1;
-        (back <= self.known).then_some(back)
+        self.back_and_on(behind_m).map(|(back, _)| back)
+    }
+
+    /// The same, with how much farther back than the end of that piece the place is, of its length.
+    #[inline(never)] // flash is scarcer than the time of a call
+    fn back_and_on(&self, behind_m: S) -> Option<(usize, S)> {
+        let pieces = (behind_m * self.pieces_per_m - self.on).max(S::zero());
+        let whole = pieces.to_f32() as usize;
+        (whole < self.known).then(|| (whole + 1, pieces - S::from_f32(whole as f32)))
     }
 
     #[inline(never)] // flash is scarcer than the time of a call
@@ -129,8 +135,11 @@ impl<S: Scalar> Track<S> {
     /// soils differ. A mean lags by half of what it is taken over.
     fn unlike_share(&self, [middle_m, rear_m]: [S; 2]) -> S {
         let share = |behind_m: S| {
-            let back = self.back(behind_m - S::constant(0.5 * REMEMBERED_M))?;
-            self.piece(back).map(|piece| piece.share)
+            let (back, on) = self.back_and_on(behind_m - S::constant(0.5 * REMEMBERED_M))?;
+            let here = self.piece(back)?.share;
+            // From piece to piece without a jump, or rounding would decide between two.
+            let before = if back < self.known { self.piece(back + 1)?.share } else { here };
+            Some(here + on * (before - here))
         };
         let unlike = share(middle_m).zip(share(rear_m)).map(|(middle, rear)| middle - rear);
         unlike.map_or(S::zero(), |unlike| surely(unlike, BY_GROUND))

@@ -68,7 +68,8 @@ fn what_holds<S: Scalar>(rover: &Rover<S>, attitude: &Attitude<S>, steady: bool)
         forward,
         upward,
         forward_variance: accelerated + square(upward) * pitch,
-        upward_variance: accelerated + square(forward) * pitch,
+        // Of a pitch that is hardly known the cosine is not, either.
+        upward_variance: accelerated + square(forward) * pitch + S::constant(0.5) * square(upward * pitch),
         covariance: -forward * upward * pitch,
     }
 }

@@ -104,4 +104,47 @@ impl<T: Scalar, const M: usize> Innovation<T, M> {
             degrees_of_freedom: 0,
         }
     }
+
+    /// What this update told, and one after it of measurements that were missing here.
+    pub fn followed_by(self, later: Self) -> Self {
+        let fusion = match (self.fusion, later.fusion) {
+            (Fusion::Reset, _) | (_, Fusion::Reset) => Fusion::Reset,
+            (Fusion::Done, _) | (_, Fusion::Done) => Fusion::Done,
+            (Fusion::NothingToFuse, Fusion::NothingToFuse) => Fusion::NothingToFuse,
+        };
+        let mut residuals = later.residuals;
+        for (residual, before) in residuals.iter_mut().zip(self.residuals) {
+            if before.fate != Fate::Missing {
+                *residual = before;
+            }
+        }
+        Self {
+            fusion,
+            residuals,
+            normalised_square: self.normalised_square + later.normalised_square,
+            degrees_of_freedom: self.degrees_of_freedom.saturating_add(later.degrees_of_freedom),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fate, Fusion, Innovation, Residual};
+
+    /// Two updates with a measurement each are one with both.
+    #[test]
+    fn updates_that_follow_each_other_are_told_as_one() {
+        let nothing = Innovation::<f64, 2>::nothing();
+        let told = |place: usize, fate: Fate, fusion: Fusion| {
+            let mut told = Innovation { fusion, normalised_square: 1.5, degrees_of_freedom: 1, ..nothing };
+            told.residuals[place] = Residual { fate, innovation: 0.3, std: 0.2 };
+            told
+        };
+        let both = told(0, Fate::Used, Fusion::Done).followed_by(told(1, Fate::Rejected, Fusion::NothingToFuse));
+        assert_eq!(both.residuals.map(|residual| residual.fate), [Fate::Used, Fate::Rejected]);
+        assert_eq!((both.fusion, both.normalised_square, both.degrees_of_freedom), (Fusion::Done, 3.0, 2));
+        assert_eq!(nothing.followed_by(nothing), nothing);
+        let reset = told(0, Fate::Used, Fusion::Reset).followed_by(told(1, Fate::Used, Fusion::Done));
+        assert_eq!(reset.fusion, Fusion::Reset);
+    }
 }

@@ -34,19 +34,19 @@ const LEAST_CHANGE: f32 = 0.025;
 const SIGNIFICANT: f32 = 4.0;
 /// Where chance alone may make so much of a difference, it tells neither that the soil is another nor that it is the same: the reference learns
 /// this share of it. Where a soil begins pulls are not known well for some decimetres, and a reference that took all for its soil would
-/// miss the other. On hills, where they are known, shares drift by as much from metre to metre, and are learned.
+/// miss the other. So it is where a rover starts. On hills, where they are known, shares drift by as much from metre to metre, and are learned.
 const DOUBTFUL: f32 = 0.06;
 const IN_DOUBT: f32 = 0.2;
 /// Travel for which a difference must last, m.
 const LASTING_M: f32 = 0.04;
-/// Least load, N, on which a resistance says something.
-const LEAST_LOAD_N: f32 = 5.0;
+/// Least load on which a resistance says something, over its standard deviation.
+const LEAST_LOAD: f32 = 10.0;
 
 /// Motion resistance over load, (T/r − DP)/W, at zero slip; none for a wheel that does not roll under load.
 pub fn motion_resistance(wheel: &WheelEstimate, radius_m: f32) -> Option<Estimate> {
-    let load = wheel.normal_load_n.value;
+    let Estimate { value: load, std: load_std } = wheel.normal_load_n;
     let slip = wheel.slip?;
-    if wheel.activity != WheelActivity::Rolling || load < LEAST_LOAD_N {
+    if wheel.activity != WheelActivity::Rolling || load <= LEAST_LOAD * load_std {
         return None;
     }
     let torque_std = wheel.resistive_torque_nm.std / radius_m;
@@ -75,9 +75,10 @@ impl ResistanceWatch {
         self.recent.take(resistance.value, travel_m);
         let difference = self.recent.mean() - self.reference.mean();
         let noise = SIGNIFICANT * resistance.std;
-        let differs = self.reference.travel_m() >= LEARNED_M && math::abs(difference) > LEAST_CHANGE;
+        let learned = self.reference.travel_m() >= LEARNED_M;
+        let differs = learned && math::abs(difference) > LEAST_CHANGE;
         if !differs || math::abs(difference) <= noise {
-            let share = if differs && noise > DOUBTFUL { IN_DOUBT } else { 1.0 };
+            let share = if (differs || !learned) && noise > DOUBTFUL { IN_DOUBT } else { 1.0 };
             self.reference.take(resistance.value, share * travel_m);
             self.beyond_m = 0.0;
             return None;
@@ -109,6 +110,15 @@ mod tests {
         assert_eq!(see(&mut watch, 0.35, 0.005, 80), None);
         assert_eq!(see(&mut watch, 0.43, 0.03, 50), None);
         assert_eq!(see(&mut watch, 0.43, 0.012, 8), Some(Stiffness::Falls));
+    }
+
+    /// Where a rover starts its pulls are not known, either: what they seem to be then is no soil to tell another from.
+    #[test]
+    fn what_a_start_makes_of_a_resistance_is_hardly_learned() {
+        let mut watch = ResistanceWatch::new();
+        assert_eq!(see(&mut watch, 0.45, 0.05, 20), None);
+        assert_eq!(see(&mut watch, 0.36, 0.005, 100), None);
+        assert_eq!(see(&mut watch, 0.43, 0.005, 8), Some(Stiffness::Falls));
     }
 
     /// Soil that becomes other by little and little is the soil that there is.

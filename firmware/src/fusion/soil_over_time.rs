@@ -6,7 +6,7 @@ use super::resistance_watch::Stiffness;
 use super::rover_soil::RoverSoil;
 use super::soil_average::SoilAverage;
 use super::soil_change::SoilChangeDetector;
-use crate::estimator::{WheelActivity, WheelEstimate};
+use crate::estimator::{Estimate, WheelActivity, WheelEstimate};
 use crate::frozen;
 use crate::math;
 use crate::rover::{PerSide, PerWheel, Rover};
@@ -16,6 +16,10 @@ use crate::wheel_state::{SoilQuery, WHEELS, WheelNoise, WheelState};
 
 /// What is left of a standard deviation that averages away, when the network is asked what lasts.
 const HARDLY_ANY: f32 = 0.2;
+
+/// A wheel whose slip is known no better, as one without an encoder, is left out of the soil under the rover: the network is told one standard
+/// deviation of slip for all wheels.
+const UNTOLD_SLIP: f32 = 0.1;
 
 /// The networks' users in flight.
 #[derive(Debug, Clone)]
@@ -160,9 +164,10 @@ fn in_direction_of_travel(wheels: &PerWheel<WheelEstimate>, backward: PerSide<bo
     wheels
 }
 
-/// Whether the rover network knows such wheels: under load, rolling, and not braked.
+/// Whether the rover network knows such wheels: under load, rolling, not braked, and slipping by what can be told.
 fn is_known(wheel: &WheelEstimate) -> bool {
-    state_of(wheel).is_some() && wheel.slip.is_some_and(|slip| is_known_slip(slip.value, slip.std))
+    let slips = |slip: Estimate| is_known_slip(slip.value, slip.std) && slip.std < UNTOLD_SLIP;
+    state_of(wheel).is_some() && wheel.slip.is_some_and(slips)
 }
 
 /// The state that a network takes; none of a wheel that does not roll under load.

@@ -78,6 +78,8 @@ pub(super) struct Doubt {
     since_s: f32,
 }
 
+/// No drive that the network learned from is faster, m/s: beyond, nothing that it has seen tells that errors are less than what is stated.
+const FASTEST_M_S: f32 = 0.06;
 /// Turns are not shorter than this, s: a quarter less than the frames of the drives that the network learned from.
 const TURN_S: f32 = 0.075;
 
@@ -104,10 +106,11 @@ impl Doubt {
         self.its_turn
     }
 
-    /// Takes the inputs of a frame.
+    /// Takes the inputs of a frame in which the side moves at this speed, m/s.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn take(&mut self, inputs: &[f32; INPUTS]) {
-        self.times = frozen::NETWORK.run(&mut self.memory, inputs).map(times_stated);
+    pub fn take(&mut self, inputs: &[f32; INPUTS], speed_m_s: f32) {
+        let least = if speed_m_s > FASTEST_M_S { 1.0 } else { 0.0 };
+        self.times = frozen::NETWORK.run(&mut self.memory, inputs).map(|output| times_stated(output).max(least));
     }
 
     /// By what standard deviations are multiplied, in the order of the network's outputs.
@@ -167,7 +170,7 @@ mod tests {
         assert_eq!([0.05; 4].map(turns), [neither, [false, true], neither, [true, false]], "faster frames");
         let [side, _] = &mut sides;
         assert_eq!(side.times::<f64>(), [1.0; OUTPUTS]);
-        side.take(&[1.0; INPUTS]);
+        side.take(&[1.0; INPUTS], 0.02);
         let taken = side.times::<f32>();
         assert_ne!(taken, [1.0; OUTPUTS]);
         side.take_turns(0.1);

@@ -12,6 +12,7 @@ fn readings(direction: f64, torque: f64, seen: bool) -> WheelReadings<f64> {
         shared_speed_std_m_s: 5.0e-4,
         roughness: 0.0,
         side_swings: false,
+        settled: true,
         motor_torque_nm: Some(direction * torque),
         motor_torque_std_nm: 0.05,
     }
@@ -52,4 +53,33 @@ fn a_torque_that_jumps_is_followed() {
     });
     let jumped: Vec<f64> = (0..5).map(|_| after(&mut filter, &readings(1.0, -3.0, true)).0).collect();
     assert!(jumped.last().is_some_and(|torque| (torque + 3.0).abs() < 0.3), "{jumped:?}");
+}
+
+/// Noise of the drive's sensor turns a wheel of little inertia, as the filter has it, by far more than it turns: its slip is what the speeds
+/// say all the same.
+#[test]
+fn a_drive_of_little_inertia_keeps_its_slip() {
+    let mut rover = Rover::<f64>::assumed();
+    rover.drive.reflected_inertia_kg_m2 = 0.005;
+    let mut filter = SlipTorqueFilter::new(&rover, 0);
+    let noise = |frame: u32| if frame.is_multiple_of(2) { 0.05 } else { -0.05 };
+    for frame in 0..200 {
+        let (torque, slip) = after(&mut filter, &readings(1.0, 1.5 + noise(frame), true));
+        assert!(frame < 20 || ((torque - 1.5).abs() < 0.06 && (slip - 0.2).abs() < 0.005), "{frame}: {torque} {slip}");
+    }
+}
+
+/// A wheel whose encoder never speaks turns about as fast as the others, and meets the torque that its drive gives.
+#[test]
+fn a_wheel_without_an_encoder_follows_its_drive() {
+    let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
+    filter.suppose_rate(0.3);
+    let mut without = readings(1.0, 1.5, true);
+    without.speeds.rate_rad_s = None;
+    let torques: Vec<f64> = (0..100).map(|_| after(&mut filter, &without).0).collect();
+    let [rate, _, slip] = *filter.estimate().mean();
+    let [of_rate, _, of_slip] = filter.estimate().stds();
+    assert!(torques.last().is_some_and(|torque| (torque - 1.5).abs() < 1.0e-3), "{torques:?}");
+    assert!((rate - 0.3).abs() < of_rate && (slip - 0.2).abs() < of_slip, "{rate} ± {of_rate}, {slip} ± {of_slip}");
+    assert!(of_slip > 0.1, "nothing tells the two apart: {of_slip}");
 }

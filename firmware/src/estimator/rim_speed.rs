@@ -1,0 +1,68 @@
+//! How fast the rims of a side turn.
+
+use crate::rover::PerAxle;
+use crate::scalar::Scalar;
+
+/// Encoders that have all been silent for so long are not awaited any more, s: between two frames of ten a second, so that rounding decides
+/// nothing.
+const AWAITED_S: f64 = 4.95;
+
+/// The speed of the rims against their links: the median of what encoders there are, so that one blocked wheel does not matter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RimSpeed<S> {
+    speed_m_s: S,
+    /// How long no encoder has said anything, s.
+    silent_s: S,
+}
+
+impl<S: Scalar> RimSpeed<S> {
+    /// Rims that stand, of encoders of which nothing is to be awaited.
+    pub fn unheard() -> Self {
+        Self { speed_m_s: S::zero(), silent_s: S::constant(AWAITED_S) }
+    }
+
+    /// It, m/s.
+    pub fn speed_m_s(&self) -> S {
+        self.speed_m_s
+    }
+
+    /// Takes the speeds of a frame, m/s, and how fast the side is, as the velocimeter has it: rims of which nothing is heard for long are
+    /// about as fast.
+    pub fn follow(&mut self, step_s: S, rims_m_s: &PerAxle<Option<S>>, side_m_s: Option<S>) {
+        let silent = rims_m_s.as_array().into_iter().all(Option::is_none);
+        self.silent_s = if silent { self.silent_s + step_s } else { S::zero() };
+        self.speed_m_s = match (rims_m_s.front, rims_m_s.middle, rims_m_s.rear) {
+            (Some(a), Some(b), Some(c)) => a.min(b).max(a.max(b).min(c)),
+            (Some(a), Some(b), None) | (Some(a), None, Some(b)) | (None, Some(a), Some(b)) => {
+                (a + b) * S::constant(0.5)
+            }
+            (Some(a), None, None) | (None, Some(a), None) | (None, None, Some(a)) => a,
+            (None, None, None) => {
+                let unheard = self.silent_s >= S::constant(AWAITED_S);
+                side_m_s.filter(|_| unheard).unwrap_or(self.speed_m_s)
+            }
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PerAxle, RimSpeed};
+
+    #[test]
+    fn rims_are_heard_then_awaited_then_taken_to_be_as_fast_as_the_rover() {
+        let mut rims = RimSpeed::<f64>::unheard();
+        let silent = PerAxle::all(None);
+        let mut speed = |front, middle, rear| {
+            rims.follow(0.1, &PerAxle { front, middle, rear }, Some(0.015));
+            rims.speed_m_s()
+        };
+        assert_eq!(speed(None, None, None), 0.015, "never heard");
+        assert_eq!(speed(Some(0.02), Some(0.0), Some(0.03)), 0.02, "one is blocked");
+        assert_eq!(speed(Some(0.02), None, Some(0.03)), 0.025);
+        assert!((0..49).all(|_| speed(None, None, None) == 0.025), "awaited");
+        assert_eq!(speed(None, None, None), 0.015);
+        rims.follow(0.1, &silent, None);
+        assert_eq!(rims.speed_m_s(), 0.015, "nothing is heard at all");
+    }
+}
