@@ -15,10 +15,7 @@ const LEAST: [(Scenario, [f64; 2]); 2] = [(Scenario::Level, [0.7, 0.8]), (Scenar
 fn errors(scenario: Scenario) -> Errors {
     let mut options = Options::default();
     options.effects.set("slip-sinkage", 0.3).expect("an effect");
-    SEEDS.fold(Errors::default(), |mut sum, seed| {
-        sum.add(&Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors);
-        sum
-    })
+    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors).sum()
 }
 
 #[test]

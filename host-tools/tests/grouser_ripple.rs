@@ -17,11 +17,7 @@ fn options(share: f64) -> Options {
 }
 
 fn errors(scenario: Scenario, share: f64) -> Errors {
-    SEEDS.fold(Errors::default(), |mut sum, seed| {
-        let drive = Drive::run(scenario, seed, &Rover::assumed(), &options(share)).expect("a drive");
-        sum.add(&drive.errors);
-        sum
-    })
+    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options(share)).expect("a drive").errors).sum()
 }
 
 /// The most that errors of slip, torque and load may be, over those of the raw sensors. Of a torque that changes by several times its noise

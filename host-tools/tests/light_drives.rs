@@ -13,10 +13,7 @@ fn errors(scenario: Scenario, inertia_kg_m2: f64, rate_hz: f64) -> Errors {
     let mut rover = Rover::assumed();
     rover.drive.reflected_inertia_kg_m2 = inertia_kg_m2;
     let options = Options { rate_hz: Some(rate_hz), ..Options::default() };
-    SEEDS.fold(Errors::default(), |mut sum, seed| {
-        sum.add(&Drive::run(scenario, seed, &rover, &options).expect("a drive").errors);
-        sum
-    })
+    SEEDS.map(|seed| Drive::run(scenario, seed, &rover, &options).expect("a drive").errors).sum()
 }
 
 #[test]

@@ -16,10 +16,7 @@ const LONGEST_S: f64 = 120.0;
 
 fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
     let options = Options { faults: faults.to_vec(), ..Options::default() };
-    SEEDS.fold(Errors::default(), |mut sum, seed| {
-        sum.add(&Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors);
-        sum
-    })
+    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors).sum()
 }
 
 /// Errors may grow to four times those with all readings, give or take one, and so many must be within two standard deviations.

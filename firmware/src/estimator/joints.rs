@@ -1,11 +1,9 @@
 //! What is taken for the angles of the joints and for the rise of the axis, where their sensors say nothing too.
 
+use super::silence::{AWAITED_S, Silence};
 use super::trend::LEAST_TRAVEL;
 use crate::scalar::Scalar;
 
-/// A sensor that has been silent for so long is not awaited any more, s: between two frames of ten a second, so that rounding decides
-/// nothing.
-const AWAITED_S: f64 = 4.95;
 /// A joint lies near its angle on plane ground, within so much as one standard deviation, rad: hills of a wheelbase or more bend it by half
 /// of that, rocks of a wheel's radius by a little more than that.
 const USUAL_RAD: f64 = 0.1;
@@ -15,17 +13,17 @@ const USUAL_RISE_RAD: f64 = 0.04;
 /// On the way it takes another angle after so much travel, m: most of a wheelbase.
 const ALIKE_M: f64 = 0.2;
 
-/// How long each joint of a side has been silent, s: rocker against body, bogie against rocker; and the velocimeter of how fast it rises.
+/// How long each joint of a side has been silent: rocker against body, bogie against rocker; and the velocimeter of how fast it rises.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Joints<S> {
-    silent_s: [S; 2],
-    rise_silent_s: S,
+    silences: [Silence<S>; 2],
+    of_rise: Silence<S>,
 }
 
 impl<S: Scalar> Joints<S> {
     /// All may be heard yet.
     pub fn new() -> Self {
-        Self { silent_s: [S::zero(); 2], rise_silent_s: S::zero() }
+        Self { silences: [Silence::none(); 2], of_rise: Silence::none() }
     }
 
     /// The angle of each joint, rad, with its standard deviation: as measured; of one that is silent for good, what joints usually are, told
@@ -33,7 +31,7 @@ impl<S: Scalar> Joints<S> {
     /// since nothing else tells how they lie.
     pub fn tick(&mut self, readings: [Option<S>; 2], noise_rad: S, travel_m: S, step_s: S) -> [(Option<S>, S); 2] {
         let usual = (S::zero(), S::constant(USUAL_RAD) * root_of_frames(travel_m));
-        let [rocker, bogie] = &mut self.silent_s;
+        let [rocker, bogie] = &mut self.silences;
         let [of_rocker, of_bogie] = readings;
         [heard(rocker, step_s, (of_rocker, noise_rad), usual), heard(bogie, step_s, (of_bogie, noise_rad), usual)]
     }
@@ -42,13 +40,12 @@ impl<S: Scalar> Joints<S> {
     /// so steep against the body, rad. Otherwise contact angles would drift away without end where they steepen alike.
     pub fn rise(&mut self, measured: (Option<S>, S), step_s: S, speed_m_s: S, links_rad: S) -> (Option<S>, S) {
         let std = S::constant(USUAL_RISE_RAD) * speed_m_s.abs() * root_of_frames(speed_m_s.abs() * step_s);
-        heard(&mut self.rise_silent_s, step_s, measured, (speed_m_s * links_rad, std))
+        heard(&mut self.of_rise, step_s, measured, (speed_m_s * links_rad, std))
     }
 
     /// By what variance the axis may rise otherwise than contact angles say that are known by nothing but this, rad².
     pub fn unrisen_variance(&self) -> S {
-        let unheard = self.rise_silent_s > S::constant(AWAITED_S);
-        if unheard { S::constant(USUAL_RISE_RAD * USUAL_RISE_RAD) } else { S::zero() }
+        if self.of_rise.lasts(AWAITED_S) { S::constant(USUAL_RISE_RAD * USUAL_RISE_RAD) } else { S::zero() }
     }
 }
 
@@ -60,17 +57,16 @@ fn root_of_frames<S: Scalar>(travel_m: S) -> S {
 /// A reading with its standard deviation, where there is one; else what is usual, from when it is not awaited any more.
 #[inline(never)] // flash is scarcer than the time of a call
 fn heard<S: Scalar>(
-    silent_s: &mut S,
+    silence: &mut Silence<S>,
     step_s: S,
     reading: (Option<S>, S),
     (usual, usual_std): (S, S),
 ) -> (Option<S>, S) {
+    silence.follow(reading.0.is_some(), step_s);
     if reading.0.is_some() {
-        *silent_s = S::zero();
         return reading;
     }
-    *silent_s += step_s;
-    (Some(usual).filter(|_| *silent_s > S::constant(AWAITED_S)), usual_std)
+    (Some(usual).filter(|_| silence.lasts(AWAITED_S)), usual_std)
 }
 
 #[cfg(test)]

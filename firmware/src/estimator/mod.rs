@@ -52,6 +52,7 @@ mod sensor_gate;
 mod side_estimate;
 mod side_estimator;
 mod side_frame;
+mod silence;
 mod sinking;
 pub mod slip_by_speeds;
 pub mod slip_torque;

@@ -1,24 +1,21 @@
 //! How fast the rims of a side turn.
 
+use super::silence::{AWAITED_S, Silence};
 use crate::rover::PerAxle;
 use crate::scalar::Scalar;
-
-/// Encoders that have all been silent for so long are not awaited any more, s: between two frames of ten a second, so that rounding decides
-/// nothing.
-const AWAITED_S: f64 = 4.95;
 
 /// The speed of the rims against their links: the median of what encoders there are, so that one blocked wheel does not matter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RimSpeed<S> {
     speed_m_s: S,
-    /// How long no encoder has said anything, s.
-    silent_s: S,
+    /// Of all encoders together.
+    silence: Silence<S>,
 }
 
 impl<S: Scalar> RimSpeed<S> {
     /// Rims that stand, of encoders of which nothing is to be awaited.
     pub fn unheard() -> Self {
-        Self { speed_m_s: S::zero(), silent_s: S::constant(AWAITED_S) }
+        Self { speed_m_s: S::zero(), silence: Silence::of(AWAITED_S) }
     }
 
     /// It, m/s.
@@ -29,18 +26,14 @@ impl<S: Scalar> RimSpeed<S> {
     /// Takes the speeds of a frame, m/s, and how fast the side is, as the velocimeter has it: rims of which nothing is heard for long are
     /// about as fast.
     pub fn follow(&mut self, step_s: S, rims_m_s: &PerAxle<Option<S>>, side_m_s: Option<S>) {
-        let silent = rims_m_s.as_array().into_iter().all(Option::is_none);
-        self.silent_s = if silent { self.silent_s + step_s } else { S::zero() };
+        self.silence.follow(rims_m_s.as_array().into_iter().any(Option::is_some), step_s);
         self.speed_m_s = match (rims_m_s.front, rims_m_s.middle, rims_m_s.rear) {
             (Some(a), Some(b), Some(c)) => a.min(b).max(a.max(b).min(c)),
             (Some(a), Some(b), None) | (Some(a), None, Some(b)) | (None, Some(a), Some(b)) => {
                 (a + b) * S::constant(0.5)
             }
             (Some(a), None, None) | (None, Some(a), None) | (None, None, Some(a)) => a,
-            (None, None, None) => {
-                let unheard = self.silent_s >= S::constant(AWAITED_S);
-                side_m_s.filter(|_| unheard).unwrap_or(self.speed_m_s)
-            }
+            (None, None, None) => side_m_s.filter(|_| self.silence.lasts(AWAITED_S)).unwrap_or(self.speed_m_s),
         };
     }
 }

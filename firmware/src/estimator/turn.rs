@@ -1,5 +1,6 @@
 //! How the body turns, which carries the velocity of its midpoint over to the ends of the differential axis.
 
+use super::silence::Silence;
 use crate::rover::SensorNoise;
 use crate::scalar::Scalar;
 
@@ -13,14 +14,14 @@ const AWAITED_S: f64 = 0.95;
 /// The turning about one axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn<S> {
-    /// How long the gyro has said nothing of it, s, up to when it is not awaited any more.
-    silent_s: S,
+    /// Of the gyro.
+    silence: Silence<S>,
 }
 
 impl<S: Scalar> Turn<S> {
     /// Nothing was heard of it.
     pub fn new() -> Self {
-        Self { silent_s: S::constant(AWAITED_S) }
+        Self { silence: Silence::of(AWAITED_S) }
     }
 
     /// The velocity, m/s, at an end that is `arm_m` from the midpoint, of which the velocimeter says `velocity_m_s` and the gyro this rate,
@@ -35,9 +36,8 @@ impl<S: Scalar> Turn<S> {
         step_s: S,
         noise: &SensorNoise<S>,
     ) -> (Option<S>, S) {
-        let awaited = S::constant(AWAITED_S);
-        self.silent_s = if rate_rad_s.is_some() { S::zero() } else { (self.silent_s + step_s).min(awaited) };
-        let is_told = rate_rad_s.is_some() || self.silent_s >= awaited;
+        self.silence.follow(rate_rad_s.is_some(), step_s);
+        let is_told = rate_rad_s.is_some() || self.silence.lasts(AWAITED_S);
         let turn_std = arm_m * if rate_rad_s.is_some() { noise.gyro_rad_s } else { S::constant(UNSEEN) };
         let by_turning = rate_rad_s.unwrap_or(S::zero()) * arm_m;
         let at_end = velocity_m_s.filter(|_| is_told).map(|velocity| velocity + by_turning);

@@ -1,5 +1,7 @@
 //! Errors of the wheels' estimates against the truth, quantity by quantity, beside those of the raw sensors.
 
+use std::iter::Sum;
+
 use kapvik_firmware::estimator::Estimate;
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::PerWheel;
@@ -15,15 +17,20 @@ pub struct Errors {
     tallies: [Tally; Quantity::ALL.len()],
 }
 
+impl Sum for Errors {
+    /// The errors of all drives together.
+    fn sum<I: Iterator<Item = Self>>(drives: I) -> Self {
+        drives.fold(Self::default(), |mut sum, drive| {
+            sum.tallies.iter_mut().zip(&drive.tallies).for_each(|(sum, part)| sum.add(part));
+            sum
+        })
+    }
+}
+
 impl Errors {
     /// The errors in a quantity.
     pub fn of(&self, quantity: Quantity) -> &Tally {
         &self.tallies[quantity as usize]
-    }
-
-    /// Adds the errors of another drive.
-    pub fn add(&mut self, other: &Self) {
-        self.tallies.iter_mut().zip(&other.tallies).for_each(|(sum, part)| sum.add(part));
     }
 
     /// Takes the estimates of a frame, what that frame and the last second of the raw sensors say, and the truth.

@@ -43,10 +43,7 @@ pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>
 impl Trial {
     /// Errors of all drives.
     pub fn errors(&self) -> Errors {
-        self.drives.iter().fold(Errors::default(), |mut sum, drive| {
-            sum.add(&drive.errors);
-            sum
-        })
+        self.drives.iter().map(|drive| drive.errors).sum()
     }
 
     /// Root mean square error in a quantity over that of the raw sensors, with one standard error.

@@ -73,41 +73,49 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     /// The same where the torque swings: then it is what the drive gives now, but for what the drive's inertia takes where the rate changes
     /// by more than noise; what it was a frame ago tells nothing.
     pub(super) fn swing_over(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
-        self.trends.forget();
-        self.trends.expect([S::zero(); 2]);
         let square = |value: S| value * value;
         let [rate, torque_before, _] = *self.filter.estimate().mean();
-        let [_, of_slip] = self.nominal_variances(travel_m);
-        let slip_factor = self.slip_factor(readings);
-        let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * (motor_torque_nm - torque_before);
         let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
         let turned = (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero());
         let per_torque = step_s * self.model.inverse_inertia;
         let unseen = square(S::constant(UNSEEN_TORQUE_NM) * self.scale.torque);
         let noise = readings.motor_torque_std_nm;
-        let torque_variance = square(noise) + (turned / square(per_torque)).min(unseen);
+        let variance = square(noise) + (turned / square(per_torque)).min(unseen);
         let rate_std = per_torque * noise + turned.sqrt();
-        let slip_std = (of_slip * slip_factor + square(slipped)).sqrt();
-        let _ = self.filter.random_walk(&[rate_std, S::zero(), slip_std]);
-        let _ = self.filter.forget(1, motor_torque_nm, torque_variance.sqrt());
+        let changes_nm = motor_torque_nm - torque_before;
+        self.go_on_from(&ScalarFilter { mean: motor_torque_nm, variance }, changes_nm, rate_std, travel_m, readings);
     }
 
     /// The same where the encoder is silent, by which else a torque makes itself felt: then that of the drive, which holds its rate, is a
     /// measurement of it.
     pub(super) fn hold_rate(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
-        self.trends.forget();
-        self.trends.expect([S::zero(); 2]);
         let [_, mean, _] = *self.filter.estimate().mean();
         let [_, variance, _] = self.filter.estimate().variances();
-        let [of_torque, of_slip] = self.nominal_variances(travel_m);
+        let [of_torque, _] = self.nominal_variances(travel_m);
         let mut torque = ScalarFilter { mean, variance: variance + of_torque * self.torque_rate.factor() };
         let noise = readings.motor_torque_std_nm;
         let spins_up = if readings.settled { S::zero() } else { S::constant(UNSEEN_TORQUE_NM) * self.scale.torque };
         let _ = torque.update(motor_torque_nm, noise * noise + spins_up * spins_up);
-        let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * (torque.mean - mean);
-        let slip_std = (of_slip * self.slip_factor(readings) + slipped * slipped).sqrt();
         let rate_std = step_s * self.model.inverse_inertia * noise;
-        let _ = self.filter.random_walk(&[rate_std, S::zero(), slip_std]);
+        self.go_on_from(&torque, torque.mean - mean, rate_std, travel_m, readings);
+    }
+
+    /// With a torque that is known from the drive alone, N·m, and has changed by so much; the rate goes on as it is, give or take one such
+    /// standard deviation, rad/s.
+    fn go_on_from(
+        &mut self,
+        torque: &ScalarFilter<S>,
+        changes_nm: S,
+        rate_std_rad_s: S,
+        travel_m: S,
+        readings: &WheelReadings<S>,
+    ) {
+        self.trends.forget();
+        self.trends.expect([S::zero(); 2]);
+        let [_, of_slip] = self.nominal_variances(travel_m);
+        let slipped = S::constant(SWINGS_SLIP) * self.slip_per_torque * changes_nm;
+        let slip_std = (of_slip * self.slip_factor(readings) + slipped * slipped).sqrt();
+        let _ = self.filter.random_walk(&[rate_std_rad_s, S::zero(), slip_std]);
         let _ = self.filter.forget(1, torque.mean, torque.variance.sqrt());
     }
 
