@@ -1,8 +1,9 @@
 //! Candidates on top of one model that are in question, and the best of them.
 
+use super::bench::{Bench, Glance};
 use super::fit::HeldOutRun;
 use super::selection::{dispersion, enough, is_misfit, predicts_better, worth};
-use super::trial::{Bench, Glance, Trial};
+use super::trial::Trial;
 use super::unseen_runs::{HeldOutGain, held_out};
 
 /// Times the distance at which candidates are in question from which a few steps will not bring one near.

@@ -7,9 +7,10 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use super::bench::Bench;
 use super::field::Field;
 use super::fit::HeldOutRun;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 
 /// What is done without a group of runs.
 pub struct Fold<'a> {
@@ -100,7 +101,7 @@ mod tests {
         let campaign = Carried::from_name("cmu-smooth-straight").expect("carried").campaign().expect("a campaign");
         let measurements = Measurements::of(&campaign, false).expect("measured");
         let bench = Bench::new(&campaign, &measurements);
-        let all = bench.from_many_starts(Specification::default()).expect("a fit");
+        let all = bench.fitted_from_many_starts(Specification::default()).expect("a fit");
         let groups = groups(measurements.runs.len(), measurements.rows.len());
         let fold = |group: usize| {
             let bench = bench.without(&groups[group]);

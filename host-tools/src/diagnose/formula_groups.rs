@@ -4,12 +4,13 @@ use kapvik_firmware::terramechanics::Soil;
 
 use crate::data::campaign::Channel;
 
+use super::bench::Bench;
 use super::fit::Reading;
 use super::formula::{Group, figure, rounded};
 use super::linearised::Linearised;
 use super::measurements::median;
 use super::regressors::{correlation, is_scatter, values};
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 
 /// Share of the rows that must have a column.
 const KNOWN_SHARE: f64 = 0.8;

@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 
+use super::bench::Bench;
 use super::document::{Estimate, FoundLaw};
 use super::fit::{Fit, Reading};
 use super::formula::{Group, Term, figure, terms};
@@ -13,7 +14,7 @@ use super::measurements::COLUMNS;
 use super::residual_search::Structure;
 use super::selection::SIGNIFICANT;
 use super::term_screen::Screen;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 use super::unseen_runs::{gains, groups as folds, summed};
 
 /// Most terms of a law.

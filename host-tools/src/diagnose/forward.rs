@@ -1,11 +1,12 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
+use super::bench::Bench;
 use super::mimicry::{is_mimic, is_own_law};
 use super::pairs::{Known, Pair, alone, from_ahead, from_known};
 use super::residual_search::{Structure, search};
 use super::selection::{Judged, Step, TELLS_APART, look_ahead};
 use super::steps::Steps;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 
 /// Most effects that are looked for.
 const MOST_EFFECTS: usize = 4;

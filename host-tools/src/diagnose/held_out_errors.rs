@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::bench::Bench;
 use super::document::ErrorPair;
 use super::fit::{CHANNELS, HeldOut};
 use super::folds::{Fold, choose};
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 use super::unseen_runs::groups;
 
 /// Predictions of each row by models that did not know its run.

@@ -1,5 +1,6 @@
 //! Whether an effect only mimics a dependence that no physics stands behind.
 
+use super::bench::Bench;
 use super::candidates::read_from;
 use super::fit::Reading;
 use super::linearised::{AddedTerms, Linearised};
@@ -7,7 +8,7 @@ use super::measurements::COLUMNS;
 use super::residual_search::Structure;
 use super::selection::{PARAMETER_COST, Step, TELLS_APART};
 use super::specification::EffectForm;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 use crate::data::campaign::Channel;
 
 /// What the dependence must still gain in ln likelihood beside the effect to be more than the effect is.

@@ -1,6 +1,7 @@
 //! A campaign, diagnosed.
 
 use super::assemble::assemble;
+use super::bench::Bench;
 use super::candidates::is_measured;
 use super::curvature::{add_curvature, curvature};
 use super::document::Diagnosis;
@@ -13,7 +14,7 @@ use super::levels::levels_left_out;
 use super::lone_rows::{LoneRow, bearing, in_words};
 use super::measurements::{COLUMNS, Measurements};
 use super::specification::Specification;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 use crate::data::campaign::{Campaign, Fingerprint};
 use crate::error::HostError;
 use crate::report::diagnosis::{Trace, Traced};
@@ -169,7 +170,7 @@ pub(super) fn declared_model<'a>(bench: &Bench<'a>) -> Result<Trial<'a>, HostErr
     let mut best: Option<Trial<'a>> = None;
     let mut refused = None;
     for specification in specifications {
-        match bench.from_many_starts(specification) {
+        match bench.fitted_from_many_starts(specification) {
             Ok(trial) if best.as_ref().is_none_or(|best| trial.log_posterior() > best.log_posterior()) => {
                 best = Some(trial)
             }

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use crate::data::campaign::Channel;
 
+use super::bench::Bench;
 use super::candidates::{loads_differ, rates_differ};
 use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
 use super::measurements::COLUMNS;
 use super::rates::speed_ratio;
-use super::trial::Bench;
 
 /// A column, or a product of two, about zero and one in size. What is made of slip, load, sinkage or speed is a function of
 /// the true slip and load as they were fitted, not of their readings.

@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
+use super::bench::Bench;
 use super::chance::{beside_noise, over_all, squares_gained};
 use super::fit::{Fit, Reading, Row};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
 use super::selection::{PARAMETER_COST, TELLS_APART};
 use super::term_screen::Screen;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 use super::unseen_runs::HeldOutGain;
 
 /// A channel's dependence on a column.

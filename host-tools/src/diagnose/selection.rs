@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::bench::{Bench, Glance};
 use super::candidates::candidates;
 use super::fit::HeldOutRun;
 use super::gain_chance::Gain;
 use super::specification::EffectForm;
-use super::trial::{Bench, Glance, Trial};
+use super::trial::Trial;
 use super::unseen_runs::{HeldOutGain, held_out, nearly_held_out};
 
 /// The chance, over all candidates, below which a gain is taken for an effect: less than half of the false alarms that are

@@ -2,8 +2,9 @@
 
 use std::cell::RefCell;
 
+use super::bench::Bench;
 use super::selection::{Step, step};
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 
 /// Difference in ln posterior below which two fits of a model are the same optimum.
 const SAME: f64 = 0.1;

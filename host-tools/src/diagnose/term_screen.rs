@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::bench::Held;
 use super::fit::{Fit, Latent, Model, Prediction, Reading, Row};
 use super::linearised::{AddedTerms, Linearised};
-use super::trial::Held;
 
 /// Standard deviations beyond which a residual counts as so many.
 const OUTLIER: f64 = 3.0;

@@ -2,13 +2,14 @@
 
 use kapvik_firmware::terramechanics::effects::effect_info;
 
+use super::bench::Bench;
 use super::candidates::is_measured;
 use super::field::chosen;
 use super::gain_chance::Gain;
 use super::outcome::{DiagnoseOptions, declared_model, measured};
 use super::selection::SIGNIFICANT;
 use super::specification::EffectForm;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 use super::unseen_runs::{HeldOutGain, held_out};
 use crate::data::campaign::Campaign;
 use crate::error::HostError;

@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use super::bench::Bench;
 use super::fit::HeldOutRun;
-use super::trial::{Bench, Trial};
+use super::trial::Trial;
 
 /// Groups that many runs are divided into; each is left out in turn.
 const GROUPS: usize = 6;

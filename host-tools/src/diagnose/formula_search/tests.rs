@@ -102,7 +102,7 @@ fn campaign(seed: u64, runs: usize, law: impl Fn(&mut Truth)) -> Campaign {
 fn found(campaign: &Campaign) -> Option<FoundLaw> {
     let measurements = Measurements::of(campaign, false).expect("measurements");
     let bench = Bench::new(campaign, &measurements);
-    let trial = bench.from_many_starts(Specification::default()).expect("a fit");
+    let trial = bench.fitted_from_many_starts(Specification::default()).expect("a fit");
     let dispersion = trial.fit.dispersion.max(1.0);
     let structure = search(&bench, &trial, dispersion).into_iter().next().expect("something was tried");
     law(&bench, &trial, &structure, dispersion)
