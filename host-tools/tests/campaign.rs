@@ -78,6 +78,15 @@ fn columns_of_numbers_are_kept_and_empty_fields_are_not_measured() {
 }
 
 #[test]
+fn a_remark_may_be_a_number_but_a_number_no_remark() {
+    let remarks = parse(&CSV.replace(",first", ",wet").replace("second", "2").replace("22,\n", "22,dry\n"), TOML)
+        .expect("a remark more");
+    assert_eq!(remarks.column("note"), None, "two of three remarks are text");
+    let error = parse(&CSV.replace("21.5", "warm"), TOML).expect_err("no temperature");
+    assert!(error.starts_with("test.csv:2:8: camera_c: `warm`"), "{error}");
+}
+
+#[test]
 fn only_name_kind_and_wheel_must_be_said() {
     let toml = "name = \"x\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.1\nwidth_m = 0.1\n";
     let campaign = parse(CSV, toml).expect("enough");

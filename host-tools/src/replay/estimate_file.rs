@@ -14,7 +14,7 @@ use crate::data::sensor_channels::WHEEL_NAMES;
 enum Field {
     Time(u64),
     Number(Option<f32>),
-    Flag(Option<bool>),
+    Flag(bool),
     Count(Option<u16>),
     Word(&'static str),
 }
@@ -71,10 +71,10 @@ impl Field {
         match self {
             Self::Time(time_us) => write_seconds(out, time_us),
             Self::Number(Some(number)) => write!(out, "{number:?}"),
-            Self::Flag(Some(flag)) => write!(out, "{}", u8::from(flag)),
+            Self::Flag(flag) => write!(out, "{}", u8::from(flag)),
             Self::Count(Some(count)) => write!(out, "{count}"),
             Self::Word(word) => write!(out, "{word}"),
-            Self::Number(None) | Self::Flag(None) | Self::Count(None) => Ok(()),
+            Self::Number(None) | Self::Count(None) => Ok(()),
         }
     }
 }
@@ -121,7 +121,8 @@ fn soil_fields(after: &str, soil: Option<&SoilEstimate>, put: &mut impl FnMut(Ar
         let parameter = soil.map(of);
         put(format_args!("{name}{after}"), Field::Number(parameter.map(|parameter| parameter.value)));
         put(format_args!("{name}{after}_std"), Field::Number(parameter.map(|parameter| parameter.std)));
-        put(format_args!("{name}{after}_identifiable"), Field::Flag(parameter.map(|parameter| parameter.identifiable)));
+        let identifiable = parameter.is_some_and(|parameter| parameter.identifiable);
+        put(format_args!("{name}{after}_identifiable"), Field::Flag(identifiable));
     };
     parameter("cohesion_pa", |soil| &soil.cohesion_pa);
     parameter("friction_angle_rad", |soil| &soil.friction_angle_rad);
@@ -188,7 +189,7 @@ mod tests {
         assert_eq!(field("slip_fl").parse(), Ok(0.1_f32));
         assert_eq!(field("slip_fl_std").parse(), Ok(1.0e-9_f32));
         assert_eq!((field("slip_ml"), field("slip_ml_std")), ("", ""));
-        assert_eq!((field("cohesion_pa"), field("cohesion_pa_identifiable"), field("soil_changes")), ("", "", ""));
+        assert_eq!((field("cohesion_pa"), field("cohesion_pa_identifiable"), field("soil_changes")), ("", "0", ""));
         assert_eq!(field("activity_rr"), "standing");
         assert_eq!(rows[1].len(), rows[0].len());
     }

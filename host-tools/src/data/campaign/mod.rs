@@ -282,9 +282,9 @@ fn numeric_columns(table: &Table) -> Result<Vec<Measured>, HostError> {
     Ok(columns)
 }
 
-/// Whether no field of the column is a number and at least one is not empty.
+/// Whether more fields of the column are text than are numbers: a remark may be `3`, and a slip of the pen in a column of numbers is an error.
 fn is_text(table: &Table, column: Column) -> bool {
-    let mut fields =
-        (0..table.len()).map(|row| table.text(row, column).trim()).filter(|text| !text.is_empty()).peekable();
-    fields.peek().is_some() && fields.all(|text| text.parse::<f64>().is_err())
+    let fields = (0..table.len()).map(|row| table.text(row, column).trim()).filter(|text| !text.is_empty());
+    let (numbers, texts): (Vec<&str>, Vec<&str>) = fields.partition(|text| text.parse::<f64>().is_ok());
+    texts.len() > numbers.len()
 }
