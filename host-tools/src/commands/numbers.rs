@@ -18,3 +18,12 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
 pub fn above_zero(text: &str) -> Result<f64, String> {
     not_negative(text).ok().filter(|number| *number > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
+
+/// A number above 0, at most `most`.
+///
+/// # Errors
+/// What was expected.
+pub fn above_zero_at_most(text: &str, most: f64) -> Result<f64, String> {
+    let number = above_zero(text).ok().filter(|number| *number <= most);
+    number.ok_or_else(|| format!("expected a number above 0, at most {most}"))
+}

@@ -16,7 +16,7 @@ use crate::simulate::faults::{FAILURES, Fault};
 use crate::simulate::ground_soils::{Becomes, Change};
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
 
-use super::numbers::above_zero;
+use super::numbers::above_zero_at_most;
 use super::soil_argument;
 
 /// What to simulate, and where it goes.
@@ -31,8 +31,8 @@ pub struct Arguments {
     /// The kind of drive
     #[arg(long, value_enum, default_value = "traverse")]
     scenario: Scenario,
-    /// How long it takes, s, in place of the scenario's own length
-    #[arg(long, value_name = "S", value_parser = above_zero)]
+    /// How long it takes, s, in place of the scenario's own length; at most 10 million
+    #[arg(long, value_name = "S", value_parser = duration)]
     duration: Option<f64>,
     /// Frames a second, at most 1000
     #[arg(long, value_name = "HZ", value_parser = rate, default_value_t = RATE_HZ)]
@@ -52,8 +52,8 @@ pub struct Arguments {
     /// grouser-ripple, rear-contact, peak-stress-shift, grouser-thrust, interface-friction, shear-hump, bulldozing. Of sensors
     /// and drives: drive-friction (N·m), drive-viscosity (N·m·s/rad), torque-scale, force-bias (of the load cells, N),
     /// force-drift (of the load cells, N/h), crosstalk (of the force along the link into the load cells), guide-friction,
-    /// rolling-radius (m), pitch-misalignment (of accelerometer and gyro, rad), velocity-scale, latency (s). Any parameter
-    /// of an effect: ID.PARAMETER=VALUE.
+    /// rolling-radius (m), pitch-misalignment (of accelerometer and gyro, rad), velocity-scale, latency (s), rim-wander (share of
+    /// its speed by which each wheel slowly departs from its command). Any parameter of an effect: ID.PARAMETER=VALUE.
     ///
     /// Faults: nan, inf, outlier (a million), stuck, dropout, each with SENSOR@T1-T2: a column of the frames, or a pattern with
     /// `*`, and times in s. repeat-frames and skip-frames take @T1-T2.
@@ -134,10 +134,11 @@ fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Resu
 }
 
 fn rate(text: &str) -> Result<f64, String> {
-    above_zero(text)
-        .ok()
-        .filter(|rate| *rate <= 1000.0)
-        .ok_or_else(|| "expected a number above 0, at most 1000".to_owned())
+    above_zero_at_most(text, 1000.0)
+}
+
+fn duration(text: &str) -> Result<f64, String> {
+    above_zero_at_most(text, 1.0e7)
 }
 
 fn change(text: &str) -> Result<Change, HostError> {

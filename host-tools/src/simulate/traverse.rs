@@ -119,6 +119,10 @@ impl Traverse {
         let mut truly = *rover;
         let excess = options.effects.library.rolling_radius.map_or(0.0, |wrong| wrong.excess);
         truly.wheel.radius_m = rover.wheel.radius_m / (1.0 + excess) + options.effects.rolling_radius_m;
+        let mut programme = course.programme;
+        if options.effects.rim_wander > 0.0 {
+            programme.wander.iter_wheels_mut().for_each(|wander| wander.share = options.effects.rim_wander);
+        }
         let grousers = options.grousers.unwrap_or(RoverFile::assumed().grousers);
         let changes = options.changes.clone().unwrap_or(course.changes);
         let world = World {
@@ -136,7 +140,7 @@ impl Traverse {
         random.set_word_pos(0);
         Ok(Self {
             world,
-            programme: course.programme,
+            programme,
             effects: options.effects,
             faults: Faults::new([course.faults, options.faults.clone()].concat()),
             stepper,

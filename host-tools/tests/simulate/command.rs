@@ -156,6 +156,17 @@ fn refused(folder: &Folder, arguments: &[&str], expected: &str, files: usize) {
 }
 
 #[test]
+fn no_drive_has_more_frames_than_can_be_counted() {
+    for (option, number, most) in [("--duration", "1e30", "10000000"), ("--rate", "1e9", "1000")] {
+        let folder = Folder::new();
+        let output = folder.run(&["--seed", "1", "-o", "a.csv", option, number]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && said.contains(&format!("at most {most}")), "{option} {number}: {said}");
+        assert_eq!(folder.files(), 0, "{option} {number} left something behind");
+    }
+}
+
+#[test]
 fn what_was_there_survives_a_refusal() {
     let folder = Folder::new();
     fs::write(folder.0.path().join("a.csv"), "before").expect("written");
