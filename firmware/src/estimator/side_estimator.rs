@@ -15,6 +15,7 @@ use super::load_shift::HubShift;
 use super::rim_speed::RimSpeed;
 use super::scale::Scale;
 use super::side_frame::{SENSORS, SideFrame};
+use super::since_start::SinceStart;
 use super::sinking::Sinking;
 use super::slip_by_speeds::SpeedReadings;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
@@ -28,13 +29,6 @@ use crate::scalar::Scalar;
 /// Below this force on its cell a wheel is lifted, over its load at rest; or below three standard deviations, but not above the other.
 const LIFTED: f64 = 0.03;
 const GREATEST_LIFTED: f64 = 0.09;
-/// A wheel has started after so long, s.
-const SETTLING_S: f64 = 0.75;
-/// After so long its wandering is learned afresh, s; and it has settled a tenth of a second later, give or take half of that.
-const SETTLED_S: f64 = 1.85;
-const STEADY_S: f64 = 1.95;
-/// A longer step counts as so long, s: to start takes some frames, too.
-const LONGEST_STEP_S: f64 = 0.25;
 /// Where torques swing, wheels go up and down with the grousers, and links with them, which no sensor follows: one standard deviation of what
 /// that adds to the speed of a hub, over the speed of its rim.
 const SWINGS_HUB: f64 = 0.08;
@@ -51,8 +45,7 @@ pub(super) struct SideEstimator<S> {
     pub(super) wheels: PerAxle<SlipTorqueFilter<S>>,
     pub(super) forces: HubForceFilter<S>,
     pub(super) activity: PerAxle<WheelActivity>,
-    /// How long each wheel has not stood, s, up to when it has settled.
-    rolling_s: PerAxle<S>,
+    since_start: PerAxle<SinceStart<S>>,
     pub(super) motion: RollingMotion<S>,
     rims: RimSpeed<S>,
     /// Which wheels bear no load that their cells can tell from none.
@@ -116,7 +109,7 @@ impl<S: Scalar> SideEstimator<S> {
             wheels: PerAxle { front: wheel(0), middle: wheel(1), rear: wheel(2) },
             forces: HubForceFilter::new(rover, phase),
             activity: PerAxle::default(),
-            rolling_s: PerAxle::all(S::zero()),
+            since_start: PerAxle::all(SinceStart::standing()),
             rims: RimSpeed::unheard(),
             lifted: PerAxle::all(false),
             starts: true,
@@ -160,7 +153,7 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// Which wheels do.
     pub(super) fn settled(&self) -> PerAxle<bool> {
-        self.rolling_s.map(|rolling| rolling >= S::constant(STEADY_S))
+        self.since_start.map(|wheel| wheel.is_steady())
     }
 
     /// How fast this side travels, m/s, forward or back.
@@ -259,21 +252,19 @@ impl<S: Scalar> SideEstimator<S> {
     ) {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
-        let steady = S::constant(STEADY_S);
-        let counts_s = step_s.min(S::constant(LONGEST_STEP_S));
         let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
         let others_stand = self.rims.speed_m_s().abs() < S::constant(STANDING);
         let others_rad_s = self.rims.speed_m_s() / self.rover.wheel.radius_m;
         let [mut starts, mut settles, mut stands, mut swings] = [false; 4];
-        let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.rolling_s.as_mut()));
+        let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.since_start.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let rates = frame.wheel_rate_rad_s.zip(frame.wheel_rate_repeats);
         let inputs = wheels.as_ref().zip(rates.zip(frame.motor_torque_nm));
-        for (((filter, (activity, rolling)), (told, surprise)), (wheel, ((rate, repeats), torque))) in
+        for (((filter, (activity, since_start)), (told, surprise)), (wheel, ((rate, repeats), torque))) in
             filters.zip(told).zip(inputs).into_array()
         {
             let rate = rate.map(|rate| rate - wheel.link_rate_rad_s);
-            if rate.is_none() && (others_stand || *rolling < S::constant(SETTLING_S)) {
+            if rate.is_none() && (others_stand || since_start.starts()) {
                 filter.suppose_rate(others_rad_s);
             }
             let rim = self.rover.wheel.radius_m * filter.rate_before(rate);
@@ -290,13 +281,12 @@ impl<S: Scalar> SideEstimator<S> {
             }
             *activity = now;
             stands |= now == WheelActivity::Standing;
-            let before = *rolling;
-            *rolling = if now == WheelActivity::Standing { S::zero() } else { (before + counts_s).min(steady) };
-            if *rolling < S::constant(SETTLING_S) {
+            let has_settled = since_start.follow(now == WheelActivity::Standing, step_s);
+            if since_start.starts() {
                 filter.unsettle(step_s);
                 starts = true;
             }
-            if before < S::constant(SETTLED_S) && *rolling >= S::constant(SETTLED_S) {
+            if has_settled {
                 filter.settle();
                 settles = true;
             }
@@ -307,7 +297,8 @@ impl<S: Scalar> SideEstimator<S> {
                 side_swings: self.swings,
                 shared_speed_std_m_s: noise.velocity_m_s,
                 roughness,
-                settled: *rolling >= S::constant(SETTLED_S),
+                settled: since_start.has_settled(),
+                link_rate_rad_s: wheel.link_rate_rad_s,
                 motor_torque_nm: torque,
                 motor_torque_std_nm: noise.motor_torque_nm,
             };

@@ -13,6 +13,7 @@ mod tests;
 use super::activity::BLOCKED;
 use super::camera_error::CameraError;
 use super::drive_inertia::DriveInertia;
+use super::rate_growth::RateGrowth;
 use super::scale::Scale;
 use super::slip_by_speeds::SpeedReadings;
 use super::swing::Swing;
@@ -42,6 +43,8 @@ pub(super) struct WheelReadings<S> {
     pub side_swings: bool,
     /// Whether the wheel rolls as it will: it neither starts nor stops.
     pub settled: bool,
+    /// How fast its link turns nose-up, rad/s.
+    pub link_rate_rad_s: S,
     /// Torque of the drive, N·m.
     pub motor_torque_nm: Option<S>,
     /// One standard deviation of that, N·m.
@@ -64,6 +67,10 @@ const LOOSENED: [f64; STATES] = [0.0, 0.5, 0.1];
 const LEARNED: f64 = 0.25;
 /// A torque hardly tells a rate that its noise makes uncertain by so many times what the encoder does.
 const HARDLY_TOLD: f64 = 8.0;
+/// A drive holds its rate to this share in a second, as one standard deviation.
+const HELD: f64 = 0.03;
+/// A torque that is known so many times better than the drive says it, as a variance, has nothing from that any more.
+const KNOWN_WITHOUT: f64 = 2.5;
 /// One standard deviation of a wheel's rate about that of the others, over that; and of one that stands, rad/s.
 const UNLIKE_OTHERS: f64 = 0.4;
 const SUPPOSED_AT_REST: f64 = 0.01;
@@ -83,6 +90,9 @@ pub(super) struct SlipTorqueFilter<S> {
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
     camera_error: CameraError<S>,
+    rate_growth: RateGrowth<S>,
+    /// How fast the link turned in the frame before, rad/s.
+    link_rate_rad_s: S,
     watch: Watch<MEASUREMENTS>,
     /// Of torque and slip.
     trends: Trends<S, 2>,
@@ -110,6 +120,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             torque_rate: WalkRate::new(phase).forgetting(TORQUE_FORGOTTEN),
             slip_rate: WalkRate::new(phase + 2),
             camera_error: CameraError::none(),
+            rate_growth: RateGrowth::none(),
+            link_rate_rad_s: S::zero(),
             watch: Watch::new(),
             trends: Trends::new(),
             drift_variances: [S::zero(); 2],
@@ -194,17 +206,24 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     /// Carries the state a step further, over so much travel, and takes what was measured.
     pub fn tick(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
+        // The drive, and with it its inertia, turns the wheel against its link.
+        self.filter.shift(0, self.link_rate_rad_s - readings.link_rate_rad_s);
+        self.link_rate_rad_s = readings.link_rate_rad_s;
         self.learn_rates(step_s, travel_m, readings);
         self.swing.take(readings.motor_torque_nm, readings.motor_torque_std_nm * self.scale.torque);
         let swings = readings.side_swings || self.swings();
         let says_most = swings || readings.speeds.rate_rad_s.is_none();
         let by_drive = readings.motor_torque_nm.filter(|_| says_most);
+        let turned = self.turned(readings);
         match by_drive {
-            Some(torque) if swings => self.swing_over(step_s, travel_m, torque, readings),
+            Some(torque) if swings => self.swing_over(step_s, travel_m, torque, turned, readings),
             Some(torque) => self.hold_rate(step_s, travel_m, torque, readings),
             None => self.predict(step_s, travel_m, readings),
         }
         let [_, torque, slip] = *self.filter.estimate().mean();
+        if by_drive.is_none() {
+            self.take_drive(step_s, turned, readings);
+        }
         let told = self.update(step_s, readings);
         self.camera_error.follow(self.filter.estimate(), self.model.radius_m, readings);
         self.follow_inertia(readings);
@@ -216,20 +235,47 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             Contradiction::Moved => self.jump(&told, readings),
             Contradiction::Wrong => self.loosen(&of_rover(&UNKNOWN, &self.scale)),
         }
+        let [rate, ..] = *self.filter.estimate().mean();
+        self.rate_growth.follow(step_s, rate);
         told
+    }
+
+    /// Takes the drive's torque for a measurement of the soil's, as it is where the rate is held, so far as that is known worse. What is known
+    /// about as well or better is known from the same readings, by what they did to the rate, and they would count twice.
+    fn take_drive(&mut self, step_s: S, turned: S, readings: &WheelReadings<S>) {
+        let Some(motor) = readings.motor_torque_nm.filter(|_| readings.settled && self.tells_rate(step_s, readings))
+        else {
+            return;
+        };
+        let [_, variance, _] = self.filter.estimate().variances();
+        let [rate, ..] = *self.filter.estimate().mean();
+        let square = |value: S| value * value;
+        let grows = square(S::constant(HELD) * rate) + square(self.rate_growth.rad_s2());
+        let speeds_up = (grows + turned / square(step_s)) / square(self.model.inverse_inertia);
+        let noise = square(readings.motor_torque_std_nm) + speeds_up;
+        let known = noise / variance;
+        if known < S::constant(KNOWN_WITHOUT) {
+            let twice = S::constant(2.0) + square(square(known + known));
+            self.filter.take(&[S::zero(), S::one(), S::zero()], motor, noise * twice);
+        }
     }
 
     /// Takes in what was measured. Where the torque hardly tells the rate a step on, as in a drive of little inertia, the encoder comes first:
     /// the speed of the hub goes with rate and slip multiplied, and over all the rates that there might be it would tell little of the slip.
     fn update(&mut self, step_s: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
         let SpeedReadings { rate_rad_s, hub_speed_m_s, .. } = readings.speeds;
-        let by_torque = step_s * readings.motor_torque_std_nm * self.model.inverse_inertia;
-        let at_once = by_torque <= S::constant(HARDLY_TOLD) * readings.rate_std_rad_s;
+        let at_once = self.tells_rate(step_s, readings);
         let mut told = self.take(&[rate_rad_s, hub_speed_m_s.filter(|_| at_once)], readings);
         if !at_once {
             told = told.followed_by(self.take(&[None, hub_speed_m_s], readings));
         }
         told
+    }
+
+    /// Whether the torque tells the rate a step on.
+    fn tells_rate(&self, step_s: S, readings: &WheelReadings<S>) -> bool {
+        let by_torque = step_s * readings.motor_torque_std_nm * self.model.inverse_inertia;
+        by_torque <= S::constant(HARDLY_TOLD) * readings.rate_std_rad_s
     }
 
     fn take(

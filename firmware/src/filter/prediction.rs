@@ -91,6 +91,14 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         self.finish(self.estimate.mean)
     }
 
+    /// One state has changed by so much, which is known: its mean moves, and nothing is less sure. Nothing happens where there is no state of
+    /// that index, or where the mean would not be finite.
+    pub fn shift(&mut self, index: usize, by: T) {
+        if let Some(place) = self.estimate.mean.get_mut(index).filter(|place| (**place + by).is_finite()) {
+            *place += by;
+        }
+    }
+
     /// Forgets one state alone: it becomes `mean` with standard deviation `std`, independent of the others, of which
     /// everything stays known. Nothing happens where there is no state of that index.
     ///

@@ -52,6 +52,11 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         &self.estimate
     }
 
+    /// Takes a measurement of a weighted sum of the states, as [`Gaussian::take`] does.
+    pub fn take(&mut self, weights: &[T; N], measured: T, noise_variance: T) {
+        self.estimate.take(weights, measured, noise_variance);
+    }
+
     /// How often a factorisation has failed since construction.
     pub fn resets(&self) -> u32 {
         self.resets

@@ -52,8 +52,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             Some(_) => readings.motor_torque_std_nm,
             None => S::constant(UNSEEN_TORQUE_NM) * self.scale.torque,
         };
-        let drift = |nominal: S, factor: S, restless: S| nominal * factor * beside_trend(BESIDE_TREND, restless);
         let [of_torque, of_slip] = self.nominal_variances(travel_m);
+        let drift = |nominal: S, factor: S, restless: S| nominal * factor * beside_trend(BESIDE_TREND, restless);
         let [restless_torque, restless_slip] = restless;
         self.drift_variances =
             [drift(of_torque, torque_factor, restless_torque), drift(of_slip, slip_factor, restless_slip)];
@@ -71,12 +71,17 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     }
 
     /// The same where the torque swings: then it is what the drive gives now, but for what the drive's inertia takes where the rate changes
-    /// by more than noise; what it was a frame ago tells nothing.
-    pub(super) fn swing_over(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
+    /// by more than noise, as a square; what it was a frame ago tells nothing.
+    pub(super) fn swing_over(
+        &mut self,
+        step_s: S,
+        travel_m: S,
+        motor_torque_nm: S,
+        turned: S,
+        readings: &WheelReadings<S>,
+    ) {
         let square = |value: S| value * value;
-        let [rate, torque_before, _] = *self.filter.estimate().mean();
-        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
-        let turned = (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero());
+        let [_, torque_before, _] = *self.filter.estimate().mean();
         let per_torque = step_s * self.model.inverse_inertia;
         let unseen = square(S::constant(UNSEEN_TORQUE_NM) * self.scale.torque);
         let noise = readings.motor_torque_std_nm;
@@ -84,6 +89,14 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let rate_std = per_torque * noise + turned.sqrt();
         let changes_nm = motor_torque_nm - torque_before;
         self.go_on_from(&ScalarFilter { mean: motor_torque_nm, variance }, changes_nm, rate_std, travel_m, readings);
+    }
+
+    /// By how much the rate has changed since the frame before, beyond noise, as its square, rad²/s².
+    pub(super) fn turned(&self, readings: &WheelReadings<S>) -> S {
+        let [rate, ..] = *self.filter.estimate().mean();
+        let square = |value: S| value * value;
+        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
+        (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero())
     }
 
     /// The same where the encoder is silent, by which else a torque makes itself felt: then that of the drive, which holds its rate, is a

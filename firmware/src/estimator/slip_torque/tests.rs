@@ -13,6 +13,7 @@ fn readings(direction: f64, torque: f64, seen: bool) -> WheelReadings<f64> {
         roughness: 0.0,
         side_swings: false,
         settled: true,
+        link_rate_rad_s: 0.0,
         motor_torque_nm: Some(direction * torque),
         motor_torque_std_nm: 0.05,
     }
@@ -82,4 +83,23 @@ fn a_wheel_without_an_encoder_follows_its_drive() {
     assert!(torques.last().is_some_and(|torque| (torque - 1.5).abs() < 1.0e-3), "{torques:?}");
     assert!((rate - 0.3).abs() < of_rate && (slip - 0.2).abs() < of_slip, "{rate} ± {of_rate}, {slip} ± {of_slip}");
     assert!(of_slip > 0.1, "nothing tells the two apart: {of_slip}");
+}
+
+/// The drive's inertia goes with the rate against the link: a link that turns faster and faster takes the wheel along, and no torque.
+#[test]
+fn a_link_that_gains_speed_is_no_torque() {
+    let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
+    (0..100).for_each(|_| {
+        let _ = after(&mut filter, &readings(1.0, 1.5, true));
+    });
+    for frame in 1..=10 {
+        let mut turning = readings(1.0, 1.5, true);
+        turning.link_rate_rad_s = 0.01 * f64::from(frame);
+        let rate = 0.3 - turning.link_rate_rad_s;
+        turning.settled = false;
+        turning.speeds.rate_rad_s = Some(rate);
+        turning.speeds.hub_speed_m_s = Some(0.8 * rate * 0.075);
+        let (torque, slip) = after(&mut filter, &turning);
+        assert!((torque - 1.5).abs() < 0.02 && (slip - 0.2).abs() < 0.005, "{frame}: {torque} {slip}");
+    }
 }
