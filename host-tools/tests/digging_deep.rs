@@ -4,7 +4,7 @@
 use kapvik_firmware::rover::Rover;
 use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Drive, Quantity};
+use kapvik_host::trial::{Quantity, errors_over};
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8200..8220;
@@ -15,7 +15,7 @@ const LEAST: [(Scenario, [f64; 2]); 2] = [(Scenario::Level, [0.7, 0.8]), (Scenar
 fn errors(scenario: Scenario) -> Errors {
     let mut options = Options::default();
     options.effects.set("slip-sinkage", 0.3).expect("an effect");
-    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors).sum()
+    errors_over(scenario, SEEDS, &Rover::assumed(), &options).expect("drives")
 }
 
 #[test]

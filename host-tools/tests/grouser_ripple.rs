@@ -5,7 +5,7 @@ use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Drive, Quantity};
+use kapvik_host::trial::{Quantity, errors_over};
 
 const SEEDS: std::ops::Range<u64> = 5..9;
 
@@ -17,7 +17,7 @@ fn options(share: f64) -> Options {
 }
 
 fn errors(scenario: Scenario, share: f64) -> Errors {
-    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options(share)).expect("a drive").errors).sum()
+    errors_over(scenario, SEEDS, &Rover::assumed(), &options(share)).expect("drives")
 }
 
 /// The most that errors of slip, torque and load may be, over those of the raw sensors. Of a torque that changes by several times its noise

@@ -4,7 +4,7 @@
 use kapvik_firmware::rover::Rover;
 use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Drive, Quantity};
+use kapvik_host::trial::{Quantity, errors_over};
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8310..8316;
@@ -13,7 +13,7 @@ fn errors(scenario: Scenario, inertia_kg_m2: f64, rate_hz: f64) -> Errors {
     let mut rover = Rover::assumed();
     rover.drive.reflected_inertia_kg_m2 = inertia_kg_m2;
     let options = Options { rate_hz: Some(rate_hz), ..Options::default() };
-    SEEDS.map(|seed| Drive::run(scenario, seed, &rover, &options).expect("a drive").errors).sum()
+    errors_over(scenario, SEEDS, &rover, &options).expect("drives")
 }
 
 #[test]

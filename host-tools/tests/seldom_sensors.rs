@@ -7,7 +7,7 @@ use kapvik_host::data::truth_file::Truth;
 use kapvik_host::simulate::faults::{Failure, Fault};
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Drive, Quantity};
+use kapvik_host::trial::{Quantity, errors_over};
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8300..8304;
@@ -16,7 +16,7 @@ const LONGEST_S: f64 = 120.0;
 
 fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
     let options = Options { faults: faults.to_vec(), ..Options::default() };
-    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors).sum()
+    errors_over(scenario, SEEDS, &Rover::assumed(), &options).expect("drives")
 }
 
 /// Errors may grow to four times those with all readings, give or take one, and so many must be within two standard deviations.

@@ -5,14 +5,15 @@ use kapvik_firmware::rover::Rover;
 use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Drive, Quantity};
+use kapvik_host::trial::{Quantity, errors_over};
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8320..8326;
 
 fn errors(scenario: Scenario, rim_wander: f64) -> Errors {
-    let options = Options { effects: RoverEffects { rim_wander, ..RoverEffects::default() }, ..Options::default() };
-    SEEDS.map(|seed| Drive::run(scenario, seed, &Rover::assumed(), &options).expect("a drive").errors).sum()
+    let effects = RoverEffects { rim_wander: Some(rim_wander), ..RoverEffects::default() };
+    let options = Options { effects, ..Options::default() };
+    errors_over(scenario, SEEDS, &Rover::assumed(), &options).expect("drives")
 }
 
 #[test]

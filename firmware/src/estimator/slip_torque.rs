@@ -41,7 +41,7 @@ pub(super) struct WheelReadings<S> {
     pub roughness: S,
     /// Whether the torque of a wheel of this side swung in the frame before: grousers are on all of them.
     pub side_swings: bool,
-    /// Whether the wheel rolls as it will: it neither starts nor stops.
+    /// Whether the wheel's start is over: it has not stood for a while.
     pub settled: bool,
     /// How fast its link turns nose-up, rad/s.
     pub link_rate_rad_s: S,

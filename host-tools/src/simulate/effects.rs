@@ -20,8 +20,8 @@ pub struct RoverEffects {
     pub velocity_scale: f64,
     /// How late the velocimeter is, s.
     pub latency_s: f64,
-    /// The share of its speed by which each wheel slowly departs from its command; zero: as the scenario draws it.
-    pub rim_wander: f64,
+    /// The share of its speed by which each wheel slowly departs from its command; none: as the scenario draws it.
+    pub rim_wander: Option<f64>,
 }
 
 /// An effect that the rover has beside those of the library, or by a name of its own.
@@ -40,12 +40,12 @@ const OWN: [OwnEffect; 5] = [
     OwnEffect { id: "rolling-radius", place: |e, value| e.rolling_radius_m = value, range: -0.02..=0.1 },
     OwnEffect { id: "velocity-scale", place: |e, value| e.velocity_scale = value, range: -0.5..=1.0 },
     OwnEffect { id: "latency", place: |e, value| e.latency_s = value, range: 0.0..=10.0 },
-    OwnEffect { id: "rim-wander", place: |e, value| e.rim_wander = value, range: 0.0..=0.5 },
+    OwnEffect { id: "rim-wander", place: |e, value| e.rim_wander = Some(value), range: 0.0..=0.5 },
 ];
 
 impl Default for RoverEffects {
     fn default() -> Self {
-        Self { library: Effects::none(), rolling_radius_m: 0.0, velocity_scale: 0.0, latency_s: 0.0, rim_wander: 0.0 }
+        Self { library: Effects::none(), rolling_radius_m: 0.0, velocity_scale: 0.0, latency_s: 0.0, rim_wander: None }
     }
 }
 

@@ -120,8 +120,8 @@ impl Traverse {
         let excess = options.effects.library.rolling_radius.map_or(0.0, |wrong| wrong.excess);
         truly.wheel.radius_m = rover.wheel.radius_m / (1.0 + excess) + options.effects.rolling_radius_m;
         let mut programme = course.programme;
-        if options.effects.rim_wander > 0.0 {
-            programme.wander.iter_wheels_mut().for_each(|wander| wander.share = options.effects.rim_wander);
+        if let Some(share) = options.effects.rim_wander {
+            programme.wander.iter_wheels_mut().for_each(|wander| wander.share = share);
         }
         let grousers = options.grousers.unwrap_or(RoverFile::assumed().grousers);
         let changes = options.changes.clone().unwrap_or(course.changes);

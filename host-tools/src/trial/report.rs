@@ -40,6 +40,20 @@ pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>
     trial
 }
 
+/// Errors over drives of some seeds with these options, all of which have to succeed.
+///
+/// # Errors
+/// That of the first drive that fails.
+pub fn errors_over(
+    scenario: Scenario,
+    seeds: std::ops::Range<u64>,
+    rover: &Rover<f64>,
+    options: &Options,
+) -> Result<Errors, HostError> {
+    let drives = seeds.into_par_iter().map(|seed| Drive::run(scenario, seed, rover, options).map(|drive| drive.errors));
+    Ok(drives.collect::<Result<Vec<Errors>, HostError>>()?.into_iter().sum())
+}
+
 impl Trial {
     /// Errors of all drives.
     pub fn errors(&self) -> Errors {
