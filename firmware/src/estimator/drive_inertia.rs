@@ -6,12 +6,15 @@
 
 use crate::scalar::Scalar;
 
-/// Of what is new, the part that is taken in at once, and all of it beyond so many standard deviations: rims change their speed from one frame
+/// Of what is new, the part that is taken in at once, and all of it beyond about so many standard deviations: rims change their speed from one frame
 /// to the next.
 const SHARE: f64 = 0.2;
 const JUMPS: f64 = 4.0;
 /// Less than so many standard deviations of the drive's torque is taken for nothing: nearly five of what noise makes of the mean.
 const NOTHING: f64 = 1.6;
+/// Over so many standard deviations about these bounds the one turns into the other: where it did at once, rounding would decide now and then
+/// what a link has to hold.
+const TURNS: f64 = 0.5;
 
 /// The torque that goes into the inertia of one drive.
 #[derive(Debug, Clone, Copy)]
@@ -35,15 +38,22 @@ impl<S: Scalar> DriveInertia<S> {
     /// Takes by what the drive's torque, known to one such standard deviation, is larger than the resistive torque, N·m.
     pub fn follow(&mut self, larger_nm: S, std_nm: S) {
         let news = larger_nm - self.torque_nm;
-        let at_once = self.may_jump || news.abs() > S::constant(JUMPS) * std_nm;
-        self.torque_nm += if at_once { S::one() } else { S::constant(SHARE) } * news;
+        let jumps = if self.may_jump { S::one() } else { beyond(JUMPS, news, std_nm) };
+        self.torque_nm += (S::constant(SHARE) + S::constant(1.0 - SHARE) * jumps) * news;
         self.may_jump = false;
     }
 
     /// What it takes, N·m, of a torque that is known to one such standard deviation.
     pub fn takes_nm(&self, std_nm: S) -> S {
-        if self.torque_nm.abs() > S::constant(NOTHING) * std_nm { self.torque_nm } else { S::zero() }
+        beyond(NOTHING, self.torque_nm, std_nm) * self.torque_nm
     }
+}
+
+/// From none to one, whether a torque is beyond so many standard deviations.
+fn beyond<S: Scalar>(bound: f64, torque_nm: S, std_nm: S) -> S {
+    let over = torque_nm.abs() - S::constant(bound - 0.5 * TURNS) * std_nm;
+    let turns_nm = (S::constant(TURNS) * std_nm).max(S::constant(1.0e-12));
+    (over / turns_nm).max(S::zero()).min(S::one())
 }
 
 #[cfg(test)]
