@@ -1,5 +1,5 @@
-//! Wheels that depart from their commands by several percent, each in its own way, change their slips faster than the filters take slips to
-//! drift on plane ground: they are followed late, which is a limit of the filters that is stated here and in their README.
+//! Wheels that depart from their commands, each in its own way, by several percent: the rover goes on as it went, and their slips and
+//! torques change with their own speeds.
 
 use kapvik_firmware::rover::Rover;
 use kapvik_host::simulate::effects::RoverEffects;
@@ -17,17 +17,15 @@ fn errors(scenario: Scenario, rim_wander: f64) -> Errors {
 }
 
 #[test]
-fn slips_and_torques_of_wandering_rims_say_how_late_they_are() {
-    for scenario in [Scenario::Level, Scenario::Spread] {
-        for rim_wander in [0.03, 0.06] {
-            let errors = errors(scenario, rim_wander);
-            for quantity in [Quantity::Slip, Quantity::Torque] {
-                let tally = errors.of(quantity);
-                let (ratio, [one, two]) = (tally.over_naive(), tally.coverage());
-                let what = format!("{scenario:?}, {rim_wander}, {quantity:?}");
-                println!("{what}: {ratio:.3} of the raw sensors, {one:.2} {two:.2} within");
-                assert!(ratio <= 1.5 && one >= 0.55 && two >= 0.88, "{what}: {ratio}, {one} {two}");
-            }
+fn slips_and_torques_are_better_than_those_of_the_raw_sensors_and_say_how_well() {
+    for (scenario, rim_wander) in [(Scenario::Level, 0.03), (Scenario::Level, 0.06), (Scenario::Spread, 0.06)] {
+        let errors = errors(scenario, rim_wander);
+        for quantity in [Quantity::Slip, Quantity::Torque] {
+            let tally = errors.of(quantity);
+            let (ratio, [one, two]) = (tally.over_naive(), tally.coverage());
+            let what = format!("{scenario:?}, {rim_wander}, {quantity:?}");
+            println!("{what}: {ratio:.3} of the raw sensors, {one:.2} {two:.2} within");
+            assert!(ratio <= 1.0 && one >= 0.55 && two >= 0.88, "{what}: {ratio}, {one} {two}");
         }
     }
 }

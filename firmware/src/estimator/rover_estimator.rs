@@ -3,7 +3,7 @@
 use super::attitude::Attitude;
 use super::estimate::SideEstimate;
 use super::health::{EstimatorHealth, PerSensor, SensorHealth};
-use super::sensor_gate::{SensorGates, count};
+use super::sensor_gate::{Repeats, SensorGates, count};
 use super::side_estimate::{Believed, HubForces, WheelCovariance};
 use super::side_estimator::{SideEstimator, SideInnovations};
 use super::side_frame::SideFrame;
@@ -110,8 +110,10 @@ impl<S: Scalar> RoverEstimator<S> {
             [&mut accel.x, &mut accel.z].into_iter().for_each(|sensor| count(&mut sensor.surprising));
         }
         let repeating = self.common.gates.repeating_rates();
-        let left = left_side.tick(step_s, &side_frame(&readings, &repeating, Side::Left), &self.common.attitude);
-        let right = right_side.tick(step_s, &side_frame(&readings, &repeating, Side::Right), &self.common.attitude);
+        let rover_gained = rover_gained(left_side, right_side);
+        let frame_of = |side: Side| side_frame(&readings, &repeating, side, rover_gained);
+        let left = left_side.tick(step_s, &frame_of(Side::Left), &self.common.attitude);
+        let right = right_side.tick(step_s, &frame_of(Side::Right), &self.common.attitude);
         let travel_m = S::constant(0.5) * (left_side.speed_m_s() + right_side.speed_m_s()) * step_s;
         note_surprises(&mut self.common.health.sensors, &PerSide { left, right });
         self.note_troubles();
@@ -231,7 +233,18 @@ fn start_side<S: Scalar>(place: &mut Option<SideEstimator<S>>, rover: &Rover<S>,
     *place = Some(SideEstimator::new(rover, side, *PHASES.of(side)));
 }
 
-fn side_frame<S: Scalar>(readings: &PerSensor<Option<S>>, repeating: &PerWheel<bool>, side: Side) -> SideFrame<S> {
+/// The share of its speed that the rover gained in the frame before: the mean over its wheels, each by how much it holds the rover.
+fn rover_gained<S: Scalar>(left: &SideEstimator<S>, right: &SideEstimator<S>) -> S {
+    let ([left_holds, of_left], [right_holds, of_right]) = (left.gained(), right.gained());
+    (of_left + of_right) / (left_holds + right_holds).max(S::constant(1.0e-3))
+}
+
+fn side_frame<S: Scalar>(
+    readings: &PerSensor<Option<S>>,
+    repeating: &PerWheel<Repeats>,
+    side: Side,
+    rover_gained: S,
+) -> SideFrame<S> {
     SideFrame {
         wheel_rate_rad_s: *readings.wheel_rate.of(side),
         wheel_rate_repeats: *repeating.of(side),
@@ -244,6 +257,7 @@ fn side_frame<S: Scalar>(readings: &PerSensor<Option<S>>, repeating: &PerWheel<b
         }),
         velocity_m_s: readings.velocity,
         gyro_rad_s: readings.gyro,
+        rover_gained,
     }
 }
 

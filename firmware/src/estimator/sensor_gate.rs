@@ -107,6 +107,17 @@ pub(super) fn count(counter: &mut u16) {
     *counter = counter.saturating_add(1);
 }
 
+/// Whether a sensor says the same bits as in the frame before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Repeats {
+    /// It says something else.
+    Not,
+    /// It does, as one may that is coarse.
+    Again,
+    /// It has for as long as one that is stuck.
+    OverAndOver,
+}
+
 /// The gates of all sensors.
 #[derive(Debug, Clone)]
 pub(super) struct SensorGates {
@@ -136,8 +147,12 @@ impl SensorGates {
     /// Which encoders say the same bits over and over. That of a drive that holds its rate may well, if it is coarse; one that is stuck
     /// does, too, and nothing in it tells the two apart. To do without would be worse: it says nearly what the rate is while the drive
     /// goes on.
-    pub fn repeating_rates(&self) -> PerWheel<bool> {
-        self.gates.wheel_rate.map_wheels(|gate| gate.repeats >= gate.allowed)
+    pub fn repeating_rates(&self) -> PerWheel<Repeats> {
+        self.gates.wheel_rate.map_wheels(|gate| match gate.repeats {
+            0 => Repeats::Not,
+            repeats if repeats < gate.allowed => Repeats::Again,
+            _ => Repeats::OverAndOver,
+        })
     }
 
     /// The readings that can be used.

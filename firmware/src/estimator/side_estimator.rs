@@ -14,6 +14,7 @@ use super::hub_on_ground::HubOnGround;
 use super::load_shift::HubShift;
 use super::rim_speed::RimSpeed;
 use super::scale::Scale;
+use super::sensor_gate::Repeats;
 use super::side_frame::{SENSORS, SideFrame};
 use super::since_start::SinceStart;
 use super::sinking::Sinking;
@@ -161,6 +162,12 @@ impl<S: Scalar> SideEstimator<S> {
         self.motion.axis_velocity_m_s.length()
     }
 
+    /// Of its wheels together, what [`SlipTorqueFilter::gained`] gives.
+    pub fn gained(&self) -> [S; 2] {
+        let gained = self.wheels.as_array().map(SlipTorqueFilter::gained);
+        gained.into_iter().fold([S::zero(); 2], |[holds, share], [one, other]| [holds + one, share + other])
+    }
+
     /// Whether its rims turn back.
     pub fn rolls_back(&self) -> bool {
         self.rims.speed_m_s() < S::zero()
@@ -293,12 +300,15 @@ impl<S: Scalar> SideEstimator<S> {
             let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
             let readings = WheelReadings {
                 speeds,
-                rate_std_rad_s: if repeats { S::constant(REPEATING) } else { S::one() } * noise.wheel_rate_rad_s,
+                rate_std_rad_s: noise.wheel_rate_rad_s
+                    * if repeats == Repeats::OverAndOver { S::constant(REPEATING) } else { S::one() },
+                rate_repeats: repeats != Repeats::Not,
                 side_swings: self.swings,
                 shared_speed_std_m_s: noise.velocity_m_s,
                 roughness,
                 settled: since_start.has_settled(),
                 link_rate_rad_s: wheel.link_rate_rad_s,
+                rover_gained: frame.rover_gained,
                 motor_torque_nm: torque,
                 motor_torque_std_nm: noise.motor_torque_nm,
             };

@@ -1,5 +1,6 @@
 //! What the estimators of a side see of a frame.
 
+use super::sensor_gate::Repeats;
 use crate::rover::{Axes, PerAxle, Planar};
 use crate::scalar::Scalar;
 
@@ -9,7 +10,7 @@ pub(super) struct SideFrame<S> {
     /// Encoders, rad/s.
     pub wheel_rate_rad_s: PerAxle<Option<S>>,
     /// Which of them say the same over and over.
-    pub wheel_rate_repeats: PerAxle<bool>,
+    pub wheel_rate_repeats: PerAxle<Repeats>,
     /// Drive torques, N·m.
     pub motor_torque_nm: PerAxle<Option<S>>,
     /// Load cells, N.
@@ -22,6 +23,8 @@ pub(super) struct SideFrame<S> {
     pub velocity_m_s: Axes<Option<S>>,
     /// Gyro, rad/s.
     pub gyro_rad_s: Axes<Option<S>>,
+    /// The share of its speed that the rover gained in the frame before, as its wheels tell it.
+    pub rover_gained: S,
 }
 
 /// Of a side and the body, those whose silence makes estimates worse: encoders, drive torques and cells of the three wheels, front to rear,

@@ -6,6 +6,7 @@
 //! A wheel that slips more meets more torque: shear stress grows with shear displacement, and a torque that drifts takes the slip
 //! with it. So the drive's torque tells of slip what the camera sees but through its noise.
 
+mod gain_of_speed;
 mod process;
 #[cfg(test)]
 mod tests;
@@ -13,7 +14,7 @@ mod tests;
 use super::activity::BLOCKED;
 use super::camera_error::CameraError;
 use super::drive_inertia::DriveInertia;
-use super::rate_growth::RateGrowth;
+use super::rim_growth::RimGrowth;
 use super::scale::Scale;
 use super::slip_by_speeds::SpeedReadings;
 use super::swing::Swing;
@@ -41,10 +42,14 @@ pub(super) struct WheelReadings<S> {
     pub roughness: S,
     /// Whether the torque of a wheel of this side swung in the frame before: grousers are on all of them.
     pub side_swings: bool,
-    /// Whether the wheel's start is over: it has not stood for a while.
+    /// Whether the wheel rolls as it will: it neither starts nor stops.
     pub settled: bool,
+    /// Whether its encoder says the same as in the frame before.
+    pub rate_repeats: bool,
     /// How fast its link turns nose-up, rad/s.
     pub link_rate_rad_s: S,
+    /// The share of its speed that the rover gained in the frame before, as its wheels tell it.
+    pub rover_gained: S,
     /// Torque of the drive, N·m.
     pub motor_torque_nm: Option<S>,
     /// One standard deviation of that, N·m.
@@ -84,13 +89,15 @@ pub(super) struct SlipTorqueFilter<S> {
     model: SlipTorqueModel<S>,
     /// Slip that goes with a torque where the wheel rolls forward, 1/(N·m).
     slip_per_torque: S,
+    /// Torque that goes with a slip where nothing slips, N·m.
+    torque_per_slip_nm: S,
     scale: Scale<S>,
     swing: Swing<S>,
     inertia: DriveInertia<S>,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
     camera_error: CameraError<S>,
-    rate_growth: RateGrowth<S>,
+    rim_growth: RimGrowth<S>,
     /// How fast the link turned in the frame before, rad/s.
     link_rate_rad_s: S,
     watch: Watch<MEASUREMENTS>,
@@ -105,6 +112,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
     pub fn new(rover: &Rover<S>, phase: usize) -> Self {
         let scale = Scale::of(rover);
         let unknown = of_rover(&UNKNOWN, &scale);
+        let held_nm = rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m / S::constant(6.0);
         let model = SlipTorqueModel {
             radius_m: rover.wheel.radius_m,
             inverse_inertia: S::one() / rover.drive.reflected_inertia_kg_m2,
@@ -113,14 +121,15 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         Self {
             filter: SigmaPointFilter::unknowing([S::zero(); STATES], unknown),
             model,
-            slip_per_torque: S::constant(6.0) / (rover.mass_kg * rover.gravity_m_s2 * rover.wheel.radius_m),
+            slip_per_torque: S::one() / held_nm,
+            torque_per_slip_nm: gain_of_speed::torque_per_slip_nm(held_nm, &scale),
             scale,
             swing: Swing::new(),
             inertia: DriveInertia::steady(),
             torque_rate: WalkRate::new(phase).forgetting(TORQUE_FORGOTTEN),
             slip_rate: WalkRate::new(phase + 2),
             camera_error: CameraError::none(),
-            rate_growth: RateGrowth::none(),
+            rim_growth: RimGrowth::none(),
             link_rate_rad_s: S::zero(),
             watch: Watch::new(),
             trends: Trends::new(),
@@ -197,7 +206,6 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.restart_slip(-S::one(), S::constant(BLOCKED));
     }
 
-    #[inline(never)] // flash is scarcer than the time of a call
     fn restart_slip(&mut self, mean: S, std: S) {
         let _ = self.filter.forget(2, mean, std);
         self.trends.forget();
@@ -209,22 +217,24 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         // The drive, and with it its inertia, turns the wheel against its link.
         self.filter.shift(0, self.link_rate_rad_s - readings.link_rate_rad_s);
         self.link_rate_rad_s = readings.link_rate_rad_s;
+        self.follow_gain(readings);
         self.learn_rates(step_s, travel_m, readings);
         self.swing.take(readings.motor_torque_nm, readings.motor_torque_std_nm * self.scale.torque);
         let swings = readings.side_swings || self.swings();
         let says_most = swings || readings.speeds.rate_rad_s.is_none();
         let by_drive = readings.motor_torque_nm.filter(|_| says_most);
         let turned = self.turned(readings);
+        let tells_rate = self.tells_rate(step_s, readings);
         match by_drive {
             Some(torque) if swings => self.swing_over(step_s, travel_m, torque, turned, readings),
             Some(torque) => self.hold_rate(step_s, travel_m, torque, readings),
             None => self.predict(step_s, travel_m, readings),
         }
         let [_, torque, slip] = *self.filter.estimate().mean();
-        if by_drive.is_none() {
+        if by_drive.is_none() && tells_rate {
             self.take_drive(step_s, turned, readings);
         }
-        let told = self.update(step_s, readings);
+        let told = self.update(tells_rate, readings);
         self.camera_error.follow(self.filter.estimate(), self.model.radius_m, readings);
         self.follow_inertia(readings);
         if by_drive.is_none() {
@@ -235,22 +245,21 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             Contradiction::Moved => self.jump(&told, readings),
             Contradiction::Wrong => self.loosen(&of_rover(&UNKNOWN, &self.scale)),
         }
-        let [rate, ..] = *self.filter.estimate().mean();
-        self.rate_growth.follow(step_s, rate);
+        let [of_rate, _] = &told.residuals;
+        let rolls = readings.settled && of_rate.fate != Fate::Rejected && tells_rate;
+        self.rim_growth.note(readings.rate_repeats);
+        self.rim_growth.follow(step_s, readings.speeds.rate_rad_s.filter(|_| rolls), readings.rate_std_rad_s);
         told
     }
 
     /// Takes the drive's torque for a measurement of the soil's, as it is where the rate is held, so far as that is known worse. What is known
     /// about as well or better is known from the same readings, by what they did to the rate, and they would count twice.
     fn take_drive(&mut self, step_s: S, turned: S, readings: &WheelReadings<S>) {
-        let Some(motor) = readings.motor_torque_nm.filter(|_| readings.settled && self.tells_rate(step_s, readings))
-        else {
-            return;
-        };
+        let Some(motor) = readings.motor_torque_nm.filter(|_| readings.settled) else { return };
         let [_, variance, _] = self.filter.estimate().variances();
         let [rate, ..] = *self.filter.estimate().mean();
         let square = |value: S| value * value;
-        let grows = square(S::constant(HELD) * rate) + square(self.rate_growth.rad_s2());
+        let grows = square(S::constant(HELD) * rate) + square(self.rim_growth.growth_rad_s2());
         let speeds_up = (grows + turned / square(step_s)) / square(self.model.inverse_inertia);
         let noise = square(readings.motor_torque_std_nm) + speeds_up;
         let known = noise / variance;
@@ -262,9 +271,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
 
     /// Takes in what was measured. Where the torque hardly tells the rate a step on, as in a drive of little inertia, the encoder comes first:
     /// the speed of the hub goes with rate and slip multiplied, and over all the rates that there might be it would tell little of the slip.
-    fn update(&mut self, step_s: S, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
+    fn update(&mut self, at_once: bool, readings: &WheelReadings<S>) -> Innovation<S, MEASUREMENTS> {
         let SpeedReadings { rate_rad_s, hub_speed_m_s, .. } = readings.speeds;
-        let at_once = self.tells_rate(step_s, readings);
         let mut told = self.take(&[rate_rad_s, hub_speed_m_s.filter(|_| at_once)], readings);
         if !at_once {
             told = told.followed_by(self.take(&[None, hub_speed_m_s], readings));

@@ -95,6 +95,11 @@ impl<S: Scalar> WalkRate<S> {
         }
     }
 
+    /// The quantity has changed by so much, which is known, and no part of its wandering.
+    pub fn carry(&mut self, by: S) {
+        self.last += by;
+    }
+
     fn see(&mut self, measured: S, noise: Noise<S>, nominal_variance: S, step_s: S) {
         self.frame = self.frame.wrapping_add(1);
         let renew = core::mem::take(&mut self.missed) || self.frame.is_multiple_of(CANDIDATES);

@@ -104,6 +104,7 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
     ///
     /// # Errors
     /// Where `mean` is not finite, or `std` negative or its square not finite.
+    #[inline(never)] // flash is scarcer than the time of a call
     pub fn forget(&mut self, index: usize, mean: T, std: T) -> Result<Prediction, InvalidNumber> {
         Gaussian::independent([mean], [std])?;
         let mut noise_std = [T::zero(); N];

@@ -21,7 +21,9 @@ const UNSEEN_TORQUE_NM: f64 = 2.0;
 const RATE_NOISE: f64 = 16.0;
 const SWINGS_SLIP: f64 = 0.3;
 /// What of the drift is left beside what goes on by its trend, as a variance, on restless ground.
-const BESIDE_TREND: f64 = 0.6;
+const BESIDE_TREND: f64 = 0.72;
+/// And beside what goes with the wheel's gain of speed.
+const BESIDE_GAIN: f64 = 0.85;
 /// These parts of how fast torque and slip wander count as restless. A torque's rate is learned over a short way, and a slip's from a
 /// velocimeter whose noise is the size of what it is to tell: on plane ground, too, they seem to drift by some hundredths of
 /// the nominal rate.
@@ -53,7 +55,9 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             None => S::constant(UNSEEN_TORQUE_NM) * self.scale.torque,
         };
         let [of_torque, of_slip] = self.nominal_variances(travel_m);
-        let drift = |nominal: S, factor: S, restless: S| nominal * factor * beside_trend(BESIDE_TREND, restless);
+        let drift = |nominal: S, factor: S, restless: S| {
+            S::constant(BESIDE_GAIN) * nominal * factor * beside_trend(BESIDE_TREND, restless)
+        };
         let [restless_torque, restless_slip] = restless;
         self.drift_variances =
             [drift(of_torque, torque_factor, restless_torque), drift(of_slip, slip_factor, restless_slip)];
@@ -91,6 +95,14 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.go_on_from(&ScalarFilter { mean: motor_torque_nm, variance }, changes_nm, rate_std, travel_m, readings);
     }
 
+    /// By how much the rate has changed since the frame before, beyond noise, as its square, rad²/s².
+    pub(super) fn turned(&self, readings: &WheelReadings<S>) -> S {
+        let [rate, ..] = *self.filter.estimate().mean();
+        let square = |value: S| value * value;
+        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
+        (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero())
+    }
+
     /// The same where the encoder is silent, by which else a torque makes itself felt: then that of the drive, which holds its rate, is a
     /// measurement of it.
     pub(super) fn hold_rate(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
@@ -122,14 +134,6 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let slip_std = (of_slip * self.slip_factor(readings) + slipped * slipped).sqrt();
         let _ = self.filter.random_walk(&[rate_std_rad_s, S::zero(), slip_std]);
         let _ = self.filter.forget(1, torque.mean, torque.variance.sqrt());
-    }
-
-    /// By how much the rate has changed since the frame before, beyond noise, as its square, rad²/s².
-    pub(super) fn turned(&self, readings: &WheelReadings<S>) -> S {
-        let [rate, ..] = *self.filter.estimate().mean();
-        let square = |value: S| value * value;
-        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
-        (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero())
     }
 
     /// How fast the slip wanders, over the nominal drift, as a variance.

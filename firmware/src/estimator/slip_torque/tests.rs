@@ -13,7 +13,9 @@ fn readings(direction: f64, torque: f64, seen: bool) -> WheelReadings<f64> {
         roughness: 0.0,
         side_swings: false,
         settled: true,
+        rate_repeats: false,
         link_rate_rad_s: 0.0,
+        rover_gained: 0.0,
         motor_torque_nm: Some(direction * torque),
         motor_torque_std_nm: 0.05,
     }
@@ -85,7 +87,8 @@ fn a_wheel_without_an_encoder_follows_its_drive() {
     assert!(of_slip > 0.1, "nothing tells the two apart: {of_slip}");
 }
 
-/// The drive's inertia goes with the rate against the link: a link that turns faster and faster takes the wheel along, and no torque.
+/// The drive's inertia goes with the rate against the link: a link that turns faster and faster takes the wheel along, and no torque. (Here
+/// the hub's speed goes along, too, so that nothing is told by how the wheel gains on the rover.)
 #[test]
 fn a_link_that_gains_speed_is_no_torque() {
     let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
@@ -102,4 +105,32 @@ fn a_link_that_gains_speed_is_no_torque() {
         let (torque, slip) = after(&mut filter, &turning);
         assert!((torque - 1.5).abs() < 0.02 && (slip - 0.2).abs() < 0.005, "{frame}: {torque} {slip}");
     }
+}
+
+/// The slip of a wheel that no camera sees, after its rate has grown by a fifth in two seconds, and its rover's speed by so much of that. Its
+/// torque grows with its slip as on sand.
+fn slip_at_a_fifth_more(rover_gains: f64) -> f64 {
+    let mut filter = SlipTorqueFilter::new(&Rover::<f64>::assumed(), 0);
+    (0..100).for_each(|_| {
+        let _ = after(&mut filter, &readings(1.0, 1.5, true));
+    });
+    let gained = 1.2_f64.powf(0.05);
+    let mut rate = 0.3;
+    let slips = (0..20).map(|_| {
+        rate *= gained;
+        let slip = 1.0 - 0.8 * (0.3_f64 / rate).powf(1.0 - rover_gains);
+        let mut growing = readings(1.0, 1.5 + 2.7 * (slip - 0.2) + 2.1 * rate * (gained - 1.0) / 0.1, false);
+        growing.speeds.rate_rad_s = Some(rate);
+        growing.rover_gained = rover_gains * (gained - 1.0);
+        after(&mut filter, &growing).1
+    });
+    slips.last().expect("slips")
+}
+
+/// Alone it slips by a sixth of its hub's way more; with the rover, no more than before.
+#[test]
+fn a_wheel_that_gains_speed_alone_slips_more() {
+    let (alone, together) = (slip_at_a_fifth_more(0.0), slip_at_a_fifth_more(1.0));
+    assert!((alone - (1.0 - 0.8 / 1.2)).abs() < 0.04, "{alone}");
+    assert!((together - 0.2).abs() < 0.04, "{together}");
 }
