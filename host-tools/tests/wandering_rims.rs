@@ -18,7 +18,10 @@ fn errors(scenario: Scenario, rim_wander: f64) -> Errors {
 
 #[test]
 fn slips_and_torques_are_better_than_those_of_the_raw_sensors_and_say_how_well() {
-    for (scenario, rim_wander) in [(Scenario::Level, 0.03), (Scenario::Level, 0.06), (Scenario::Spread, 0.06)] {
+    let drives = [Scenario::Level, Scenario::Spread]
+        .into_iter()
+        .flat_map(|scenario| [0.03, 0.06].map(|share| (scenario, share)));
+    for (scenario, rim_wander) in drives {
         let errors = errors(scenario, rim_wander);
         for quantity in [Quantity::Slip, Quantity::Torque] {
             let tally = errors.of(quantity);

@@ -6,8 +6,8 @@
 
 use crate::scalar::Scalar;
 
-/// Of what is new, the part that is taken in at once, and all of it beyond about so many standard deviations: rims change their speed from one frame
-/// to the next.
+/// Of what is new, the part that is taken in at once, and all of it beyond about so many standard deviations: rims change their speed from one
+/// frame to the next.
 const SHARE: f64 = 0.2;
 const JUMPS: f64 = 4.0;
 /// Less than so many standard deviations of the drive's torque is taken for nothing: nearly five of what noise makes of the mean.

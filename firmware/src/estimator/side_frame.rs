@@ -9,7 +9,7 @@ use crate::scalar::Scalar;
 pub(super) struct SideFrame<S> {
     /// Encoders, rad/s.
     pub wheel_rate_rad_s: PerAxle<Option<S>>,
-    /// Which of them say the same over and over.
+    /// Whether they say the same as in the frame before.
     pub wheel_rate_repeats: PerAxle<Repeats>,
     /// Drive torques, N·m.
     pub motor_torque_nm: PerAxle<Option<S>>,
