@@ -43,7 +43,7 @@ pub enum Refusal {
     NotFinite,
     /// Radius, width, load or a standard deviation is not above zero, or the slip is outside −1 … 1.
     OutOfRange,
-    /// No wheel rolls under load, or this one does not.
+    /// No wheel rolls under load with a slip that is known, or this one does not.
     NotRolling,
     /// The boot self-test found the network altered.
     SelfTestFailed,

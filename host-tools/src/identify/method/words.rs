@@ -27,7 +27,7 @@ pub fn network_refusal(refusal: soil::Refusal) -> &'static str {
         Refusal::NoWheels => "there is no wheel",
         Refusal::NotFinite => "a number is not finite",
         Refusal::OutOfRange => "a number is outside the range that the networks take",
-        Refusal::NotRolling => "no wheel rolls under load",
+        Refusal::NotRolling => "no wheel rolls under load with a slip that is known",
         Refusal::SelfTestFailed => "the flight computer's self-test failed",
     }
 }
