@@ -178,6 +178,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.joints.unrisen_variance()
     }
 
+    /// As [`Joints::are_surmised`].
+    pub fn surmises_joints(&self) -> bool {
+        self.joints.are_surmised()
+    }
+
     /// How load that shifts turns the bogie.
     pub fn load_shift(&self) -> &LoadShift<S> {
         &self.load_shift

@@ -13,6 +13,9 @@ const USUAL_RISE_RAD: f64 = 0.04;
 /// On the way it takes another angle after so much travel, m: most of a wheelbase.
 const ALIKE_M: f64 = 0.2;
 
+/// Readings of a sensor that works follow each other sooner, s.
+const BETWEEN_READINGS_S: f64 = 1.05;
+
 /// How long each joint of a side has been silent: rocker against body, bogie against rocker; and the velocimeter of how fast it rises.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Joints<S> {
@@ -41,6 +44,11 @@ impl<S: Scalar> Joints<S> {
     pub fn rise(&mut self, measured: (Option<S>, S), step_s: S, speed_m_s: S, links_rad: S) -> (Option<S>, S) {
         let std = S::constant(USUAL_RISE_RAD) * speed_m_s.abs() * root_of_frames(speed_m_s.abs() * step_s);
         heard(&mut self.of_rise, step_s, measured, (speed_m_s * links_rad, std))
+    }
+
+    /// Whether one of them has been silent for longer than between any two readings.
+    pub fn are_surmised(&self) -> bool {
+        self.of_rise.lasts(BETWEEN_READINGS_S) || self.silences.iter().any(|silence| silence.lasts(BETWEEN_READINGS_S))
     }
 
     /// By what variance the axis may rise otherwise than contact angles say that are known by nothing but this, rad².

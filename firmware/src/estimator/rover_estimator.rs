@@ -174,6 +174,13 @@ impl<S: Scalar> RoverEstimator<S> {
         self.sides.as_ref().map(|side| side.as_ref().is_some_and(SideEstimator::rolls_back))
     }
 
+    /// Whether a joint's angle, or how fast the axis rises, is surmised, because nothing has told it for a second: then the angles of the
+    /// contacts that hang on it are off alike, and for long.
+    pub fn surmises_joints(&self) -> bool {
+        let surmises = |side: &Option<SideEstimator<S>>| side.as_ref().is_some_and(SideEstimator::surmises_joints);
+        self.sides.as_array().into_iter().any(surmises)
+    }
+
     /// How sensors and filters do.
     pub fn health(&self) -> &EstimatorHealth {
         &self.common.health

@@ -173,6 +173,11 @@ impl<S: Scalar> SideEstimator<S> {
         self.rims.speed_m_s() < S::zero()
     }
 
+    /// As [`super::joints::Joints::are_surmised`].
+    pub fn surmises_joints(&self) -> bool {
+        self.angles.surmises_joints()
+    }
+
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();

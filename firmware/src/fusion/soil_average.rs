@@ -24,7 +24,8 @@ const LEAST_VARIANCE: f32 = 0.01;
 /// changes; what a minute of spread slips taught stays. The error of an instant has two parts. That of the sensors' white
 /// noise averages away. What no amount of averaging removes — the soil's other parameters, the camera's bias, the network's
 /// own error — is what the network leaves when it is told of hardly any noise; it is taken to be common to all instants,
-/// so that standard deviations average, not variances.
+/// so that standard deviations average, not variances. Instants that disagree by more than noise explains have errors that nobody
+/// told the network of, as where a sensor is lost: what they disagree by beyond it does not average away, either.
 #[derive(Debug, Clone)]
 pub(super) struct SoilAverage {
     targets: [TargetAverage; TARGETS],
@@ -36,8 +37,8 @@ pub(super) struct SoilAverage {
 /// The average of one target.
 #[derive(Debug, Clone, Copy)]
 struct TargetAverage {
-    /// Mean, standard deviation over that of the prior, and 1 for inputs inside the training range.
-    said: WeightedTravelMeans<3>,
+    /// What is said, its square, standard deviation over that of the prior, and 1 for inputs inside the training range.
+    said: WeightedTravelMeans<4>,
     lasting_std: WeightedTravelMeans<1>,
     /// The weight of the last instant.
     weight: f32,
@@ -51,12 +52,15 @@ impl TargetAverage {
     #[inline(never)] // flash is scarcer than the time of a call
     fn outputs(&self, share: f32) -> (f32, f32) {
         let square = |std: f32| std * std;
-        let ([mean, std, _], [lasting_std]) = (*self.said.means(), *self.lasting_std.means());
+        let ([mean, mean_square, std, _], [lasting_std]) = (*self.said.means(), *self.lasting_std.means());
         let whole = square(std);
         // Until it is known what lasts, everything does.
         let lasting = if self.lasting_std.is_empty() { whole } else { square(lasting_std) };
         let lasting = if lasting < whole { lasting } else { whole };
-        (mean, math::ln(lasting + share * (whole - lasting)))
+        let passing = whole - lasting;
+        let unexplained = mean_square - square(mean) - passing;
+        let unexplained = if unexplained > 0.0 { unexplained } else { 0.0 };
+        (mean, math::ln(lasting + unexplained + share * passing))
     }
 }
 
@@ -74,7 +78,7 @@ impl SoilAverage {
         for (target, (m, v)) in self.targets.iter_mut().zip([(m0, v0), (m1, v1), (m2, v2)]) {
             let variance = variance_over_prior(v);
             target.weight = counts / (variance * variance);
-            target.said.take(&[m, math::sqrt(variance), inside], target.weight, travel_m);
+            target.said.take(&[m, m * m, math::sqrt(variance), inside], target.weight, travel_m);
         }
         self.travel_m += travel_m;
     }
@@ -97,13 +101,18 @@ impl SoilAverage {
     /// Whether most of what was learned of φ came from inputs inside the training range.
     pub fn inside_training_range(&self) -> bool {
         let [_, friction_angle, _] = &self.targets;
-        let [_, _, inside] = *friction_angle.said.means();
+        let [.., inside] = *friction_angle.said.means();
         inside > 0.5
+    }
+
+    /// Whether it has taken an instant.
+    pub fn has_begun(&self) -> bool {
+        self.travel_m > 0.0
     }
 
     /// The average as outputs; none before the first instant.
     pub fn outputs(&self) -> Option<[f32; OUTPUTS]> {
-        if self.travel_m <= 0.0 {
+        if !self.has_begun() {
             return None;
         }
         let share = 1.0 / self.instants();
@@ -119,4 +128,34 @@ impl SoilAverage {
 /// The variance over that of the prior which an output says, kept from promising too much.
 fn variance_over_prior(log_variance: f32) -> f32 {
     math::exp(math::limit(log_variance, -16.0, 0.0)) + LEAST_VARIANCE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OUTPUTS, SoilAverage};
+
+    /// The log-variance of ln K after so many decimetres of instants of one variance, which say so much more or less of it in turn, each for
+    /// a metre; a tenth of their variance lasts.
+    fn log_variance_of_k(more_or_less: f32) -> f32 {
+        let mut average = SoilAverage::new(false);
+        for decimetre in 0..60_u8 {
+            let said = if decimetre / 10 % 2 == 0 { more_or_less } else { -more_or_less };
+            average.take(&[0.0, 0.0, said, 0.0, 0.0, 0.1_f32.ln()], true, 0.1);
+            average.take_noiseless(&[0.0, 0.0, said, 0.0, 0.0, 0.01_f32.ln()], 0.1);
+        }
+        let [.., log_variance]: [f32; OUTPUTS] = average.outputs().expect("instants were taken");
+        log_variance
+    }
+
+    #[test]
+    fn instants_that_differ_by_no_more_than_their_noise_average_away() {
+        let (alike, differ) = (log_variance_of_k(0.0), log_variance_of_k(0.25));
+        assert!(alike.exp() < 0.04 && differ == alike, "{} {}", alike.exp(), differ.exp());
+    }
+
+    #[test]
+    fn instants_that_contradict_each_other_are_not_believed() {
+        let variance = log_variance_of_k(0.6).exp();
+        assert!(variance > 0.25 && variance < 0.4, "{variance}");
+    }
 }

@@ -21,14 +21,24 @@ const HARDLY_ANY: f32 = 0.2;
 /// deviation of slip for all wheels.
 const UNTOLD_SLIP: f32 = 0.1;
 
+/// A wheel whose pull is known by so many times less than that of the best one is left out: the network is told one standard deviation of
+/// pull for all wheels, and takes what they are off by for chance, wheel by wheel. Where a load cell or a joint is silent it is not.
+const WORSE_KNOWN: f32 = 2.0;
+/// A pull whose standard deviation is less than this share of the rover's weight, or 1.5 % of what a wheel carries, is known well.
+const WELL_KNOWN: f32 = 0.0025;
+
 /// The networks' users in flight.
 #[derive(Debug, Clone)]
 pub struct SoilOverTime {
     wheel: Wheel<f32>,
+    /// A pull that is known so well, N, takes part whatever the others do.
+    well_known_n: f32,
     average: SoilAverage,
     changes: SoilChangeDetector,
     /// Which side rolled back when its front wheel last rolled.
     backward: PerSide<bool>,
+    /// Whether what joints do is surmised. The networks know no such errors.
+    surmises_joints: bool,
     /// Every other frame the rover network is asked what would last without noise.
     asks_what_lasts: bool,
 }
@@ -41,20 +51,24 @@ impl SoilOverTime {
         let wheelbase_m = suspension.front_hub.x - (suspension.bogie_pivot.x + suspension.rear_hub.x);
         Self {
             wheel: rover.wheel,
+            well_known_n: WELL_KNOWN * rover.mass_kg * rover.gravity_m_s2,
             average: SoilAverage::new(false),
             changes: SoilChangeDetector::new(rover.wheel.radius_m, wheelbase_m),
             backward: PerSide::both(false),
+            surmises_joints: false,
             asks_what_lasts: false,
         }
     }
 
-    /// Takes the wheels after some travel, m, and which side rolls back. Gives the soil under each and under the rover.
+    /// Takes the wheels after some travel, m, which side rolls back, and whether what joints do is surmised. Gives the soil under each and under the rover.
     pub fn tick(
         &mut self,
         wheels: &PerWheel<WheelEstimate>,
         backward: PerSide<bool>,
         travel_m: f32,
+        surmises_joints: bool,
     ) -> (PerWheel<Result<SoilEstimate, Refusal>>, Result<RoverSoil, Refusal>) {
+        self.surmises_joints = surmises_joints;
         let mirrored;
         let wheels = if backward.left || backward.right {
             mirrored = in_direction_of_travel(wheels, backward);
@@ -90,9 +104,20 @@ impl SoilOverTime {
         wheel_soil(&query, &state)
     }
 
-    fn under_rover(&mut self, wheels: &PerWheel<WheelEstimate>, travel_m: f32) -> Result<RoverSoil, Refusal> {
+    /// The wheels that the rover network is told of: known, on the newest soil, and known not much worse than the best.
+    fn taking_part(&self, wheels: &PerWheel<WheelEstimate>) -> PerWheel<bool> {
         let newest = self.changes.on_newest_soil();
-        let taking_part = wheels.zip_wheels(newest).map_wheels(|(wheel, newest)| newest && is_known(&wheel));
+        let stds = wheels.as_ref().zip(newest).map(|(side, newest)| {
+            let known = |(wheel, newest): (&WheelEstimate, bool)| newest && is_known(wheel);
+            side.as_ref().zip(newest).map(|wheel| if known(wheel) { wheel.0.drawbar_pull_n.std } else { f32::INFINITY })
+        });
+        let least = stds.iter_wheels().fold(f32::INFINITY, |least, std| if *std < least { *std } else { least });
+        let most = if WORSE_KNOWN * least > self.well_known_n { WORSE_KNOWN * least } else { self.well_known_n };
+        stds.map_wheels(|std| std < most)
+    }
+
+    fn under_rover(&mut self, wheels: &PerWheel<WheelEstimate>, travel_m: f32) -> Result<RoverSoil, Refusal> {
+        let taking_part = self.taking_part(wheels);
         let mut states = Vec::<WheelState, WHEELS>::new();
         let mut squares = [0.0_f32; 4];
         let mut shared = 0.0;
@@ -123,7 +148,7 @@ impl SoilOverTime {
         self.asks_what_lasts = !self.asks_what_lasts;
         // Either is asked in every other frame, and stands for the travel of two.
         let travel_m = travel_m + travel_m;
-        if self.asks_what_lasts && self.average.outputs().is_some() {
+        if self.asks_what_lasts && self.average.has_begun() {
             let noise = &mut query.noise;
             let lasting = HARDLY_ANY * noise.slip;
             noise.slip = if shared_slip_std > lasting { shared_slip_std } else { lasting };
@@ -134,7 +159,7 @@ impl SoilOverTime {
             self.average.take_noiseless(&outputs, travel_m);
         } else {
             let (outputs, inside) = rover_outputs(&query)?;
-            self.average.take(&outputs, inside, travel_m);
+            self.average.take(&outputs, inside && !self.surmises_joints, travel_m);
         }
         Ok(())
     }
