@@ -1,6 +1,7 @@
 //! The command line, `cargo kapvik …`.
 
 mod output;
+mod usage;
 
 use std::process::ExitCode;
 
@@ -23,7 +24,11 @@ fn main() -> ExitCode {
     // Whoever reads only the first lines of what is printed ends the command, as with other commands, and has no panic.
     sigpipe::reset();
     output::end_where_it_cannot_be_written();
-    match CommandLine::parse().command.execute() {
+    let command = match CommandLine::try_parse() {
+        Ok(line) => line.command,
+        Err(error) => return usage::explain(&error),
+    };
+    match command.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("kapvik: {error}");

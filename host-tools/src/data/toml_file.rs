@@ -90,7 +90,7 @@ impl TomlFile {
         let Some((_, section)) = section else { return self.whole() };
         T::deserialize(ValueDeserializer::from(section.clone())).map_err(|error| match error.span() {
             Some(_) => self.error(&error),
-            None => self.error_at(section, error.message()),
+            None => self.error_at(section, in_plain_words(error.message())),
         })
     }
 
@@ -111,6 +111,38 @@ impl TomlFile {
 
     fn error(&self, error: &Error) -> HostError {
         let start = error.span().map_or(0, |span| span.start);
-        self.file.error_at(start, error.message().replace('\n', ", "))
+        self.file.error_at(start, in_plain_words(error.message()))
+    }
+}
+
+/// What a reader of TOML says, on one line and with types by the names that they have there.
+fn in_plain_words(message: &str) -> String {
+    let message = message.replace('\n', ", ");
+    let Some((found, expected)) = message.rsplit_once("expected ") else { return message };
+    let expected = match expected {
+        "f64" | "f32" => "a number",
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, not below 0",
+        "a sequence" => "a list, [ … ]",
+        other => other,
+    };
+    format!("{found}expected {expected}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_plain_words;
+
+    #[test]
+    fn types_have_the_names_that_a_reader_of_toml_knows() {
+        for (said, plain) in [
+            ("invalid type: boolean `true`, expected f64", "invalid type: boolean `true`, expected a number"),
+            (
+                "invalid value: integer `-2`, expected u32",
+                "invalid value: integer `-2`, expected a whole number, not below 0",
+            ),
+            ("unclosed table, expected `]`", "unclosed table, expected `]`"),
+        ] {
+            assert_eq!(in_plain_words(said), plain);
+        }
     }
 }
