@@ -183,6 +183,11 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.joints.are_surmised()
     }
 
+    /// As [`Joints::lack_what_tells_all`].
+    pub fn lacks_what_tells_all(&self) -> bool {
+        self.joints.lack_what_tells_all()
+    }
+
     /// How load that shifts turns the bogie.
     pub fn load_shift(&self) -> &LoadShift<S> {
         &self.load_shift

@@ -46,15 +46,27 @@ impl<S: Scalar> Joints<S> {
         heard(&mut self.of_rise, step_s, measured, (speed_m_s * links_rad, std))
     }
 
-    /// Whether one of them has been silent for longer than between any two readings.
+    /// Whether the angle of a joint is surmised: how much of what its links bear is along the body is then not known.
     pub fn are_surmised(&self) -> bool {
-        self.of_rise.lasts(BETWEEN_READINGS_S) || self.silences.iter().any(|silence| silence.lasts(BETWEEN_READINGS_S))
+        self.silences.iter().any(is_lost)
+    }
+
+    /// Whether the rocker's angle, or how fast the axis rises, is surmised: what tells all contacts of a side at once.
+    pub fn lack_what_tells_all(&self) -> bool {
+        let [rocker, _] = &self.silences;
+        is_lost(rocker) || is_lost(&self.of_rise)
     }
 
     /// By what variance the axis may rise otherwise than contact angles say that are known by nothing but this, rad².
     pub fn unrisen_variance(&self) -> S {
         if self.of_rise.lasts(AWAITED_S) { S::constant(USUAL_RISE_RAD * USUAL_RISE_RAD) } else { S::zero() }
     }
+}
+
+/// Whether a sensor has been silent for longer than between any two readings.
+#[inline(never)] // flash is scarcer than the time of a call
+fn is_lost<S: Scalar>(silence: &Silence<S>) -> bool {
+    silence.lasts(BETWEEN_READINGS_S)
 }
 
 /// The square root of how many frames of such travel make twice the way after which links lie otherwise.

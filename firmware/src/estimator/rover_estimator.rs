@@ -8,7 +8,7 @@ use super::side_estimate::{Believed, HubForces, WheelCovariance};
 use super::side_estimator::{SideEstimator, SideInnovations};
 use super::side_frame::SideFrame;
 use super::surprise::Surprises;
-use super::whole_balance::balanced;
+use super::whole_balance::{Steadiness, balanced};
 use crate::rover::{PerSide, PerWheel, Rover, Side};
 use crate::scalar::Scalar;
 use crate::sensor_frame::SensorFrame;
@@ -57,8 +57,15 @@ impl<S: Scalar> Common<S> {
 
     /// The forces on the hubs of both sides as they hold the rover together.
     fn balanced(&self, sides: &PerSide<&SideEstimator<S>>) -> PerSide<HubForces<S>> {
-        let steady = sides.left.is_steady() && sides.right.is_steady();
-        balanced(&self.rover, &self.attitude, steady, &sides.map(SideEstimator::forces))
+        let either = |is_so: fn(&SideEstimator<S>) -> bool| is_so(sides.left) || is_so(sides.right);
+        let steadiness = if either(SideEstimator::surmises_joints) {
+            Steadiness::Unknown
+        } else if either(|side| !side.is_steady()) {
+            Steadiness::Unsteady
+        } else {
+            Steadiness::Steady
+        };
+        balanced(&self.rover, &self.attitude, steadiness, &sides.map(SideEstimator::forces))
     }
 }
 
@@ -174,10 +181,10 @@ impl<S: Scalar> RoverEstimator<S> {
         self.sides.as_ref().map(|side| side.as_ref().is_some_and(SideEstimator::rolls_back))
     }
 
-    /// Whether a joint's angle, or how fast the axis rises, is surmised, because nothing has told it for a second: then the angles of the
-    /// contacts that hang on it are off alike, and for long.
-    pub fn surmises_joints(&self) -> bool {
-        let surmises = |side: &Option<SideEstimator<S>>| side.as_ref().is_some_and(SideEstimator::surmises_joints);
+    /// Whether the rocker's angle, or how fast the axis rises, is surmised, because nothing has told it for a second: then all contacts of a
+    /// side are off alike, and for long.
+    pub fn surmises_contacts(&self) -> bool {
+        let surmises = |side: &Option<SideEstimator<S>>| side.as_ref().is_some_and(SideEstimator::lacks_what_tells_all);
         self.sides.as_array().into_iter().any(surmises)
     }
 

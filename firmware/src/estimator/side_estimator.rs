@@ -178,6 +178,11 @@ impl<S: Scalar> SideEstimator<S> {
         self.angles.surmises_joints()
     }
 
+    /// As [`super::joints::Joints::lack_what_tells_all`].
+    pub fn lacks_what_tells_all(&self) -> bool {
+        self.angles.lacks_what_tells_all()
+    }
+
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();

@@ -12,11 +12,28 @@ use crate::filter::Gaussian;
 use crate::rover::{PerSide, Rover};
 use crate::scalar::Scalar;
 
-/// One standard deviation of what the rover accelerates by while its wheels roll as they will, m/s²: half a centimetre a
-/// second in every second.
-const STEADY: f64 = 0.005;
-/// The same while wheels start, stop or stand, m/s²: a top speed of 3 cm/s, reached in half a second.
-const UNSTEADY: f64 = 0.06;
+/// How surely the rover's weight tells what holds it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Steadiness {
+    /// Its wheels roll as they will.
+    Steady,
+    /// Wheels start, stop or stand.
+    Unsteady,
+    /// An angle of a link is surmised. What its wheels bear has then any part along the body.
+    Unknown,
+}
+
+impl Steadiness {
+    /// One standard deviation of what the rover accelerates by, m/s²: half a centimetre a second in every second; a top speed of 3 cm/s,
+    /// reached in half a second; or so much that nothing is told.
+    fn accelerates_m_s2(self) -> f64 {
+        match self {
+            Self::Steady => 0.005,
+            Self::Unsteady => 0.06,
+            Self::Unknown => 2.0,
+        }
+    }
+}
 
 /// What a side's filter says of the forces on its hubs beyond those of a level rover at rest, and the weights with which forces sum to
 /// the side's force on the rover.
@@ -44,17 +61,18 @@ struct Force<S> {
 pub(super) fn balanced<S: Scalar>(
     rover: &Rover<S>,
     attitude: &Attitude<S>,
-    steady: bool,
+    steadiness: Steadiness,
     sides: &PerSide<SideForces<'_, S>>,
 ) -> PerSide<Gaussian<S, STATES>> {
     let PerSide { left, right } = sides;
     let at_rest_n = rover.load_at_rest_n();
-    let whole = what_holds(rover, attitude, steady).less(&left.of_cells(at_rest_n)).less(&right.of_cells(at_rest_n));
+    let whole =
+        what_holds(rover, attitude, steadiness).less(&left.of_cells(at_rest_n)).less(&right.of_cells(at_rest_n));
     PerSide { left: left.with(&whole.less(&right.sum())), right: right.with(&whole.less(&left.sum())) }
 }
 
 /// The force that holds the rover: as much as it weighs, seen in the body's axes.
-fn what_holds<S: Scalar>(rover: &Rover<S>, attitude: &Attitude<S>, steady: bool) -> Force<S> {
+fn what_holds<S: Scalar>(rover: &Rover<S>, attitude: &Attitude<S>, steadiness: Steadiness) -> Force<S> {
     let square = |value: S| value * value;
     let across = attitude.specific_force_m_s2().y;
     // What a roll leaves of gravity in the plane of the sides.
@@ -62,7 +80,7 @@ fn what_holds<S: Scalar>(rover: &Rover<S>, attitude: &Attitude<S>, steady: bool)
     let (sine, cosine) = attitude.pitch_rad().sin_cos();
     let weight = rover.mass_kg * in_plane;
     let (forward, upward) = (weight * sine, weight * cosine);
-    let accelerated = square(rover.mass_kg * S::constant(if steady { STEADY } else { UNSTEADY }));
+    let accelerated = square(rover.mass_kg * S::constant(steadiness.accelerates_m_s2()));
     let pitch = attitude.pitch_variance();
     Force {
         forward,

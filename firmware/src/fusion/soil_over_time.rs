@@ -22,7 +22,7 @@ const HARDLY_ANY: f32 = 0.2;
 const UNTOLD_SLIP: f32 = 0.1;
 
 /// A wheel whose pull is known by so many times less than that of the best one is left out: the network is told one standard deviation of
-/// pull for all wheels, and takes what they are off by for chance, wheel by wheel. Where a load cell or a joint is silent it is not.
+/// pull for all wheels, and takes what they are off by for chance, wheel by wheel. Where a load cell or a bogie's angle is silent it is not.
 const WORSE_KNOWN: f32 = 2.0;
 /// A pull whose standard deviation is less than this share of the rover's weight, or 1.5 % of what a wheel carries, is known well.
 const WELL_KNOWN: f32 = 0.0025;
@@ -37,8 +37,8 @@ pub struct SoilOverTime {
     changes: SoilChangeDetector,
     /// Which side rolled back when its front wheel last rolled.
     backward: PerSide<bool>,
-    /// Whether what joints do is surmised. The networks know no such errors.
-    surmises_joints: bool,
+    /// Whether the angles of contacts are surmised. The networks know no such errors.
+    surmises_contacts: bool,
     /// Every other frame the rover network is asked what would last without noise.
     asks_what_lasts: bool,
 }
@@ -55,20 +55,21 @@ impl SoilOverTime {
             average: SoilAverage::new(false),
             changes: SoilChangeDetector::new(rover.wheel.radius_m, wheelbase_m),
             backward: PerSide::both(false),
-            surmises_joints: false,
+            surmises_contacts: false,
             asks_what_lasts: false,
         }
     }
 
-    /// Takes the wheels after some travel, m, which side rolls back, and whether what joints do is surmised. Gives the soil under each and under the rover.
+    /// Takes the wheels after some travel, m, which side rolls back, and whether angles of contacts are surmised. Gives the soil under each
+    /// and under the rover.
     pub fn tick(
         &mut self,
         wheels: &PerWheel<WheelEstimate>,
         backward: PerSide<bool>,
         travel_m: f32,
-        surmises_joints: bool,
+        surmises_contacts: bool,
     ) -> (PerWheel<Result<SoilEstimate, Refusal>>, Result<RoverSoil, Refusal>) {
-        self.surmises_joints = surmises_joints;
+        self.surmises_contacts = surmises_contacts;
         let mirrored;
         let wheels = if backward.left || backward.right {
             mirrored = in_direction_of_travel(wheels, backward);
@@ -105,6 +106,7 @@ impl SoilOverTime {
     }
 
     /// The wheels that the rover network is told of: known, on the newest soil, and known not much worse than the best.
+    #[inline(never)] // flash is scarcer than the time of a call
     fn taking_part(&self, wheels: &PerWheel<WheelEstimate>) -> PerWheel<bool> {
         let newest = self.changes.on_newest_soil();
         let stds = wheels.as_ref().zip(newest).map(|(side, newest)| {
@@ -159,7 +161,7 @@ impl SoilOverTime {
             self.average.take_noiseless(&outputs, travel_m);
         } else {
             let (outputs, inside) = rover_outputs(&query)?;
-            self.average.take(&outputs, inside && !self.surmises_joints, travel_m);
+            self.average.take(&outputs, inside && !self.surmises_contacts, travel_m);
         }
         Ok(())
     }

@@ -59,7 +59,7 @@ impl Pipeline {
             last.bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
             let backward = self.estimator.rolls_back();
             (last.wheel_soils, last.soil) =
-                self.soil.tick(&last.wheels, backward, travel_m, self.estimator.surmises_joints());
+                self.soil.tick(&last.wheels, backward, travel_m, self.estimator.surmises_contacts());
         }
         last
     }
