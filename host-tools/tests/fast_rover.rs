@@ -7,6 +7,7 @@ use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::trial::tally::Tally;
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8330..8333;
@@ -14,15 +15,6 @@ const FASTER: f64 = 8.0;
 const RATE_HZ: f64 = 50.0;
 /// From then on its torques are looked at, s.
 const STARTED_S: f64 = 3.0;
-
-/// Sums over wheels and frames.
-#[derive(Default)]
-struct Torques {
-    square: f64,
-    square_of_sensor: f64,
-    within_two: f64,
-    count: f64,
-}
 
 fn slower(rover: &Rover<f64>) -> Rover<f64> {
     let mut slow = *rover;
@@ -42,7 +34,7 @@ fn faster(mut frame: SensorFrame) -> SensorFrame {
     frame
 }
 
-fn drive(seed: u64, torques: &mut Torques) {
+fn drive(seed: u64, torques: &mut Tally) {
     let rover = Rover::assumed();
     let options = Options { rate_hz: Some(RATE_HZ / FASTER), ..Options::default() };
     let traverse = Traverse::new(Scenario::Hills, seed, &slower(&rover), &options).expect("a drive");
@@ -56,22 +48,17 @@ fn drive(seed: u64, torques: &mut Torques) {
         let truths = truth.wheels.iter_wheels().map(|wheel| wheel.resistive_torque_nm);
         let sensors = frame.wheels.iter_wheels().filter_map(|wheel| wheel.motor_torque_nm);
         for ((wheel, truth), sensor) in estimate.wheels.iter_wheels().zip(truths).zip(sensors) {
-            let told = wheel.resistive_torque_nm;
-            let error = f64::from(told.value) - truth;
-            torques.square += error * error;
-            torques.square_of_sensor += (f64::from(sensor) - truth).powi(2);
-            torques.within_two += f64::from(u8::from(error.abs() <= 2.0 * f64::from(told.std)));
-            torques.count += 1.0;
+            let sensor = Some(f64::from(sensor));
+            torques.take(wheel.resistive_torque_nm, sensor, sensor, truth);
         }
     }
 }
 
 #[test]
 fn torques_of_a_fast_rover_are_better_than_its_sensors_and_say_how_well() {
-    let mut torques = Torques::default();
+    let mut torques = Tally::default();
     SEEDS.for_each(|seed| drive(seed, &mut torques));
-    let ratio = (torques.square / torques.square_of_sensor).sqrt();
-    let within_two = torques.within_two / torques.count;
+    let (ratio, [_, within_two]) = (torques.over_naive(), torques.coverage());
     println!("torque: {ratio:.3} of the raw sensors, {within_two:.3} within two standard deviations");
     assert!(ratio <= 0.7 && within_two >= 0.9, "{ratio} {within_two}");
 }
