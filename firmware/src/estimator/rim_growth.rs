@@ -43,17 +43,14 @@ impl<S: Scalar> RimGrowth<S> {
         self.growth_rad_s2
     }
 
-    /// Notes whether the encoder said the same again.
-    pub fn note(&mut self, repeats: bool) {
+    /// Takes what the encoder says, rad/s, of one such standard deviation; nothing of a wheel that does not roll as it will; and whether it
+    /// said the same again.
+    pub fn follow(&mut self, step_s: S, measured: Option<S>, std_rad_s: S, repeats: bool) {
         self.repetitions = if repeats {
             self.repetitions.saturating_add(REPETITION).min(MOST)
         } else {
             self.repetitions.saturating_sub(1)
         };
-    }
-
-    /// Takes what the encoder says, rad/s, of one such standard deviation; nothing of a wheel that does not roll as it will.
-    pub fn follow(&mut self, step_s: S, measured: Option<S>, std_rad_s: S) {
         let rate_rad_s = measured.unwrap_or(S::zero());
         let least = rate_rad_s.abs().min(self.rate_rad_s.abs());
         if !(self.repetitions < COARSE && least > S::constant(LEAST_RATE) && step_s > S::zero()) {
@@ -82,7 +79,7 @@ mod tests {
     fn sum(growth: &mut RimGrowth<f64>, rates: impl Iterator<Item = f64>) -> f64 {
         rates
             .map(|rate| {
-                growth.follow(0.1, Some(rate), 1.0e-4);
+                growth.follow(0.1, Some(rate), 1.0e-4, false);
                 growth.share()
             })
             .sum()
@@ -91,7 +88,7 @@ mod tests {
     #[test]
     fn the_shares_of_a_rate_that_grows_steadily_come_to_its_growth() {
         let mut growth = RimGrowth::none();
-        growth.follow(0.1, Some(0.3), 1.0e-4);
+        growth.follow(0.1, Some(0.3), 1.0e-4, false);
         assert_eq!(growth.share(), 0.0, "it starts");
         let started = sum(&mut growth, (1..=40).map(|frame| 0.3 + 1.0e-3 * f64::from(frame)));
         let goes_on = sum(&mut growth, (41..=80).map(|frame| 0.3 + 1.0e-3 * f64::from(frame)));
@@ -106,8 +103,7 @@ mod tests {
         let mut last = 0.0;
         let shares = (0..200_u32).map(|frame| {
             let rate = 0.3 + 0.01 * f64::from(frame / 10);
-            growth.note(rate == last);
-            growth.follow(0.1, Some(rate), 2.0e-3);
+            growth.follow(0.1, Some(rate), 2.0e-3, rate == last);
             last = rate;
             growth.share().abs()
         });
@@ -118,11 +114,11 @@ mod tests {
     #[test]
     fn noise_is_no_growth() {
         let mut growth = RimGrowth::<f64>::none();
-        growth.follow(0.1, Some(0.3), 2.0e-3);
+        growth.follow(0.1, Some(0.3), 2.0e-3, false);
         let rates = (0..100).map(|frame| 0.3 + if frame % 3 == 0 { 2.0e-3 } else { -1.0e-3 });
         let largest = rates
             .map(|rate| {
-                growth.follow(0.1, Some(rate), 2.0e-3);
+                growth.follow(0.1, Some(rate), 2.0e-3, false);
                 growth.share().abs()
             })
             .fold(0.0_f64, f64::max);

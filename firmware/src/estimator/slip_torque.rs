@@ -247,8 +247,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         }
         let [of_rate, _] = &told.residuals;
         let rolls = readings.settled && of_rate.fate != Fate::Rejected && tells_rate;
-        self.rim_growth.note(readings.rate_repeats);
-        self.rim_growth.follow(step_s, readings.speeds.rate_rad_s.filter(|_| rolls), readings.rate_std_rad_s);
+        let rate = readings.speeds.rate_rad_s.filter(|_| rolls);
+        self.rim_growth.follow(step_s, rate, readings.rate_std_rad_s, readings.rate_repeats);
         told
     }
 
