@@ -3,7 +3,6 @@
 use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
-
 use kapvik_host::data::truth_file::TrueSoil;
 use kapvik_host::simulate::faults::{Failure, Fault};
 use kapvik_host::simulate::{Options, Scenario, Traverse};
@@ -51,8 +50,9 @@ fn where_angles_are_surmised_no_soil_is_told() {
 /// A rover that has learned its soil still knows it when it loses the sensor.
 #[test]
 fn what_was_learned_before_is_still_told() {
+    let [column, _] = OF_ALL_CONTACTS;
+    let (before, _) = at_end(Scenario::Spread, SEEDS.start, column, LONGEST_S);
     for column in OF_ALL_CONTACTS {
-        let (before, _) = at_end(Scenario::Spread, SEEDS.start, column, LONGEST_S);
         let (soil, _) = at_end(Scenario::Spread, SEEDS.start, column, LEARNED_S);
         assert_eq!((marked(&before), marked(&soil)), ([true; 2], [true; 2]), "{column}");
     }
