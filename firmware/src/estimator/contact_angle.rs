@@ -173,19 +173,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.model.body_pitch
     }
 
-    /// By what variance contact angles may all be off that nothing but the links tells, rad².
-    pub fn unrisen_variance(&self) -> S {
-        self.joints.unrisen_variance()
-    }
-
-    /// As [`Joints::are_surmised`].
-    pub fn surmises_joints(&self) -> bool {
-        self.joints.are_surmised()
-    }
-
-    /// As [`Joints::lack_what_tells_all`].
-    pub fn lacks_what_tells_all(&self) -> bool {
-        self.joints.lack_what_tells_all()
+    /// What is known of the joints and of how the axis rises.
+    pub fn joints(&self) -> &Joints<S> {
+        &self.joints
     }
 
     /// How load that shifts turns the bogie.

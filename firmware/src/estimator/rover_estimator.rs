@@ -58,7 +58,7 @@ impl<S: Scalar> Common<S> {
     /// The forces on the hubs of both sides as they hold the rover together.
     fn balanced(&self, sides: &PerSide<&SideEstimator<S>>) -> PerSide<HubForces<S>> {
         let either = |is_so: fn(&SideEstimator<S>) -> bool| is_so(sides.left) || is_so(sides.right);
-        let steadiness = if either(SideEstimator::surmises_joints) {
+        let steadiness = if either(|side| side.joints().are_surmised()) {
             Steadiness::Unknown
         } else if either(|side| !side.is_steady()) {
             Steadiness::Unsteady
@@ -184,8 +184,7 @@ impl<S: Scalar> RoverEstimator<S> {
     /// Whether the rocker's angle, or how fast the axis rises, is surmised, because nothing has told it for a second: then all contacts of a
     /// side are off alike, and for long.
     pub fn surmises_contacts(&self) -> bool {
-        let surmises = |side: &Option<SideEstimator<S>>| side.as_ref().is_some_and(SideEstimator::lacks_what_tells_all);
-        self.sides.as_array().into_iter().any(surmises)
+        self.sides.as_array().into_iter().flatten().any(|side| side.joints().lack_what_tells_all())
     }
 
     /// How sensors and filters do.

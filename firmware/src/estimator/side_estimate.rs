@@ -146,7 +146,7 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// By what variance each contact angle errs beside what its filter states, rad².
     fn beside_paths(&self) -> S {
-        self.digging_in.terrain().beside_paths() + self.angles.unrisen_variance()
+        self.digging_in.terrain().beside_paths() + self.angles.joints().unrisen_variance()
     }
 
     /// Variance of an error. While wheels dig in, each contact angle errs by itself, too.

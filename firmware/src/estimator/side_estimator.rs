@@ -11,6 +11,7 @@ use super::drawbar_split::DrawbarSplit;
 use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::hub_on_ground::HubOnGround;
+use super::joints::Joints;
 use super::load_shift::HubShift;
 use super::rim_speed::RimSpeed;
 use super::scale::Scale;
@@ -173,14 +174,9 @@ impl<S: Scalar> SideEstimator<S> {
         self.rims.speed_m_s() < S::zero()
     }
 
-    /// As [`super::joints::Joints::are_surmised`].
-    pub fn surmises_joints(&self) -> bool {
-        self.angles.surmises_joints()
-    }
-
-    /// As [`super::joints::Joints::lack_what_tells_all`].
-    pub fn lacks_what_tells_all(&self) -> bool {
-        self.angles.lacks_what_tells_all()
+    /// What is known of its joints and of how the axis rises.
+    pub fn joints(&self) -> &Joints<S> {
+        self.angles.joints()
     }
 
     /// Takes a frame.

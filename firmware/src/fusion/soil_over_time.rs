@@ -109,10 +109,10 @@ impl SoilOverTime {
     #[inline(never)] // flash is scarcer than the time of a call
     fn taking_part(&self, wheels: &PerWheel<WheelEstimate>) -> PerWheel<bool> {
         let newest = self.changes.on_newest_soil();
-        let stds = wheels.as_ref().zip(newest).map(|(side, newest)| {
-            let known = |(wheel, newest): (&WheelEstimate, bool)| newest && is_known(wheel);
-            side.as_ref().zip(newest).map(|wheel| if known(wheel) { wheel.0.drawbar_pull_n.std } else { f32::INFINITY })
-        });
+        let std = |(wheel, newest): (&WheelEstimate, bool)| {
+            if newest && is_known(wheel) { wheel.drawbar_pull_n.std } else { f32::INFINITY }
+        };
+        let stds = wheels.as_ref().zip(newest).map(|(side, newest)| side.as_ref().zip(newest).map(std));
         let least = stds.iter_wheels().fold(f32::INFINITY, |least, std| if *std < least { *std } else { least });
         let most = if WORSE_KNOWN * least > self.well_known_n { WORSE_KNOWN * least } else { self.well_known_n };
         stds.map_wheels(|std| std < most)

@@ -95,14 +95,6 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.go_on_from(&ScalarFilter { mean: motor_torque_nm, variance }, changes_nm, rate_std, travel_m, readings);
     }
 
-    /// By how much the rate has changed since the frame before, beyond noise, as its square, rad²/s².
-    pub(super) fn turned(&self, readings: &WheelReadings<S>) -> S {
-        let [rate, ..] = *self.filter.estimate().mean();
-        let square = |value: S| value * value;
-        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
-        (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero())
-    }
-
     /// The same where the encoder is silent, by which else a torque makes itself felt: then that of the drive, which holds its rate, is a
     /// measurement of it.
     pub(super) fn hold_rate(&mut self, step_s: S, travel_m: S, motor_torque_nm: S, readings: &WheelReadings<S>) {
@@ -134,6 +126,14 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let slip_std = (of_slip * self.slip_factor(readings) + slipped * slipped).sqrt();
         let _ = self.filter.random_walk(&[rate_std_rad_s, S::zero(), slip_std]);
         let _ = self.filter.forget(1, torque.mean, torque.variance.sqrt());
+    }
+
+    /// By how much the rate has changed since the frame before, beyond noise, as its square, rad²/s².
+    pub(super) fn turned(&self, readings: &WheelReadings<S>) -> S {
+        let [rate, ..] = *self.filter.estimate().mean();
+        let square = |value: S| value * value;
+        let turned = readings.speeds.rate_rad_s.map_or(S::zero(), |measured| square(measured - rate));
+        (turned - S::constant(RATE_NOISE) * square(readings.rate_std_rad_s)).max(S::zero())
     }
 
     /// How fast the slip wanders, over the nominal drift, as a variance.
