@@ -16,6 +16,8 @@ use crate::scalar::Scalar;
 /// Pieces that are remembered, of which these lie between the hubs of the front and the rear wheel on the level.
 const PIECES: usize = 64;
 const TO_REAR: f64 = 48.0;
+/// The ground under a wheel begins before its hub: by about so much of one.
+const BEFORE_HUB: f64 = 0.5;
 /// No wheel passes more of them in a frame.
 const FASTEST: f64 = 4.0;
 /// A rover that turns by more than this on the way between those hubs, rad, cuts its corners.
@@ -105,15 +107,12 @@ impl<S: Scalar> Track<S> {
         (self.known, self.turned_rad) = (0, S::zero());
     }
 
-    /// How many pieces before the front wheel's own a place is that is so far behind its hub, m; none where it is not known.
-    fn back(&self, behind_m: S) -> Option<usize> {
-        self.back_and_on(behind_m).map(|(back, _)| back)
-    }
-
-    /// The same, with how much farther back than the end of that piece the place is, of its length.
+    /// How many pieces before the front wheel's own a place is that is so many lengths of one behind its hub, and how much farther back than
+    /// the end of that piece, of its length; none where it is not known. What is read there goes over from piece to piece without a jump, or
+    /// rounding would decide between two.
     #[inline(never)] // flash is scarcer than the time of a call
-    fn back_and_on(&self, behind_m: S) -> Option<(usize, S)> {
-        let pieces = (behind_m * self.pieces_per_m - self.on).max(S::zero());
+    fn back_and_on(&self, behind: S) -> Option<(usize, S)> {
+        let pieces = (behind - self.on).max(S::zero());
         let whole = pieces.to_f32() as usize;
         (whole < self.known).then(|| (whole + 1, pieces - S::from_f32(whole as f32)))
     }
@@ -123,23 +122,29 @@ impl<S: Scalar> Track<S> {
         self.pieces.get((self.at + PIECES - back) % PIECES)
     }
 
+    /// The piece before one that is known: at the end of what is remembered, that one itself.
+    fn piece_before(&self, back: usize) -> Option<&Piece<S>> {
+        self.piece(if back < self.known { back + 1 } else { back })
+    }
+
     /// What it met where a hub is that is so far behind, m.
+    #[inline(never)] // flash is scarcer than the time of a call
     fn behind(&self, behind_m: S) -> Option<Met<S>> {
-        let back = self.back(behind_m)?;
-        let (end, start) = (self.piece(back - 1)?, self.piece(back)?);
-        let turns = surely(end.turned_rad - start.turned_rad, BY_ERRORS);
-        Some(Met { turns_per_m: turns * self.pieces_per_m, steeper_rad: start.steeper_rad })
+        let (back, on) = self.back_and_on(behind_m * self.pieces_per_m - S::constant(BEFORE_HUB))?;
+        let (ahead, here, before) = (self.piece(back - 1)?, self.piece(back)?, self.piece_before(back)?);
+        let [turns, turned] = [ahead.turned_rad - here.turned_rad, here.turned_rad - before.turned_rad];
+        let turns = surely(turns + on * (turned - turns), BY_ERRORS);
+        let steeper_rad = here.steeper_rad + on * (before.steeper_rad - here.steeper_rad);
+        Some(Met { turns_per_m: turns * self.pieces_per_m, steeper_rad })
     }
 
     /// By how much more of its load a wheel that is the first of these ways behind, m, compacts the soil than one that is the other, since
     /// soils differ. A mean lags by half of what it is taken over.
     fn unlike_share(&self, [middle_m, rear_m]: [S; 2]) -> S {
         let share = |behind_m: S| {
-            let (back, on) = self.back_and_on(behind_m - S::constant(0.5 * REMEMBERED_M))?;
+            let (back, on) = self.back_and_on((behind_m - S::constant(0.5 * REMEMBERED_M)) * self.pieces_per_m)?;
             let here = self.piece(back)?.share;
-            // From piece to piece without a jump, or rounding would decide between two.
-            let before = if back < self.known { self.piece(back + 1)?.share } else { here };
-            Some(here + on * (before - here))
+            Some(here + on * (self.piece_before(back)?.share - here))
         };
         let unlike = share(middle_m).zip(share(rear_m)).map(|(middle, rear)| middle - rear);
         unlike.map_or(S::zero(), |unlike| surely(unlike, BY_GROUND))

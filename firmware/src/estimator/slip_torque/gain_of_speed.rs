@@ -17,9 +17,12 @@ pub(super) fn torque_per_slip_nm<S: Scalar>(held_nm: S, scale: &Scale<S>) -> S {
     S::constant(TORQUE_WITH_SLIP) * scale.length * held_nm
 }
 
+/// The torque of a wheel that is held back rises faster still, up to such a slip about.
+const HELD_BACK: f64 = -0.25;
+
 /// How much torque still rises with slip, over how much it does where nothing slips, about, on sand. Of the pull it is the square of this.
 fn still_rises<S: Scalar>(slip: S) -> S {
-    let grips = (S::one() - slip.max(S::zero())).max(S::zero());
+    let grips = (S::one() - slip.max(S::constant(HELD_BACK))).max(S::zero());
     grips * grips
 }
 
