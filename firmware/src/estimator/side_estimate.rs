@@ -51,7 +51,8 @@ impl<S: Scalar> SideEstimator<S> {
         let mut stds = self.variances(forces, &contacts);
         if self.doubt.its_turn() {
             let inputs = self.doubt_inputs(&stds, &contacts);
-            self.doubt.take(&inputs, self.speed_m_s().to_f32());
+            let [front, middle, rear, ..] = self.silent;
+            self.doubt.take(&inputs, self.speed_m_s().to_f32(), front * middle * rear == S::one());
         }
         let times = self.doubt.times();
         stds.iter_mut().zip(times).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());

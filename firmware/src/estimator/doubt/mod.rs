@@ -106,10 +106,10 @@ impl Doubt {
         self.its_turn
     }
 
-    /// Takes the inputs of a frame in which the side moves at this speed, m/s.
+    /// Takes the inputs of a frame in which the side moves at this speed, m/s, and whether its rims are surmised: then, too, it may only widen.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn take(&mut self, inputs: &[f32; INPUTS], speed_m_s: f32) {
-        let least = if speed_m_s > FASTEST_M_S { 1.0 } else { 0.0 };
+    pub fn take(&mut self, inputs: &[f32; INPUTS], speed_m_s: f32, rims_surmised: bool) {
+        let least = if rims_surmised || speed_m_s > FASTEST_M_S { 1.0 } else { 0.0 };
         self.times = frozen::NETWORK.run(&mut self.memory, inputs).map(|output| times_stated(output).max(least));
     }
 
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!([0.05; 4].map(turns), [neither, [false, true], neither, [true, false]], "faster frames");
         let [side, _] = &mut sides;
         assert_eq!(side.times::<f64>(), [1.0; OUTPUTS]);
-        side.take(&[1.0; INPUTS], 0.02);
+        side.take(&[1.0; INPUTS], 0.02, false);
         let taken = side.times::<f32>();
         assert_ne!(taken, [1.0; OUTPUTS]);
         side.take_turns(0.1);
