@@ -23,6 +23,11 @@ impl<S: Scalar> RimSpeed<S> {
         self.speed_m_s
     }
 
+    /// Whether any encoder spoke in the last frame.
+    pub fn are_heard(&self) -> bool {
+        self.silence.is_over()
+    }
+
     /// Takes the speeds of a frame, m/s, and how fast the side is, as the velocimeter has it: rims of which nothing is heard for long are
     /// about as fast.
     pub fn follow(&mut self, step_s: S, rims_m_s: &PerAxle<Option<S>>, side_m_s: Option<S>) {
@@ -57,5 +62,8 @@ mod tests {
         assert_eq!(speed(None, None, None), 0.015);
         rims.follow(0.1, &silent, None);
         assert_eq!(rims.speed_m_s(), 0.015, "nothing is heard at all");
+        assert!(!rims.are_heard());
+        rims.follow(0.1, &PerAxle { rear: Some(0.02), ..silent }, None);
+        assert!(rims.are_heard());
     }
 }

@@ -51,8 +51,7 @@ impl<S: Scalar> SideEstimator<S> {
         let mut stds = self.variances(forces, &contacts);
         if self.doubt.its_turn() {
             let inputs = self.doubt_inputs(&stds, &contacts);
-            let [front, middle, rear, ..] = self.silent;
-            self.doubt.take(&inputs, self.speed_m_s().to_f32(), front * middle * rear == S::one());
+            self.doubt.take(&inputs, self.speed_m_s().to_f32(), self.rims.are_heard());
         }
         let times = self.doubt.times();
         stds.iter_mut().zip(times).for_each(|(std, times): (&mut S, S)| *std = times * std.sqrt());

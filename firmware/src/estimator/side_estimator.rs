@@ -49,7 +49,7 @@ pub(super) struct SideEstimator<S> {
     pub(super) activity: PerAxle<WheelActivity>,
     since_start: PerAxle<SinceStart<S>>,
     pub(super) motion: RollingMotion<S>,
-    rims: RimSpeed<S>,
+    pub(super) rims: RimSpeed<S>,
     /// Which wheels bear no load that their cells can tell from none.
     pub(super) lifted: PerAxle<bool>,
     /// Whether a wheel stands, or has just started.

@@ -27,6 +27,11 @@ impl<S: Scalar> Silence<S> {
         self.lasts_s = if speaks { S::zero() } else { self.lasts_s + step_s };
     }
 
+    /// Whether the sensor spoke in the last frame.
+    pub fn is_over(&self) -> bool {
+        self.lasts_s <= S::zero()
+    }
+
     /// Whether it has lasted for so long, s.
     pub fn lasts(&self, so_long_s: f64) -> bool {
         self.lasts_s >= S::constant(so_long_s)

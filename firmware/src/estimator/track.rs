@@ -16,7 +16,7 @@ use crate::scalar::Scalar;
 /// Pieces that are remembered, of which these lie between the hubs of the front and the rear wheel on the level.
 const PIECES: usize = 64;
 const TO_REAR: f64 = 48.0;
-/// The ground under a wheel begins before its hub: by about so much of one.
+/// The ground under a wheel begins before its hub: by about so much of a piece.
 const BEFORE_HUB: f64 = 0.5;
 /// No wheel passes more of them in a frame.
 const FASTEST: f64 = 4.0;

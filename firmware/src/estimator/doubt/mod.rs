@@ -106,10 +106,11 @@ impl Doubt {
         self.its_turn
     }
 
-    /// Takes the inputs of a frame in which the side moves at this speed, m/s, and whether its rims are surmised: then, too, it may only widen.
+    /// Takes the inputs of a frame in which the side moves at this speed, m/s, and whether any of its encoders speaks: where none does, the
+    /// network would state pulls on hills too surely, and may only widen, too.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn take(&mut self, inputs: &[f32; INPUTS], speed_m_s: f32, rims_surmised: bool) {
-        let least = if rims_surmised || speed_m_s > FASTEST_M_S { 1.0 } else { 0.0 };
+    pub fn take(&mut self, inputs: &[f32; INPUTS], speed_m_s: f32, rims_are_heard: bool) {
+        let least = if speed_m_s > FASTEST_M_S || !rims_are_heard { 1.0 } else { 0.0 };
         self.times = frozen::NETWORK.run(&mut self.memory, inputs).map(|output| times_stated(output).max(least));
     }
 
@@ -170,7 +171,7 @@ mod tests {
         assert_eq!([0.05; 4].map(turns), [neither, [false, true], neither, [true, false]], "faster frames");
         let [side, _] = &mut sides;
         assert_eq!(side.times::<f64>(), [1.0; OUTPUTS]);
-        side.take(&[1.0; INPUTS], 0.02, false);
+        side.take(&[1.0; INPUTS], 0.02, true);
         let taken = side.times::<f32>();
         assert_ne!(taken, [1.0; OUTPUTS]);
         side.take_turns(0.1);

@@ -8,6 +8,8 @@ use crate::scalar::Scalar;
 const TORQUE_WITH_SLIP: f64 = 0.85;
 /// Where a change of slip that the encoder can just tell is so many standard deviations of the drive's torque, both tell it as well.
 const TELLS_AS_WELL: f64 = 1.5;
+/// The torque of a wheel that is held back rises faster still, up to such a slip about.
+const HELD_BACK: f64 = -0.25;
 /// So much of what goes with a gain of speed is no wandering: soils answer to slip each in its own way.
 const FORETOLD: f64 = 0.7;
 
@@ -16,9 +18,6 @@ const FORETOLD: f64 = 0.7;
 pub(super) fn torque_per_slip_nm<S: Scalar>(held_nm: S, scale: &Scale<S>) -> S {
     S::constant(TORQUE_WITH_SLIP) * scale.length * held_nm
 }
-
-/// The torque of a wheel that is held back rises faster still, up to such a slip about.
-const HELD_BACK: f64 = -0.25;
 
 /// How much torque still rises with slip, over how much it does where nothing slips, about, on sand. Of the pull it is the square of this.
 fn still_rises<S: Scalar>(slip: S) -> S {
