@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use kapvik_firmware::rover::Side;
+use kapvik_firmware::terramechanics::Soil;
 
 use crate::data::atomic_write::write_atomically;
 use crate::data::outputs;
@@ -43,6 +45,9 @@ pub struct Arguments {
     /// The soil, in place of one that is drawn: a name of `kapvik soils` or a file as of `kapvik forward`
     #[arg(long, value_name = "NAME|S.toml")]
     soil: Option<String>,
+    /// Another soil under the wheels of the right side; where sides differ the truth of the soil is half-way between
+    #[arg(long, value_name = "NAME|S.toml")]
+    right_soil: Option<String>,
     /// Another soil from METRES on, in place of the scenario's; also ice-cemented or sublimated: the soil before it, changed
     #[arg(long, value_name = "SOIL@METRES")]
     then: Vec<String>,
@@ -67,7 +72,8 @@ pub struct Arguments {
 /// Where an argument or a file is not what is expected, or the rover gets stuck: then nothing is written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let truth = truth_path(&arguments.output);
-    let inputs = [arguments.rover.as_deref(), arguments.soil.as_deref().map(Path::new)];
+    let soils = [&arguments.soil, &arguments.right_soil].map(|soil| soil.as_deref().map(Path::new));
+    let inputs = [&[arguments.rover.as_deref()][..], &soils].concat();
     outputs::check(&[Some(&arguments.output), Some(&truth)], &inputs)?;
     let RoverFile { rover, grousers } = match &arguments.rover {
         Some(path) => RoverFile::read(path)?,
@@ -80,6 +86,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         duration_s: arguments.duration,
         rate_hz: Some(arguments.rate),
         soil,
+        right_soil: arguments.right_soil.as_deref().map(soil_argument::soil).transpose()?,
         changes: (!changes.is_empty()).then_some(changes),
         grousers: Some(grousers),
         effects,
@@ -124,13 +131,18 @@ fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Resu
         })
     })?;
     bar.finish_and_clear();
-    let first = traverse.world().soils.at(0.0);
-    Ok(format!(
-        "{written} frames, {last_s} s, {way_m:.2} m, on c = {:.0} Pa, phi = {:.1}°, K = {:.1} mm",
-        first.cohesion_pa,
-        first.friction_angle_rad.to_degrees(),
-        1e3 * first.shear_modulus_m
-    ))
+    let soils = Side::ALL.map(|side| traverse.world().soils.under(side, 0.0));
+    let on = match soils.left == soils.right {
+        true => told(&soils.left),
+        false => format!("{} (left), {} (right)", told(&soils.left), told(&soils.right)),
+    };
+    Ok(format!("{written} frames, {last_s} s, {way_m:.2} m, on {on}"))
+}
+
+fn told(soil: &Soil<f64>) -> String {
+    let Soil { cohesion_pa, friction_angle_rad, shear_modulus_m, .. } = soil;
+    let (degrees, mm) = (friction_angle_rad.to_degrees(), 1e3 * shear_modulus_m);
+    format!("c = {cohesion_pa:.0} Pa, phi = {degrees:.1}°, K = {mm:.1} mm")
 }
 
 fn rate(text: &str) -> Result<f64, String> {

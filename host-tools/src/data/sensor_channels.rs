@@ -1,6 +1,6 @@
 //! The columns of a sensor frame: their names in the files, and where each stands in [`SensorFrame`].
 
-use kapvik_firmware::rover::{Axes, PerSide};
+use kapvik_firmware::rover::{Axes, PerAxle, PerSide, SensorNoise};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 
 /// The wheels as the files name them, in the order of the flight library.
@@ -41,6 +41,25 @@ pub fn values_mut(frame: &mut SensorFrame) -> impl Iterator<Item = &mut Option<f
         })
         .chain([left, right, rocker_angle_rad])
         .chain([accel_m_s2, gyro_rad_s, velocity_m_s].into_iter().flat_map(|Axes { x, y, z }| [x, y, z]))
+}
+
+/// One standard deviation of each sensor, in its place.
+pub fn standard_deviations(noise: &SensorNoise<f32>) -> SensorFrame {
+    let wheel = WheelSensors {
+        rate_rad_s: Some(noise.wheel_rate_rad_s),
+        motor_torque_nm: Some(noise.motor_torque_nm),
+        load_cell_n: Some(noise.load_cell_n),
+    };
+    let axes = |std: f32| Axes { x: Some(std), y: Some(std), z: Some(std) };
+    SensorFrame {
+        time_us: 0,
+        wheels: PerSide::both(PerAxle::all(wheel)),
+        bogie_angle_rad: PerSide::both(Some(noise.angle_rad)),
+        rocker_angle_rad: Some(noise.angle_rad),
+        accel_m_s2: axes(noise.accel_m_s2),
+        gyro_rad_s: axes(noise.gyro_rad_s),
+        velocity_m_s: axes(noise.velocity_m_s),
+    }
 }
 
 #[cfg(test)]

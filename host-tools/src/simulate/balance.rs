@@ -182,7 +182,7 @@ impl World {
             sinkage_m: self.rover.wheel.radius_m - distance_m,
             sinking_m_s: -velocity_m_s.dot(contact.normal) - turned_m_s,
         };
-        let soil = self.soils.at(pose.x + from_axis.x);
+        let soil = self.soils.under(side, pose.x + from_axis.x);
         let forces = motion.forces(&self.on(&soil), conditions)?;
         let contact_angle_rad = libm::asin(in_world(contact.tangent).z.clamp(-1.0, 1.0));
         Ok(WheelInstant { hub_m, contact, contact_angle_rad, motion, forces, side_force_n: 0.0 })

@@ -1,5 +1,6 @@
 //! Soil that changes along the way.
 
+use kapvik_firmware::rover::{PerSide, Side};
 use kapvik_firmware::terramechanics::Soil;
 
 use super::terrain::smooth_step;
@@ -43,36 +44,36 @@ pub struct Change {
     pub becomes: Becomes,
 }
 
-/// The soil along the way.
+/// The soil along the way, under the wheels of either side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoilsAlongTheWay {
-    first: Soil<f64>,
-    then: Vec<(f64, Soil<f64>)>,
+    first: PerSide<Soil<f64>>,
+    then: Vec<(f64, PerSide<Soil<f64>>)>,
 }
 
 impl SoilsAlongTheWay {
-    /// A soil and its changes, in any order.
-    pub fn new(first: Soil<f64>, changes: &[Change]) -> Self {
+    /// The soils of both sides and their changes, in any order.
+    pub fn new(first: PerSide<Soil<f64>>, changes: &[Change]) -> Self {
         let mut changes = changes.to_vec();
         changes.sort_by(|a, b| a.from_m.total_cmp(&b.from_m));
-        let mut soil = first;
+        let mut soils = first;
         let then = changes.iter().map(|change| {
-            soil = change.becomes.from(&soil);
-            (change.from_m, soil)
+            soils = soils.map(|soil| change.becomes.from(&soil));
+            (change.from_m, soils)
         });
         Self { first, then: then.collect() }
     }
 
-    /// The soil under a hub at a distance.
-    pub fn at(&self, x_m: f64) -> Soil<f64> {
-        self.then.iter().fold(self.first, |before, (from_m, after)| {
-            mixed(&before, after, smooth_step((x_m - from_m) / BORDER_M).value)
+    /// The soil under a hub of a side at a distance.
+    pub fn under(&self, side: Side, x_m: f64) -> Soil<f64> {
+        self.then.iter().fold(*self.first.of(side), |before, (from_m, after)| {
+            mixed(&before, after.of(side), smooth_step((x_m - from_m) / BORDER_M).value)
         })
     }
 
-    /// Every soil of the way, first to last.
-    pub fn all(&self) -> impl Iterator<Item = &Soil<f64>> {
-        std::iter::once(&self.first).chain(self.then.iter().map(|(_, soil)| soil))
+    /// The soil at a distance: where the sides differ, half-way between theirs.
+    pub fn at(&self, x_m: f64) -> Soil<f64> {
+        mixed(&self.under(Side::Left, x_m), &self.under(Side::Right, x_m), 0.5)
     }
 }
 

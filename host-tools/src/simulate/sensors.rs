@@ -1,6 +1,6 @@
 //! What the sensors say of an instant, before faults.
 
-use kapvik_firmware::rover::{Axes, Axle, PerAxle, PerSide, PerWheel, Planar, SensorNoise, Side};
+use kapvik_firmware::rover::{Axes, Axle, PerAxle, PerSide, PerWheel, Planar, Side};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 use kapvik_firmware::terramechanics::effects::Conditions;
 use kapvik_firmware::terramechanics::{Memory, WheelTruth};
@@ -47,7 +47,7 @@ pub fn readings(
             hours_since_zero: Some(time_s / 3600.0),
             ..world.conditions(side, axle, motion)
         };
-        let soil = world.soils.at(motion.pose.x + motion.pose.into_world(wheel.hub_m).x);
+        let soil = world.soils.under(side, motion.pose.x + motion.pose.into_world(wheel.hub_m).x);
         let read = world.on(&soil).readings(&conditions, &truth, &mut Memory::start());
         WheelSensors {
             rate_rad_s: reading(rate_rad_s),
@@ -84,25 +84,6 @@ fn bracket_axes(instant: &Instant, side: Side) -> PerAxle<Planar<f64>> {
 /// A reading in the sensors' precision.
 fn reading(value: f64) -> Option<f32> {
     Some(value as f32)
-}
-
-/// One standard deviation of each channel, in the channels' order.
-pub fn standard_deviations(noise: &SensorNoise<f64>) -> SensorFrame {
-    let wheel = WheelSensors {
-        rate_rad_s: reading(noise.wheel_rate_rad_s),
-        motor_torque_nm: reading(noise.motor_torque_nm),
-        load_cell_n: reading(noise.load_cell_n),
-    };
-    let axes = |std: f64| Axes { x: std, y: std, z: std }.map(reading);
-    SensorFrame {
-        time_us: 0,
-        wheels: PerSide::both(PerAxle::all(wheel)),
-        bogie_angle_rad: PerSide::both(noise.angle_rad).map(reading),
-        rocker_angle_rad: reading(noise.angle_rad),
-        accel_m_s2: axes(noise.accel_m_s2),
-        gyro_rad_s: axes(noise.gyro_rad_s),
-        velocity_m_s: axes(noise.velocity_m_s),
-    }
 }
 
 /// Adds white noise to every channel: as many draws in every frame, so that a missing sensor changes no other's noise.

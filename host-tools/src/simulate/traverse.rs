@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use kapvik_firmware::rover::{Axes, Rover};
+use kapvik_firmware::rover::{Axes, PerSide, Rover, Side};
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_firmware::terramechanics::Soil;
 use rand::SeedableRng;
@@ -16,10 +16,11 @@ use super::faults::{Fault, Faults};
 use super::ground_soils::{Change, SoilsAlongTheWay};
 use super::programme::Programme;
 use super::scenario::{Draw, Scenario};
-use super::sensors::{add_noise, readings, standard_deviations};
+use super::sensors::{add_noise, readings};
 use super::sliding::Sliding;
 use super::stepper::Stepper;
 use crate::data::rover_file::RoverFile;
+use crate::data::sensor_channels::standard_deviations;
 use crate::data::truth_file::{TrueSoil, Truth, WheelTruth};
 use crate::data::wheel_file::Grousers;
 
@@ -37,6 +38,8 @@ pub struct Options {
     pub rate_hz: Option<f64>,
     /// The soil it begins on; absent: drawn.
     pub soil: Option<Soil<f64>>,
+    /// Another soil under the wheels of the right side; absent: the same.
+    pub right_soil: Option<Soil<f64>>,
     /// Changes of the soil, in place of the scenario's; absent: the scenario's.
     pub changes: Option<Vec<Change>>,
     /// The wheels' grousers, which act only through an effect; absent: those of the assumed set K0.
@@ -128,7 +131,10 @@ impl Traverse {
         let world = World {
             rover: truly,
             terrain: course.terrain,
-            soils: SoilsAlongTheWay::new(course.soil, &changes),
+            soils: SoilsAlongTheWay::new(
+                PerSide { left: course.soil, right: options.right_soil.unwrap_or(course.soil) },
+                &changes,
+            ),
             grousers: grousers.of_library(),
             effects: options.effects.library,
             bogie_stop_rad: course.bogie_stop_rad,
@@ -146,7 +152,7 @@ impl Traverse {
             stepper,
             instant,
             sliding: Sliding::default(),
-            noise: standard_deviations(&rover.noise),
+            noise: standard_deviations(&rover.noise.map(|std| std as f32)),
             random,
             velocities: VecDeque::new(),
             rate_hz,
@@ -230,8 +236,9 @@ impl Traverse {
 
     fn truth(&self, time_us: u64) -> Truth {
         let pose = self.instant.motion.pose;
-        let soil = |x_m: f64| true_soil(&self.world.soils.at(x_m), self.world.rover.wheel.width_m);
-        let wheel = |wheel: &WheelInstant| WheelTruth {
+        let world = &self.world;
+        let soil = |soil: Soil<f64>| true_soil(&soil, world.rover.wheel.width_m);
+        let wheel = |side: Side, wheel: &WheelInstant| WheelTruth {
             slip: wheel.motion.slip(),
             resistive_torque_nm: wheel.forces.torque_nm,
             contact_angle_rad: wheel.contact_angle_rad,
@@ -239,12 +246,14 @@ impl Traverse {
             drawbar_pull_n: wheel.forces.drawbar_pull_n,
             sinkage_m: wheel.motion.sinkage_m.max(0.0),
             side_force_n: wheel.side_force_n,
-            soil: soil(pose.x + pose.into_world(wheel.hub_m).x),
+            soil: soil(world.soils.under(side, pose.x + pose.into_world(wheel.hub_m).x)),
         };
         Truth {
             time_us,
-            wheels: self.instant.wheels.map_wheels(|instant| wheel(&instant)),
-            soil: soil(pose.x),
+            wheels: Side::ALL
+                .zip(self.instant.wheels)
+                .map(|(side, wheels)| wheels.map(|instant| wheel(side, &instant))),
+            soil: soil(world.soils.at(pose.x)),
             x_m: pose.x,
             z_m: pose.z,
             pitch_rad: pose.pitch,
