@@ -159,6 +159,24 @@ fn load_cells_that_do_not_bear_the_mass_are_told_of() {
 }
 
 #[test]
+fn sensors_that_are_noisier_than_stated_are_told_of() {
+    let case = Case::lasting(30.0, None);
+    for (noise, is_more) in [("0.02", true), ("0.05", false)] {
+        fs::write(case.path("rover.toml"), format!("[noise]\nmotor_torque_nm = {noise}\n")).expect("written");
+        for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
+            let arguments = ["frames.csv", output, "out", "--rover", "rover.toml"];
+            let assert = case.command(subcommand).args(arguments).assert().success();
+            let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+            let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert_eq!(told.contains("motor_torque_nm scatters by 0.0"), is_more, "{subcommand}: {told}");
+            assert_eq!(told.contains("scatters"), is_more, "{subcommand}: {told}");
+        }
+        let html = fs::read_to_string(case.path("out")).expect("written");
+        assert_eq!(html.contains("times the 0.02 that the rover file states"), is_more);
+    }
+}
+
+#[test]
 fn bad_frames_are_refused_at_their_place() {
     let last = 62;
     for (line, text, words) in [

@@ -6,6 +6,7 @@ pub mod health;
 pub mod naive;
 mod outcome;
 mod recording;
+mod scatter;
 mod weighing;
 
 use std::time::{Duration, Instant};
@@ -26,6 +27,7 @@ pub use gravity_felt::{GravityFelt, OtherGravity};
 pub use health::{REASONS, SensorTrouble, sensor_name, troubles};
 pub use outcome::{lines, unknown_columns};
 pub use recording::Recording;
+pub use scatter::{Noisier, Scatter};
 pub use weighing::{Misfit, Weighing};
 
 /// What is known once all frames went through.
@@ -45,6 +47,8 @@ pub struct Outcome {
     pub misfit: Option<Misfit>,
     /// What the accelerometer feels in place of gravity, where that is something else.
     pub other_gravity: Option<OtherGravity>,
+    /// Sensors that scatter more than the rover file states.
+    pub noisier: Vec<Noisier>,
     /// How sensors and filters did.
     pub estimator: EstimatorHealth,
     /// Who answered.
@@ -81,10 +85,12 @@ pub fn replay(
     let mut counted: Option<Counted> = None;
     let mut weighing = Weighing::of(rover);
     let mut gravity = GravityFelt::of(rover);
+    let mut scatter = Scatter::of(rover);
     let looked_at = frames.inspect(|frame| {
         frame.iter().for_each(|frame| {
             weighing.take(frame);
             gravity.take(frame);
+            scatter.take(frame);
         });
     });
     computer.frames(looked_at, |estimate| {
@@ -96,7 +102,20 @@ pub fn replay(
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
     let (misfit, other_gravity) = (weighing.misfit(), gravity.other());
-    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, misfit, other_gravity, estimator, boot, health })
+    let noisier = scatter.noisier();
+    Ok(Outcome {
+        frames,
+        span_us,
+        took,
+        soil,
+        soil_changes_us,
+        misfit,
+        other_gravity,
+        noisier,
+        estimator,
+        boot,
+        health,
+    })
 }
 
 impl Counted {

@@ -4,9 +4,9 @@ use maud::{DOCTYPE, Markup, html};
 
 use super::CHART_CSS;
 use super::caveats::caveats;
-use super::cells_and_mass::cells_and_mass;
 use super::errors;
 use super::findings::{Origin, TraverseFindings};
+use super::rover_file_doubts::rover_file_doubts;
 use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
 use super::wheel_chart::QUANTITIES;
@@ -36,7 +36,7 @@ pub fn page(findings: &TraverseFindings) -> String {
                     section {
                         h2 { "What to keep in mind" }
                         ul class="caveats" {
-                            @for caveat in caveats(findings).into_iter().chain(cells_and_mass(findings)) { li { (caveat) } }
+                            @for caveat in caveats(findings).into_iter().chain(rover_file_doubts(findings)) { li { (caveat) } }
                         }
                     }
                     section {

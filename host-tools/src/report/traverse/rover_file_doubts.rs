@@ -1,12 +1,13 @@
-//! Whether the rover's mass is what its load cells bear, and its gravity what its accelerometer feels.
+//! Whether what the rover file states is what the sensors show: mass, gravity, noise.
 
 use super::findings::TraverseFindings;
 
-/// What a reader must know where they are not.
-pub fn cells_and_mass(findings: &TraverseFindings) -> Option<String> {
+/// What a reader must know where it is not.
+pub fn rover_file_doubts(findings: &TraverseFindings) -> Option<String> {
     let outcome = &findings.outcome;
     let cells = outcome.misfit.map(|misfit| misfit.to_string());
-    let said = cells.into_iter().chain(outcome.other_gravity.map(|other| other.to_string()));
+    let gravity = outcome.other_gravity.map(|other| other.to_string());
+    let said = cells.into_iter().chain(gravity).chain(outcome.noisier.iter().map(ToString::to_string));
     let sentences: Vec<String> = said.filter_map(|said| sentence(&said)).collect();
     (!sentences.is_empty()).then(|| sentences.join(" "))
 }

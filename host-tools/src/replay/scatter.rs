@@ -1,0 +1,218 @@
+//! Whether sensors scatter from frame to frame by more than the rover file states of their noise.
+
+use std::fmt;
+
+use kapvik_firmware::rover::Rover;
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+use crate::data::sensor_channels::{names, standard_deviations, values};
+
+/// A sensor is told of where it scatters by so many times what is stated.
+const TOLERATED: f64 = 1.5;
+/// Fewest differences that tell.
+const LEAST_DIFFERENCES: u32 = 200;
+/// Share of the time between two frames by which that between the next may be longer or shorter.
+const UNEVEN: f64 = 0.25;
+/// Frames that make a difference.
+const FRAMES: usize = 4;
+/// The standard deviation of x₀ − 3x₁ + 3x₂ − x₃ over that of white noise in x: √(1 + 9 + 9 + 1).
+const OF_DIFFERENCE: f64 = 4.472_135_954_999_58;
+/// The median of |x| of a Gaussian over its standard deviation.
+const MEDIAN: f64 = 0.674_489_750_196_081_7;
+
+/// The keys of a rover file's `[noise]`, with the sensors that each is for: how their columns begin.
+const KEYS: [(&str, &[&str]); 7] = [
+    ("wheel_rate_rad_s", &["wheel_rate"]),
+    ("motor_torque_nm", &["motor_torque"]),
+    ("load_cell_n", &["load_cell"]),
+    ("angle_rad", &["bogie_angle", "rocker_angle"]),
+    ("accel_m_s2", &["accel"]),
+    ("gyro_rad_s", &["gyro"]),
+    ("velocity_m_s", &["velocity"]),
+];
+
+/// How often a third difference had which size: a median of any number of them in a fixed place.
+///
+/// A difference of third order leaves nothing of what goes smoothly from frame to frame, and a median little of what comes seldom: a
+/// step, a stone, an outlier. What is left is white noise; noise that lasts from frame to frame does not show.
+#[derive(Debug, Clone)]
+struct Sizes {
+    counts: Vec<u32>,
+    count: u32,
+}
+
+impl Sizes {
+    /// Sizes as multiples of what is stated, from less than the least on; each is greater than the one before by a fiftieth.
+    const LEAST: f64 = 0.01;
+    const GROWTH: f64 = 1.02;
+    const BINS: usize = 700;
+
+    fn none() -> Self {
+        Self { counts: vec![0; Self::BINS], count: 0 }
+    }
+
+    fn take(&mut self, size: f64) {
+        let bin = (libm::log(size / Self::LEAST) / libm::log(Self::GROWTH)).clamp(0.0, (Self::BINS - 1) as f64);
+        self.counts[bin as usize] += 1;
+        self.count += 1;
+    }
+
+    /// None where too few were taken.
+    fn median(&self) -> Option<f64> {
+        let mut below = 0;
+        let bin = self.counts.iter().position(|count| {
+            below += count;
+            2 * below > self.count
+        });
+        let size = Self::LEAST * libm::pow(Self::GROWTH, bin? as f64 + 0.5);
+        (self.count >= LEAST_DIFFERENCES).then_some(size)
+    }
+}
+
+/// The scatter of every sensor over a drive.
+#[derive(Debug, Clone)]
+pub struct Scatter {
+    /// One standard deviation as stated, in the order of [`values`].
+    stated: Vec<f64>,
+    sizes: Vec<Sizes>,
+    /// The last frames, the latest first.
+    last: [SensorFrame; FRAMES - 1],
+}
+
+/// Sensors that scatter more than stated, or a sensor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Noisier {
+    /// The key of `[noise]` in a rover file, where all of its sensors do, else the column of the one that does.
+    pub name: String,
+    /// One standard deviation as they show it, in the unit of the name.
+    pub shown: f64,
+    /// The same as stated.
+    pub stated: f64,
+}
+
+impl Scatter {
+    /// Of a rover, before its first frame.
+    pub fn of(rover: &Rover<f32>) -> Self {
+        let stated = values(&standard_deviations(&rover.noise));
+        let stated: Vec<f64> = stated.into_iter().map(|std| std.map_or(f64::NAN, f64::from)).collect();
+        let sizes = vec![Sizes::none(); stated.len()];
+        Self { stated, sizes, last: [SensorFrame::default(); FRAMES - 1] }
+    }
+
+    /// Takes the next frame.
+    pub fn take(&mut self, frame: &SensorFrame) {
+        let [latest, before, first] = &self.last;
+        let times = [first, before, latest, frame].map(|frame| frame.time_us as f64);
+        if is_even(times) {
+            let rows = [first, before, latest, frame].map(values);
+            for (place, sizes) in self.sizes.iter_mut().enumerate() {
+                let [first, before, latest, now] = rows.each_ref().map(|row| row[place].map(f64::from));
+                let difference = || Some(now? - 3.0 * latest? + 3.0 * before? - first?);
+                let size = difference().map(|difference| difference.abs() / (OF_DIFFERENCE * self.stated[place]));
+                size.filter(|size| size.is_finite()).into_iter().for_each(|size| sizes.take(size));
+            }
+        }
+        self.last = [*frame, *latest, *before];
+    }
+
+    /// The sensors that scatter more than stated.
+    pub fn noisier(&self) -> Vec<Noisier> {
+        KEYS.into_iter().flat_map(|(key, begins)| self.noisier_of(key, begins)).collect()
+    }
+
+    /// Those of a key: the key itself, where all that can be told of do.
+    fn noisier_of(&self, key: &str, begins: &[&str]) -> Vec<Noisier> {
+        let told = |(place, name): (usize, String)| {
+            let stated = self.stated[place];
+            let shown = stated * self.sizes[place].median()? / MEDIAN;
+            begins.iter().any(|begin| name.starts_with(begin)).then_some(Noisier { name, shown, stated })
+        };
+        let of_key: Vec<Noisier> = names().into_iter().enumerate().filter_map(told).collect();
+        let count = of_key.len();
+        let noisier: Vec<Noisier> =
+            of_key.into_iter().filter(|sensor| sensor.shown > TOLERATED * sensor.stated).collect();
+        match noisier.first() {
+            Some(&Noisier { stated, .. }) if noisier.len() == count => {
+                let shown = noisier.iter().map(|sensor| sensor.shown).sum::<f64>() / count as f64;
+                vec![Noisier { name: key.to_owned(), shown, stated }]
+            }
+            _ => noisier,
+        }
+    }
+}
+
+/// Whether times follow each other at even distances.
+fn is_even([first, second, third, fourth]: [f64; FRAMES]) -> bool {
+    let (between, then, last) = (second - first, third - second, fourth - third);
+    let is_alike = |other: f64| (other - between).abs() <= UNEVEN * between;
+    between > 0.0 && is_alike(then) && is_alike(last)
+}
+
+impl fmt::Display for Noisier {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, shown, stated } = self;
+        write!(
+            formatter,
+            "{name} scatters by {} from frame to frame, {:.1} times the {} that the rover file states: what rests on it is less certain \
+             than is said",
+            two_digits(*shown),
+            shown / stated,
+            two_digits(*stated),
+        )
+    }
+}
+
+/// Two significant digits, for people.
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    use super::*;
+    use crate::data::sensor_channels::values_mut;
+
+    /// What is said of frames whose sensors rise smoothly and scatter by so many times what is stated, a place at a time.
+    fn said(frames: u64, times: impl Fn(usize) -> f32) -> Vec<String> {
+        let rover = Rover::<f64>::assumed().map(|value| value as f32);
+        let stated = values(&standard_deviations(&rover.noise));
+        let mut scatter = Scatter::of(&rover);
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        for index in 0..frames {
+            let mut frame = SensorFrame { time_us: 100_000 * index, ..SensorFrame::default() };
+            for (place, (value, std)) in values_mut(&mut frame).zip(&stated).enumerate() {
+                let normal: f32 = StandardNormal.sample(&mut random);
+                *value = std.map(|std| libm::sinf(0.01 * index as f32) + times(place) * std * normal);
+            }
+            scatter.take(&frame);
+        }
+        scatter.noisier().iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn nothing_is_said_where_sensors_are_as_stated() {
+        assert_eq!(said(1000, |_| 1.0), Vec::<String>::new());
+        assert_eq!(said(100, |_| 5.0), Vec::<String>::new(), "too few frames tell nothing");
+    }
+
+    #[test]
+    fn all_sensors_of_a_kind_are_told_of_by_their_key() {
+        // The second of each wheel's three sensors is its torque.
+        let said = said(1000, |place| if place < 18 && place % 3 == 1 { 2.5 } else { 1.0 });
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(
+            said[0].starts_with("motor_torque_nm scatters by 0.1") && said[0].contains("2.5 times the 0.05"),
+            "{said:?}"
+        );
+    }
+
+    #[test]
+    fn a_single_sensor_is_told_of_by_its_column() {
+        let said = said(1000, |place| if place == 2 { 3.0 } else { 1.0 });
+        assert!(said.len() == 1 && said[0].starts_with("load_cell_fl_n scatters by 1.5"), "{said:?}");
+    }
+}
