@@ -43,7 +43,7 @@ fn terms(Bend { slip, load, both }: Bend, u: f64, q: f64) -> [f64; TERMS] {
 /// Draws a soil and wheels at slips between two; none where it does not carry them all.
 fn drawn(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> Option<Drawn> {
     let mut share = || random.random::<f64>();
-    let soil = prior::soil(prior::SOIL_RANGES.map(|range| range.at(share())));
+    let soil = prior::any_soil(&mut share);
     let wheel = prior::KAPVIK_WHEEL;
     let (mean_n, spread) = (prior::KAPVIK_LOADS_N.at(share()), prior::LOAD_SPREAD.at(share()));
     let offset = f64::from(OFFSET);

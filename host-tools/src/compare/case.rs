@@ -80,7 +80,7 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
 
 /// A soil, or none where it would lie beyond what the networks were trained with.
 fn soil(truth: Truth, random: &mut ChaCha8Rng) -> Option<Soil<f64>> {
-    let mut any = || prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random())));
+    let mut any = || prior::any_soil(|| random.random());
     let (from, to) = match truth {
         Truth::Drawn => return Some(any()),
         Truth::Fixed(soil) => return Some(soil),

@@ -8,6 +8,7 @@
 
 use kapvik_firmware::wheel_state::WheelState;
 use nalgebra::{DMatrix, DVector};
+use rand::RngExt;
 
 use crate::train::prior;
 
@@ -36,7 +37,7 @@ impl Bends {
         if !layout.is_mixed() {
             return None;
         }
-        let runs = layout.rehearse(0..SOILS, |random| super::rehearsal::any_soil(&prior::SOIL_RANGES, random));
+        let runs = layout.rehearse(0..SOILS, |random| prior::any_soil(|| random.random()));
         let runs: Vec<Rehearsed> = runs.into_iter().map(|(_, run)| run).collect();
         let shown = columns(runs.iter().map(|run| numbers(&run.states)))?;
         let bend = columns(runs.iter().map(|run| run.bends.as_flattened().to_vec()))?;

@@ -114,17 +114,12 @@ pub fn missing(
 
 impl Soils for OfTraining {
     fn draw(&self, stated: &[Target; TARGETS], widths: &[f64; TARGETS], random: &mut ChaCha8Rng) -> Soil<f64> {
-        any_soil(&about(stated, widths), random)
+        prior::any_soil_within(&about(stated, widths), || random.random())
     }
 
     fn targets(&self, soil: &Soil<f64>) -> [f64; TARGETS] {
         soil_targets(soil)
     }
-}
-
-/// A soil of the ranges.
-pub fn any_soil(ranges: &[Range; SOIL_PARAMETERS], random: &mut ChaCha8Rng) -> Soil<f64> {
-    prior::soil(ranges.map(|range| range.at(random.random())))
 }
 
 /// Where soils are drawn: c, φ and K about the answer, all else from the prior.

@@ -71,18 +71,7 @@ pub fn pull_ratio(rover: &Rover<f64>, soil: &Soil<f64>, slip: f64) -> Option<(f6
 pub fn draw_soil(random: &mut ChaCha8Rng, rover: &Rover<f64>, demand: &Demand) -> Option<Soil<f64>> {
     const TRIALS: usize = 20_000;
     (0..TRIALS).find_map(|_| {
-        let mut draw = |range: &prior::Range| range.at(random.random::<f64>());
-        let soil = Soil {
-            cohesion_pa: draw(&prior::COHESION_PA),
-            friction_angle_rad: draw(&prior::FRICTION_ANGLE_RAD),
-            shear_modulus_m: draw(&prior::SHEAR_MODULUS_M),
-            sinkage_exponent: draw(&prior::SINKAGE_EXPONENT),
-            frictional_modulus: draw(&prior::STIFFNESS),
-            cohesive_modulus: 0.0,
-            peak_stress_c1: draw(&prior::PEAK_STRESS_C1),
-            peak_stress_c2: draw(&prior::PEAK_STRESS_C2),
-            rebound_ratio: 0.0,
-        };
+        let soil = prior::any_soil(|| random.random());
         demand.is_met_by(rover, &soil).then_some(soil)
     })
 }

@@ -84,6 +84,16 @@ pub fn soil(parameters: [f64; SOIL_PARAMETERS]) -> Soil<f64> {
     }
 }
 
+/// A soil of the prior; `share` gives numbers 0 … 1, one a parameter.
+pub fn any_soil(share: impl FnMut() -> f64) -> Soil<f64> {
+    any_soil_within(&SOIL_RANGES, share)
+}
+
+/// A soil whose parameters lie in these ranges, in the order and the units of [`SOIL_RANGES`].
+pub fn any_soil_within(ranges: &[Range; SOIL_PARAMETERS], mut share: impl FnMut() -> f64) -> Soil<f64> {
+    soil(ranges.map(|range| range.at(share())))
+}
+
 /// Share of scenes with Kapvik's wheel.
 pub const KAPVIK_SHARE: f64 = 0.75;
 /// Share of scenes that surely have all six wheels; the others have one to six.

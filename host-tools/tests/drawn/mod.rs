@@ -59,7 +59,7 @@ impl Plan {
         let mut csv = format!("{COLUMNS}\n");
         let mut drawn = Vec::new();
         while drawn.len() < soils {
-            let soil = prior::soil(prior::SOIL_RANGES.map(|range| range.at(random.random())));
+            let soil = prior::any_soil(|| random.random());
             let wheel = prior::KAPVIK_WHEEL;
             let truth = |(slip, load_n): &(f64, f64)| {
                 let state = WheelState::under_load(&wheel, &soil, *slip, *load_n).ok()?;
