@@ -49,6 +49,28 @@ fn frames_and_truth_stand_beside_each_other_and_repeat() {
     }
 }
 
+/// Where the sides stand on different soils both are told, and the truth of the soil is half-way between.
+#[test]
+fn the_right_side_may_stand_on_another_soil() {
+    let folder = Folder::new();
+    for (name, phi) in [("l.toml", 0.6), ("r.toml", 0.5)] {
+        let soil = format!("n = 1.1\nk_phi = 2e6\nc = 300\nphi = {phi}\nK = 0.015\nc1 = 0.3\nc2 = 0.2\n");
+        fs::write(folder.0.path().join(name), soil).expect("written");
+    }
+    let arguments = ["--seed", "3", "--scenario", "spread", "--duration", "3", "-o", "a.csv"];
+    let output = folder.run(&[arguments.as_slice(), &["--soil", "l.toml", "--right-soil", "r.toml"]].concat());
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let told = "c = 300 Pa, phi = 34.4°, K = 15.0 mm (left), c = 300 Pa, phi = 28.6°, K = 15.0 mm (right)";
+    assert!(output.status.success() && said.contains(told), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    let truths = TruthReader::open(&folder.0.path().join("a.truth.csv")).expect("truths");
+    for truth in truths {
+        let soil = truth.expect("a truth").soil;
+        assert!((soil.friction_angle_rad - 0.55).abs() < 1e-9, "{soil:?}");
+    }
+    let output = folder.run(&["--seed", "3", "-o", "r.toml", "--right-soil", "r.toml"]);
+    assert!(!output.status.success() && folder.text("r.toml").starts_with("n = 1.1"), "an input is not written over");
+}
+
 #[test]
 fn what_a_rover_file_says_besides_is_named() {
     let folder = Folder::new();
