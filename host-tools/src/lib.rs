@@ -6,6 +6,7 @@ pub mod commands;
 pub mod compare;
 pub mod data;
 pub mod diagnose;
+mod digits;
 pub mod doubt;
 pub mod error;
 pub mod flight_computer;

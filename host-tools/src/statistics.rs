@@ -23,7 +23,7 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// A standard deviation over the median of absolute values, of a normal distribution.
-const PER_MEDIAN: f64 = 1.482_6;
+pub const PER_MEDIAN: f64 = 1.482_6;
 
 /// The standard deviation of errors about zero, from the median of their sizes: a few gross ones do not move it; not a number of none.
 pub fn robust_std(errors: impl IntoIterator<Item = f64>) -> f64 {

@@ -25,8 +25,7 @@ fn noisier(
 /// Drives as they come, and some whose wheels shake: grousers, and rims that wander; frames often and seldom.
 fn options() -> Vec<Options> {
     let with = |name: &str, value: f64| {
-        let mut effects = RoverEffects::default();
-        effects.set(name, value).expect("an effect of rovers");
+        let effects = RoverEffects::only(name, value).expect("an effect of rovers");
         Options { effects, ..Options::default() }
     };
     let at = |rate_hz| Options { rate_hz: Some(rate_hz), ..Options::default() };

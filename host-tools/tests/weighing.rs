@@ -44,8 +44,7 @@ fn right_ones() -> Vec<(Rover<f64>, Options)> {
         rover
     };
     let with = |name: &str, value: f64| {
-        let mut effects = RoverEffects::default();
-        effects.set(name, value).expect("an effect of rovers");
+        let effects = RoverEffects::only(name, value).expect("an effect of rovers");
         Options { effects, ..Options::default() }
     };
     vec![

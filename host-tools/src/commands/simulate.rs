@@ -72,8 +72,8 @@ pub struct Arguments {
 /// Where an argument or a file is not what is expected, or the rover gets stuck: then nothing is written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let truth = truth_path(&arguments.output);
-    let soils = [&arguments.soil, &arguments.right_soil].map(|soil| soil.as_deref().map(Path::new));
-    let inputs = [&[arguments.rover.as_deref()][..], &soils].concat();
+    let [soil, right_soil] = [&arguments.soil, &arguments.right_soil].map(|soil| soil.as_deref().map(Path::new));
+    let inputs = [arguments.rover.as_deref(), soil, right_soil];
     outputs::check(&[Some(&arguments.output), Some(&truth)], &inputs)?;
     let RoverFile { rover, grousers } = match &arguments.rover {
         Some(path) => RoverFile::read(path)?,

@@ -101,8 +101,7 @@ pub fn replay(
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
-    let (misfit, other_gravity) = (weighing.misfit(), gravity.other());
-    let noisier = scatter.noisier();
+    let (misfit, other_gravity, noisier) = (weighing.misfit(), gravity.other(), scatter.noisier());
     Ok(Outcome {
         frames,
         span_us,
@@ -147,6 +146,13 @@ impl Outcome {
     pub fn driven_s(&self) -> f64 {
         let (first, last) = self.span_us;
         1e-6 * last.saturating_sub(first) as f64
+    }
+
+    /// What the sensors show otherwise than the rover file states: mass, gravity, noise; a sentence each, without capital and stop.
+    pub fn doubts_of_rover_file(&self) -> impl Iterator<Item = String> {
+        let misfit = self.misfit.map(|misfit| misfit.to_string());
+        let gravity = self.other_gravity.map(|other| other.to_string());
+        misfit.into_iter().chain(gravity).chain(self.noisier.iter().map(ToString::to_string))
     }
 
     /// Frames per second of the replay.

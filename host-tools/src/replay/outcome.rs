@@ -21,9 +21,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
         Err(reason) => format!("soil at the end: no estimate: {}", network_refusal(*reason)),
     });
     lines.extend(change_line(outcome));
-    lines.extend(outcome.misfit.map(|misfit| misfit.to_string()));
-    lines.extend(outcome.other_gravity.map(|other| other.to_string()));
-    lines.extend(outcome.noisier.iter().map(ToString::to_string));
+    lines.extend(outcome.doubts_of_rover_file());
     lines.extend(filter_lines(outcome));
     lines.extend(sensor_lines(outcome));
     lines

@@ -6,6 +6,8 @@ use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use crate::data::sensor_channels::{names, standard_deviations, values};
+use crate::digits::significant;
+use crate::statistics::PER_MEDIAN;
 
 /// A sensor is told of where it scatters by so many times what is stated.
 const TOLERATED: f64 = 1.5;
@@ -13,12 +15,8 @@ const TOLERATED: f64 = 1.5;
 const LEAST_DIFFERENCES: u32 = 200;
 /// Share of the time between two frames by which that between the next may be longer or shorter.
 const UNEVEN: f64 = 0.25;
-/// Frames that make a difference.
-const FRAMES: usize = 4;
 /// The standard deviation of x₀ − 3x₁ + 3x₂ − x₃ over that of white noise in x: √(1 + 9 + 9 + 1).
 const OF_DIFFERENCE: f64 = 4.472_135_954_999_58;
-/// The median of |x| of a Gaussian over its standard deviation.
-const MEDIAN: f64 = 0.674_489_750_196_081_7;
 
 /// The keys of a rover file's `[noise]`, with the sensors that each is for: how their columns begin.
 const KEYS: [(&str, &[&str]); 7] = [
@@ -75,8 +73,15 @@ pub struct Scatter {
     /// One standard deviation as stated, in the order of [`values`].
     stated: Vec<f64>,
     sizes: Vec<Sizes>,
-    /// The last frames, the latest first.
-    last: [SensorFrame; FRAMES - 1],
+    /// The three frames before, the first of them first.
+    before: [Row; 3],
+}
+
+/// What the sensors of a frame said.
+#[derive(Debug, Clone, Default)]
+struct Row {
+    time_us: u64,
+    values: Vec<Option<f32>>,
 }
 
 /// Sensors that scatter more than stated, or a sensor.
@@ -96,23 +101,25 @@ impl Scatter {
         let stated = values(&standard_deviations(&rover.noise));
         let stated: Vec<f64> = stated.into_iter().map(|std| std.map_or(f64::NAN, f64::from)).collect();
         let sizes = vec![Sizes::none(); stated.len()];
-        Self { stated, sizes, last: [SensorFrame::default(); FRAMES - 1] }
+        Self { stated, sizes, before: Default::default() }
     }
 
     /// Takes the next frame.
     pub fn take(&mut self, frame: &SensorFrame) {
-        let [latest, before, first] = &self.last;
-        let times = [first, before, latest, frame].map(|frame| frame.time_us as f64);
-        if is_even(times) {
-            let rows = [first, before, latest, frame].map(values);
+        let row = Row { time_us: frame.time_us, values: values(frame) };
+        let [first, second, third] = &self.before;
+        let rows = [first, second, third, &row];
+        if is_even(rows.map(|row| row.time_us as f64)) {
             for (place, sizes) in self.sizes.iter_mut().enumerate() {
-                let [first, before, latest, now] = rows.each_ref().map(|row| row[place].map(f64::from));
-                let difference = || Some(now? - 3.0 * latest? + 3.0 * before? - first?);
+                let value = |row: &Row| row.values.get(place).copied().flatten().map(f64::from);
+                let [first, second, third, fourth] = rows.map(value);
+                let difference = || Some(fourth? - 3.0 * third? + 3.0 * second? - first?);
                 let size = difference().map(|difference| difference.abs() / (OF_DIFFERENCE * self.stated[place]));
                 size.filter(|size| size.is_finite()).into_iter().for_each(|size| sizes.take(size));
             }
         }
-        self.last = [*frame, *latest, *before];
+        self.before.rotate_left(1);
+        self.before[2] = row;
     }
 
     /// The sensors that scatter more than stated.
@@ -124,7 +131,7 @@ impl Scatter {
     fn noisier_of(&self, key: &str, begins: &[&str]) -> Vec<Noisier> {
         let told = |(place, name): (usize, String)| {
             let stated = self.stated[place];
-            let shown = stated * self.sizes[place].median()? / MEDIAN;
+            let shown = stated * PER_MEDIAN * self.sizes[place].median()?;
             begins.iter().any(|begin| name.starts_with(begin)).then_some(Noisier { name, shown, stated })
         };
         let of_key: Vec<Noisier> = names().into_iter().enumerate().filter_map(told).collect();
@@ -142,7 +149,7 @@ impl Scatter {
 }
 
 /// Whether times follow each other at even distances.
-fn is_even([first, second, third, fourth]: [f64; FRAMES]) -> bool {
+fn is_even([first, second, third, fourth]: [f64; 4]) -> bool {
     let (between, then, last) = (second - first, third - second, fourth - third);
     let is_alike = |other: f64| (other - between).abs() <= UNEVEN * between;
     between > 0.0 && is_alike(then) && is_alike(last)
@@ -155,16 +162,11 @@ impl fmt::Display for Noisier {
             formatter,
             "{name} scatters by {} from frame to frame, {:.1} times the {} that the rover file states: what rests on it is less certain \
              than is said",
-            two_digits(*shown),
+            significant(*shown, 2),
             shown / stated,
-            two_digits(*stated),
+            significant(*stated, 2),
         )
     }
-}
-
-/// Two significant digits, for people.
-fn two_digits(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use kapvik_firmware::network::FLOWN_PAIRS;
 use kapvik_firmware::self_test::SelfTestReport;
 use maud::{Markup, html};
 
+use crate::digits::significant;
 use crate::flight_computer::Computer;
 use crate::identify::NoiseSource;
 use crate::qemu::{LogLine, MemoryUse};
@@ -126,12 +127,6 @@ fn kib(bytes: u32) -> String {
     format!("{:.1} KiB", f64::from(bytes) / 1024.0)
 }
 
-/// A number rounded to two significant digits.
-fn two_digits(value: f64) -> String {
-    let text: f64 = format!("{value:.1e}").parse().unwrap_or(value);
-    text.to_string()
-}
-
 fn wheel(findings: &Findings) -> String {
     let (wheel, grousers) = (&findings.campaign.wheel, &findings.campaign.grousers);
     let rim = match grousers.count {
@@ -156,7 +151,7 @@ fn noise(findings: &Findings) -> String {
             NoiseSource::Repeats => "from repeats",
             NoiseSource::FlightSensors => "assumed, as the flight sensors",
         };
-        format!("{} {what} ({source})", two_digits(factor * std.std))
+        format!("{} {what} ({source})", significant(factor * std.std, 2))
     });
     words.join(", ")
 }

@@ -50,6 +50,16 @@ impl Default for RoverEffects {
 }
 
 impl RoverEffects {
+    /// One effect alone, as of [`Self::set`].
+    ///
+    /// # Errors
+    /// Those of [`Self::set`].
+    pub fn only(name: &str, value: f64) -> Result<Self, String> {
+        let mut effects = Self::default();
+        effects.set(name, value)?;
+        Ok(effects)
+    }
+
     /// Sets an effect: by its id, which stands for the first free parameter of its first form that shows on a rover, or by
     /// `ID.PARAMETER`.
     ///

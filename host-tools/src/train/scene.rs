@@ -152,7 +152,7 @@ fn gather(world: &World, design: Design, count: usize, seed: u32, draws: u32) ->
 fn draw(world: &World, design: Design, index: u32, seed: u32) -> Option<Scene> {
     let mut shares = Shares::new(index, seed);
     let mut of_effects = shares.of_effects();
-    let soil = prior::soil(prior::SOIL_RANGES.map(|range| range.at(shares.next())));
+    let soil = prior::any_soil(|| shares.next());
     let ground = Ground {
         soil,
         drive: Drive::draw(|| of_effects.next()),

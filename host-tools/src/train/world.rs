@@ -6,6 +6,7 @@ use kapvik_firmware::terramechanics::effects::{Effects, ParameterInfo};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::data::campaign::{Declared, DeclaredEffect, Knowledge};
+use crate::digits::significant;
 
 /// The effects that a world has, each with what is known of its parameters. Without any it is the seed's.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -145,11 +146,13 @@ impl fmt::Display for World {
 impl fmt::Display for Spread {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Exactly(value) => write!(formatter, "{}", rounded(value)),
+            Self::Exactly(value) => write!(formatter, "{}", significant(value, 6)),
             Self::Normal { mean, std, .. } => {
                 write!(formatter, "{} +- {} normal", as_well_as_known(mean, std), as_well_as_known(std, std))
             }
-            Self::Uniform { low, high } => write!(formatter, "{} ... {} uniform", rounded(low), rounded(high)),
+            Self::Uniform { low, high } => {
+                write!(formatter, "{} ... {} uniform", significant(low, 6), significant(high, 6))
+            }
         }
     }
 }
@@ -158,11 +161,6 @@ impl fmt::Display for Spread {
 fn as_well_as_known(value: f64, std: f64) -> f64 {
     let decimals = (1.0 - libm::floor(libm::log10(std))).clamp(0.0, 17.0) as usize;
     format!("{value:.decimals$}").parse().unwrap_or(value)
-}
-
-/// Six significant digits, for people.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -102,7 +102,7 @@ fn wheels_obey_the_wheel_soil_equations() {
     ] {
         let mut worst: f64 = 0.0;
         each_instant_with(options, scenario, 11, |traverse, time_s| {
-            if time_s > 4.0 {
+            if time_s >= 4.0 {
                 Side::ALL.as_array().into_iter().for_each(|side| worst = worst.max(damping_of(traverse, *side)));
             }
         });

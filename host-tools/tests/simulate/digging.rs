@@ -13,8 +13,7 @@ use super::{drive, quiet_rover};
 const N1: f64 = 0.3;
 
 fn with_slip_sinkage() -> Options {
-    let mut effects = RoverEffects::default();
-    effects.set("slip-sinkage", N1).expect("an effect of rovers");
+    let effects = RoverEffects::only("slip-sinkage", N1).expect("an effect of rovers");
     Options { effects, ..Options::default() }
 }
 

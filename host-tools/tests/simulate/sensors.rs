@@ -126,8 +126,7 @@ fn noise_is_white_and_as_large_as_the_rover_file_says() {
 
 /// A drive with one effect, and the same without.
 fn with_effect(id: &str, value: f64) -> Vec<[(kapvik_firmware::sensor_frame::SensorFrame, f64); 2]> {
-    let mut effects = RoverEffects::default();
-    effects.set(id, value).unwrap();
+    let effects = RoverEffects::only(id, value).unwrap();
     let options = Options { duration_s: Some(20.0), effects, ..Options::default() };
     let with = drive(Scenario::Slope, 6, &options);
     let without = drive(Scenario::Slope, 6, &Options { effects: RoverEffects::default(), ..options });

@@ -1,0 +1,20 @@
+//! Numbers rounded for people.
+
+/// A number rounded to so many significant digits.
+pub fn significant(value: f64, digits: usize) -> f64 {
+    let after_first = digits.saturating_sub(1);
+    format!("{value:.after_first$e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::significant;
+
+    #[test]
+    fn numbers_keep_so_many_digits() {
+        assert_eq!(significant(0.048_76, 2), 0.049);
+        assert_eq!(significant(-1234.5, 3), -1230.0);
+        assert_eq!(significant(0.0, 2), 0.0);
+        assert!(significant(f64::NAN, 2).is_nan());
+    }
+}
