@@ -35,7 +35,8 @@ pub fn train(world: &World, plan: &Plan, with_wheel: bool) -> Result<Trained, Ho
             with_progress("per-wheel network", |bar| train_wheel(plan, Candidate::SHIPPED, &training, &held_out, bar));
         (table, curve.last())
     });
-    let training = with_progress("scenes", |_| rover_scenes(plan, world, training))?;
+    drop(training);
+    let training = with_progress("scenes", |_| rover_scenes(plan, world))?;
     let (rover, curve) = with_progress("rover network", |bar| train_rover(plan, &training, &held_out, bar));
     Ok(Trained { rover, loss: curve.last(), wheel })
 }

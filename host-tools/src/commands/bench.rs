@@ -64,7 +64,7 @@ impl Subject {
             Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
-            Self::Network(Cases { cases, seed }) => network::print(cases, seed),
+            Self::Network(Cases { cases, seed }) => network::print(cases, seed)?,
             Self::Target => target::execute()?,
             Self::Training => training::print()?,
         }

@@ -69,7 +69,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     judge_fifth_inputs(&inputs);
     let (wheel, wheel_curve) =
         with_progress("per-wheel network", |bar| train_wheel(&plan, Candidate::SHIPPED, &training, &held_out, bar));
-    let training = with_progress("scenes", |_| rover_scenes(&plan, &world, training))?;
+    drop(training);
+    let training = with_progress("scenes", |_| rover_scenes(&plan, &world))?;
     let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
     println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
     let losses = [wheel_curve.last(), rover_curve.last()];

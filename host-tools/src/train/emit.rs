@@ -88,6 +88,15 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("pressures", format!("W/(rb) {}", range(prior::PRESSURE_PA, "Pa"))),
         ("slip", range(prior::SLIP, "")),
         (
+            "patches",
+            format!(
+                "{:.0} % of what the rover network is shown: 2 ... 6 soils under the wheels, parameters within a share of their \
+                 ranges of {} from a middle; targets are the mean over the wheels",
+                100.0 * prior::PATCHY_SHARE,
+                range(prior::PATCH_REACH, "")
+            ),
+        ),
+        (
             "noise",
             format!(
                 "per instant DP/W {:.5}, W/W {:.5}, T/(rW) {:.5}, slip {:.5}, z/r {:.5}; averaging factor {}, in {:.0} % of \

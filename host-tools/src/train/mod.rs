@@ -20,6 +20,7 @@ pub mod levenberg_marquardt;
 pub mod loss;
 pub mod moments;
 pub mod observe;
+mod patches;
 pub mod plan;
 pub mod prior;
 mod product;

@@ -113,6 +113,12 @@ pub const MANOEUVRE_SLIP_LOW: Range = Range::linear(LEAST_SLIP, 0.10);
 /// Greatest slip there.
 pub const MANOEUVRE_SLIP_HIGH: Range = Range::linear(0.50, 0.70);
 
+/// Share of the scenes for the rover network's training in which the ground is patchy: several soils under the wheels, of which
+/// the mean is to be told. What it is judged and its intervals are calibrated on is one soil.
+pub const PATCHY_SHARE: f64 = 0.1;
+/// How far a parameter of a patch may be from the middle of its scene, as a share of its range.
+pub const PATCH_REACH: Range = Range::linear(0.0, 0.25);
+
 /// Kapvik's wheel. Assumed, not published (assumption set K0).
 pub const KAPVIK_WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 /// Kapvik's grousers. Assumed, not published (assumption set K0). They act only through an effect.

@@ -11,21 +11,22 @@ use super::dataset::{rover_example_anew, rover_examples, seen_by_rover};
 use super::epochs::train_by_epochs;
 use super::example::{RoverFeatures, RoverNormalisation};
 use super::plan::{Plan, Purpose};
-use super::prior::MANOEUVRE_SHARE;
+use super::prior::{MANOEUVRE_SHARE, PATCHY_SHARE};
 use super::rover_weights::RoverWeights;
 use super::scene::{Design, Scene, scenes_in};
 use super::world::World;
 
-/// The scenes that the rover network is trained on: of `drawn`, scenes of all kinds, a part, and the rest of the manoeuvre that
-/// makes a soil observable.
+/// The scenes that the rover network is trained on: a part of all kinds, the rest of the manoeuvre that makes a soil observable;
+/// of either a share on patchy ground.
 ///
 /// # Errors
 /// Where no rover could drive with the effects of the world.
-pub fn rover_scenes(plan: &Plan, world: &World, mut drawn: Vec<Scene>) -> Result<Vec<Scene>, HostError> {
-    let of_manoeuvre = (MANOEUVRE_SHARE * drawn.len() as f64) as usize;
-    drawn.truncate(drawn.len() - of_manoeuvre);
-    drawn.extend(scenes_in(world, Design::Manoeuvre, of_manoeuvre, plan.seed)?);
-    Ok(drawn)
+pub fn rover_scenes(plan: &Plan, world: &World) -> Result<Vec<Scene>, HostError> {
+    let patchy = world.with_patches(PATCHY_SHARE);
+    let of_manoeuvre = (MANOEUVRE_SHARE * plan.scenes as f64) as usize;
+    let mut scenes = scenes_in(&patchy, Design::Training, plan.scenes - of_manoeuvre, plan.seed)?;
+    scenes.extend(scenes_in(&patchy, Design::Manoeuvre, of_manoeuvre, plan.seed)?);
+    Ok(scenes)
 }
 
 /// Trains the rover network on `scenes`, watches and calibrates it on `held_out`.

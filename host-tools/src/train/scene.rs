@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::error::HostError;
 
 use super::drive::Drive;
+use super::patches::Patches;
 use super::prior;
 use super::world::World;
 
@@ -16,7 +17,7 @@ use super::world::World;
 pub struct Scene {
     /// The geometry that the wheels share.
     pub wheel: Wheel<f64>,
-    /// The soil under all of them.
+    /// The soil under all of them; on patchy ground the mean of what is under each.
     pub soil: Soil<f64>,
     /// True states; the sinkage is always there.
     pub wheels: heapless::Vec<WheelState, WHEELS>,
@@ -95,15 +96,17 @@ impl Shares {
     const BLOCK: u32 = 1 << 16;
     /// Where the coordinates of effects begin: behind those of soil, wheels and noise, of which there are fewer.
     const OF_EFFECTS: u32 = 64;
+    /// Where the coordinates of patches begin: behind those of effects.
+    const OF_PATCHES: u32 = 160;
 
     fn new(index: u32, seed: u32) -> Self {
         let block = index / Self::BLOCK;
         Self { index: index % Self::BLOCK, seed: seed.wrapping_add(block.wrapping_mul(0x9e37_79b9)), dimension: 0 }
     }
 
-    /// The same point, from the first coordinate of effects on.
-    fn of_effects(&self) -> Self {
-        Self { dimension: Self::OF_EFFECTS, ..*self }
+    /// The same point, from a coordinate on.
+    fn starting_at(&self, dimension: u32) -> Self {
+        Self { dimension, ..*self }
     }
 
     fn next(&mut self) -> f64 {
@@ -151,13 +154,14 @@ fn gather(world: &World, design: Design, count: usize, seed: u32, draws: u32) ->
 
 fn draw(world: &World, design: Design, index: u32, seed: u32) -> Option<Scene> {
     let mut shares = Shares::new(index, seed);
-    let mut of_effects = shares.of_effects();
-    let soil = prior::any_soil(|| shares.next());
+    let (mut of_effects, mut of_patches) =
+        (shares.starting_at(Shares::OF_EFFECTS), shares.starting_at(Shares::OF_PATCHES));
+    let middle = [(); prior::SOIL_PARAMETERS].map(|()| shares.next());
     let ground = Ground {
-        soil,
+        patches: Patches::draw(middle, world.patchy_share(), || of_patches.next()),
         drive: Drive::draw(|| of_effects.next()),
         effects: world.draw(|| of_effects.next()),
-        faultless: world.is_seed(),
+        faultless: world.is_without_effects(),
     };
     match design {
         Design::Training => draw_training(&mut shares, &ground, false),
@@ -194,7 +198,7 @@ fn draw_training(shares: &mut Shares, ground: &Ground, is_manoeuvre: bool) -> Op
         asked.push((slip, load)).ok()?;
     }
     let (wheels, misread) = ground.states(&wheel, &grousers, &asked)?;
-    let scene = Scene { wheel, soil: ground.soil, wheels, misread, noise, sinkage_seen, slope: None };
+    let scene = Scene { wheel, soil: ground.patches.mean(count), wheels, misread, noise, sinkage_seen, slope: None };
     // Only all the wheels of a rover together tell the slope.
     Some(if slope_seen && count == WHEELS { scene.with_slope_seen(slope_std) } else { scene })
 }
@@ -236,7 +240,7 @@ fn draw_kapvik(shares: &mut Shares, ground: &Ground, instants: u32, sinkage: boo
     }
     let (wheels, misread) = ground.states(&wheel, &prior::KAPVIK_GROUSERS, &asked)?;
     let noise = noise(&wheel, prior::KAPVIK_LOAD_N, [1.0 / libm::sqrt(f64::from(instants)); 5]);
-    Some(Scene { wheel, soil: ground.soil, wheels, misread, noise, sinkage_seen: sinkage, slope: None })
+    Some(Scene { wheel, soil: ground.patches.mean(WHEELS), wheels, misread, noise, sinkage_seen: sinkage, slope: None })
 }
 
 /// The wheels of a scene.
@@ -244,7 +248,7 @@ type States = heapless::Vec<WheelState, WHEELS>;
 
 /// What the wheels of a scene drive on, and how.
 struct Ground {
-    soil: Soil<f64>,
+    patches: Patches,
     drive: Drive,
     effects: Effects<f64>,
     /// There is no effect that could make a sensor misread.
@@ -260,17 +264,18 @@ impl Ground {
         grousers: &Grousers<f64>,
         asked: &heapless::Vec<(f64, f64), WHEELS>,
     ) -> Option<(States, Option<States>)> {
-        let on_soil = WheelOnSoil {
+        let soils: [Soil<f64>; WHEELS] = std::array::from_fn(|place| self.patches.under(place));
+        let on_soil = |place: usize| WheelOnSoil {
             wheel,
             grousers,
-            soil: &self.soil,
+            soil: &soils[place],
             effects: &self.effects,
             gravity_m_s2: prior::GRAVITY_M_S2,
             quadrature: Quadrature::for_scalar::<f64>(),
         };
         // The pitch follows from the pulls, and none of these from the pitch.
         let truth = |(place, (slip, load_n)): (usize, &(f64, f64))| {
-            let truth = on_soil.at_load(&self.drive.at(place, 0.0), *slip, *load_n).ok()?;
+            let truth = on_soil(place).at_load(&self.drive.at(place, 0.0), *slip, *load_n).ok()?;
             (truth.sinkage_m <= prior::DEEPEST * wheel.radius_m).then_some(WheelTruth { load_n: *load_n, ..truth })
         };
         let truths: heapless::Vec<_, WHEELS> = asked.iter().enumerate().map(truth).collect::<Option<_>>()?;
@@ -280,7 +285,7 @@ impl Ground {
         }
         let pitch_rad = f64::from(slope_rad(&wheels));
         let read = |(place, truth): (usize, &WheelTruth<f64>)| {
-            let readings = on_soil.readings(&self.drive.at(place, pitch_rad), truth, &mut Memory::start());
+            let readings = on_soil(place).readings(&self.drive.at(place, pitch_rad), truth, &mut Memory::start());
             (readings.load_n > 0.0).then_some(WheelState {
                 drawbar_pull_n: readings.drawbar_pull_n as f32,
                 load_n: readings.load_n as f32,

@@ -8,10 +8,12 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use crate::data::campaign::{Declared, DeclaredEffect, Knowledge};
 use crate::digits::significant;
 
-/// The effects that a world has, each with what is known of its parameters. Without any it is the seed's.
+/// The effects that a world has, each with what is known of its parameters, and how often its ground is patchy. Without
+/// either it is the seed's.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct World {
     effects: Vec<WorldEffect>,
+    patchy_share: f64,
 }
 
 /// An effect of a world.
@@ -46,11 +48,21 @@ impl World {
     /// given is drawn uniformly from its neutral value to three times a typical size away, to both sides where it may have
     /// both signs. An effect without a stated form has the first one in which the given parameters occur.
     pub fn declared(declared: &Declared) -> Self {
-        Self { effects: declared.effects.iter().map(WorldEffect::of).collect() }
+        Self { effects: declared.effects.iter().map(WorldEffect::of).collect(), patchy_share: 0.0 }
+    }
+
+    /// The same world, in which a share of the scenes has several soils under the wheels.
+    pub fn with_patches(&self, patchy_share: f64) -> Self {
+        Self { patchy_share, ..self.clone() }
+    }
+
+    /// The share of scenes whose wheels stand on several soils.
+    pub fn patchy_share(&self) -> f64 {
+        self.patchy_share
     }
 
     /// Whether nothing acts beside equations 1–11.
-    pub fn is_seed(&self) -> bool {
+    pub fn is_without_effects(&self) -> bool {
         self.effects.is_empty()
     }
 
@@ -129,7 +141,7 @@ impl Spread {
 /// As it stands in the file of a frozen table.
 impl fmt::Display for World {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_seed() {
+        if self.is_without_effects() {
             return formatter.write_str("none: equations 1-11");
         }
         for (place, effect) in self.effects.iter().enumerate() {
