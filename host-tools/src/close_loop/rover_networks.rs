@@ -28,14 +28,14 @@ pub struct Trained {
 /// Where no rover could drive with the effects of the world.
 pub fn train(world: &World, plan: &Plan, with_wheel: bool) -> Result<Trained, HostError> {
     let drawn = |count, seed| scenes_in(world, Design::Training, count, seed);
-    let training = with_progress("scenes", |_| drawn(plan.scenes, plan.seed))?;
     let held_out = with_progress("held-out scenes", |_| drawn(plan.held_out, !plan.seed))?;
-    let wheel = with_wheel.then(|| {
+    let per_wheel = || -> Result<(WheelTable, f64), HostError> {
+        let training = with_progress("scenes", |_| drawn(plan.scenes, plan.seed))?;
         let (table, curve) =
             with_progress("per-wheel network", |bar| train_wheel(plan, Candidate::SHIPPED, &training, &held_out, bar));
-        (table, curve.last())
-    });
-    drop(training);
+        Ok((table, curve.last()))
+    };
+    let wheel = with_wheel.then(per_wheel).transpose()?;
     let training = with_progress("scenes", |_| rover_scenes(plan, world))?;
     let (rover, curve) = with_progress("rover network", |bar| train_rover(plan, &training, &held_out, bar));
     Ok(Trained { rover, loss: curve.last(), wheel })

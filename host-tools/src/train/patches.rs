@@ -18,7 +18,7 @@ pub struct Patches {
 
 impl Patches {
     /// A share of `patchy_share` of all grounds is patchy: two to six soils, each parameter anywhere within a reach of its middle,
-    /// each wheel on any of them. `share` gives numbers 0 … 1.
+    /// each wheel on any of them. `share` gives numbers from 0 to below 1.
     pub fn draw(middle: SoilShares, patchy_share: f64, mut share: impl FnMut() -> f64) -> Self {
         if share() >= patchy_share {
             return Self { middle, under: [middle; WHEELS] };
@@ -27,13 +27,13 @@ impl Patches {
         let count = 2 + (share() * (WHEELS - 1) as f64) as usize;
         let patches: [SoilShares; WHEELS] =
             std::array::from_fn(|_| middle.map(|at| mirrored(at + reach * (2.0 * share() - 1.0))));
-        let under = std::array::from_fn(|_| patches[((share() * count as f64) as usize).min(count - 1)]);
+        let under = std::array::from_fn(|_| patches[(share() * count as f64) as usize]);
         Self { middle, under }
     }
 
     /// The soil under the wheel at a place.
     pub fn under(&self, place: usize) -> Soil<f64> {
-        soil(self.under[place])
+        prior::soil_at(self.under[place])
     }
 
     /// What is to be told of the ground under the first `count` wheels: the mean over them of each parameter, or of its logarithm
@@ -44,7 +44,7 @@ impl Patches {
             let ways = self.under.iter().take(count).map(|under| under[parameter] - self.middle[parameter]);
             ways.sum::<f64>() / count as f64
         };
-        soil(std::array::from_fn(|parameter| self.middle[parameter] + way(parameter)))
+        prior::soil_at(std::array::from_fn(|parameter| self.middle[parameter] + way(parameter)))
     }
 }
 
@@ -52,11 +52,6 @@ impl Patches {
 fn mirrored(share: f64) -> f64 {
     let share = share.abs();
     share.min(2.0 - share)
-}
-
-fn soil(shares: SoilShares) -> Soil<f64> {
-    let mut shares = shares.into_iter();
-    prior::any_soil(|| shares.next().unwrap_or_default())
 }
 
 #[cfg(test)]
@@ -76,7 +71,7 @@ mod tests {
     #[test]
     fn ground_that_is_not_patchy_is_one_soil_to_the_last_bit() {
         let ground = drawn(0.0, 1);
-        let whole = soil([0.95; SOIL_PARAMETERS]);
+        let whole = prior::soil_at([0.95; SOIL_PARAMETERS]);
         for count in 1..=WHEELS {
             assert_eq!(ground.mean(count), whole);
             assert_eq!(ground.under(count - 1), whole);

@@ -84,9 +84,14 @@ pub fn soil(parameters: [f64; SOIL_PARAMETERS]) -> Soil<f64> {
     }
 }
 
+/// The soil whose parameters lie at these shares 0 … 1 of their ranges.
+pub fn soil_at(shares: [f64; SOIL_PARAMETERS]) -> Soil<f64> {
+    soil(std::array::from_fn(|parameter| SOIL_RANGES[parameter].at(shares[parameter])))
+}
+
 /// A soil of the prior; `share` gives numbers 0 … 1, one a parameter.
-pub fn any_soil(share: impl FnMut() -> f64) -> Soil<f64> {
-    any_soil_within(&SOIL_RANGES, share)
+pub fn any_soil(mut share: impl FnMut() -> f64) -> Soil<f64> {
+    soil_at([(); SOIL_PARAMETERS].map(|()| share()))
 }
 
 /// A soil whose parameters lie in these ranges, in the order and the units of [`SOIL_RANGES`].
