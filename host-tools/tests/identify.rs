@@ -102,6 +102,21 @@ fn a_lacking_column_is_named_and_a_lacking_value_leaves_the_row_out() {
     assert_eq!(runs[1]["without_sinkage"], Value::Null);
 }
 
+/// The networks have learned no wheel that is braked: beside others one would only spoil what they say.
+#[test]
+fn a_braked_wheel_is_left_out_and_told_where_there_are_others() {
+    let csv =
+        "run,t_s,slip,load_n,drawbar_pull_n,torque_nm\na,0,0.1,65,-1,1.3\na,0,-0.2,65,-19,-0.5\nb,0,-0.2,65,-19,-0.5\n";
+    let document = document(csv, TOML).expect("identified");
+    let runs = document["runs"].as_array().expect("runs");
+    let left_out = runs[0]["rows_left_out"].as_array().expect("rows");
+    assert_eq!((runs[0]["rows_used"].as_u64(), left_out.len()), (Some(1), 1));
+    assert_eq!(left_out[0]["line"], 3);
+    assert!(left_out[0]["reason"].as_str().expect("a reason").contains("slips so little"));
+    assert_eq!(runs[0]["outside_training_range"], false);
+    assert_eq!((runs[1]["rows_used"].as_u64(), &runs[1]["outside_training_range"]), (Some(1), &Value::Bool(true)));
+}
+
 #[test]
 fn noise_comes_from_the_file_else_from_repeats_else_from_the_flight_sensors() {
     let stated = document(&Made::default().csv(), TOML).expect("identified");

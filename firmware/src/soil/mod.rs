@@ -11,5 +11,5 @@ pub mod trend_prior;
 pub use answer::QueryAnswer;
 pub use estimate::{ParameterEstimate, Refusal, SoilEstimate};
 pub use features::{FifthInput, RoverContext, WheelFeatures};
-pub use query::{LEAST_SLIP, answer};
-pub(crate) use query::{is_known_slip, rover_outputs, wheel_soil};
+pub use query::{LEAST_SLIP, answer, is_known_slip};
+pub(crate) use query::{rover_outputs, wheel_soil};

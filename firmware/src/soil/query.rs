@@ -40,7 +40,7 @@ pub const LEAST_SLIP: f64 = 0.02;
 
 /// Whether the networks know wheels at such a slip, which is known to a standard deviation: below the least that they have seen curves are
 /// others, and hang on how soil is braked.
-pub(crate) fn is_known_slip(slip: f32, std: f32) -> bool {
+pub fn is_known_slip(slip: f32, std: f32) -> bool {
     slip + 3.0 * std >= LEAST_SLIP as f32
 }
 

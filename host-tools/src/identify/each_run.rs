@@ -16,7 +16,7 @@ use super::{Document, SensorNoise};
 pub fn identify_by(method: Method, campaign: &Campaign) -> Result<Document, HostError> {
     check_columns(campaign, method.name(), method.needs())?;
     let noise = SensorNoise::of(campaign);
-    let runs = run_states(campaign, &noise, method.needs(), method.most_states());
+    let runs = run_states(campaign, &noise, method);
     let seen = method.sees(campaign);
     let found: Vec<_> = runs.into_par_iter().map(|states| of_run(method, &seen, &noise, states)).collect();
     Ok(Document::by(method, campaign, &noise, &found))

@@ -22,7 +22,7 @@ pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, Str
     if !is_stated(noise) {
         return BTreeMap::new();
     }
-    let runs = run_states(campaign, noise, Method::Map.needs(), Method::Map.most_states());
+    let runs = run_states(campaign, noise, Method::Map);
     let fit = |run: super::RunStates| {
         let found = answer(Method::Map, &Evidence::of_run(campaign, noise, &run.states)).ok()?;
         Some((run.run, in_words(&found.fit?)?))

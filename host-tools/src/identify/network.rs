@@ -3,7 +3,7 @@
 use kapvik_firmware::pipeline;
 use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::wheel_state::{SoilQuery, WHEELS, WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
 use crate::data::campaign::{Campaign, Ground};
 use crate::error::HostError;
@@ -65,15 +65,14 @@ pub struct Question {
 /// # Errors
 /// Where the campaign lacks a column that the method needs, or nobody answers.
 pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identification, HostError> {
-    let needs = Method::Network.needs();
-    check_columns(campaign, Method::Network.name(), needs)?;
+    check_columns(campaign, Method::Network.name(), Method::Network.needs())?;
     let noise = SensorNoise::of(campaign);
     let identified = |states: RunStates| {
         let question =
             if states.states.is_empty() { None } else { Some(ask(campaign, &states.states, &noise, answer)?) };
         Ok(IdentifiedRun { states, question, misfit: None })
     };
-    let runs = run_states(campaign, &noise, needs, WHEELS).into_iter().map(identified);
+    let runs = run_states(campaign, &noise, Method::Network).into_iter().map(identified);
     Ok(Identification { runs: runs.collect::<Result<_, HostError>>()?, noise })
 }
 

@@ -5,6 +5,10 @@ use crate::error::HostError;
 
 use super::SensorNoise;
 use super::combine::{MeanState, Sample, combine};
+use super::method::Method;
+
+/// Why a row is left out at which a wheel is braked, or slips by too little.
+const UNKNOWN_SLIP: &str = "the networks have learned no wheel that slips so little";
 
 /// A run as a method sees it.
 #[derive(Debug, Clone)]
@@ -21,21 +25,27 @@ pub struct RunStates {
     pub states: Vec<MeanState>,
 }
 
-/// Every run of a campaign, in the order of the file, in at most `most` states each. A row without one of `needs` is
-/// left out.
-pub fn run_states(campaign: &Campaign, noise: &SensorNoise, needs: &[Channel], most: usize) -> Vec<RunStates> {
+/// Every run of a campaign, in the order of the file, as a method sees it. A row without one of the columns that it needs is left out, and so
+/// is one at a slip that it does not know, where there are others.
+pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> Vec<RunStates> {
     let of_run = |(run, rows): (&str, Vec<usize>)| {
-        let (mut samples, mut times, mut rows_left_out) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut samples, mut rows_left_out) = (Vec::new(), Vec::new());
         for row in rows {
-            let id = &campaign.rows()[row];
-            match sample(campaign, row, needs) {
-                Ok(sample) => {
-                    samples.push(sample);
-                    times.push(id.t_s);
-                }
-                Err(reason) => rows_left_out.push((id.line, reason)),
+            let line = campaign.rows()[row].line;
+            match sample(campaign, row, method.needs()) {
+                Ok(sample) => samples.push((line, sample)),
+                Err(reason) => rows_left_out.push((line, reason)),
             }
         }
+        let is_known = |sample: &Sample| method.knows_slip(sample.slip, noise.slip.std);
+        if samples.iter().any(|(_, sample)| is_known(sample)) {
+            let (known, unknown): (Vec<_>, Vec<_>) = samples.into_iter().partition(|(_, sample)| is_known(sample));
+            samples = known;
+            rows_left_out.extend(unknown.into_iter().map(|(line, _)| (line, UNKNOWN_SLIP.to_owned())));
+            rows_left_out.sort_by_key(|(line, _)| *line);
+        }
+        let samples: Vec<Sample> = samples.into_iter().map(|(_, sample)| sample).collect();
+        let mut times: Vec<f64> = samples.iter().map(|sample| sample.t_s).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         RunStates {
@@ -43,7 +53,7 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, needs: &[Channel], m
             instants: times.len(),
             rows_used: samples.len(),
             rows_left_out,
-            states: combine(&samples, most, noise.slip.std, noise.load.std),
+            states: combine(&samples, method.most_states(), noise.slip.std, noise.load.std),
         }
     };
     campaign.runs().into_iter().map(of_run).collect()

@@ -17,6 +17,7 @@ mod words;
 use std::borrow::Cow;
 
 use clap::ValueEnum;
+use kapvik_firmware::soil::is_known_slip;
 use kapvik_firmware::wheel_state::WHEELS;
 
 use crate::data::campaign::{Campaign, Channel};
@@ -111,6 +112,11 @@ impl Method {
             Self::IagnemmaRecursive => usize::MAX,
             _ => MOST_STATES,
         }
+    }
+
+    /// Whether the method knows wheels at such a slip, which is known to a standard deviation.
+    pub fn knows_slip(self, slip: f64, std: f64) -> bool {
+        self != Self::Network || is_known_slip(slip as f32, std as f32)
     }
 
     /// The columns without which the method cannot work.
