@@ -8,6 +8,7 @@ use super::fit::{
     predictor_without, scattered_starts,
 };
 use super::measurements::Measurements;
+use super::selection::MISFIT;
 use super::specification::{EffectForm, Specification};
 use super::trial::Trial;
 use crate::data::campaign::Campaign;
@@ -18,6 +19,8 @@ pub use glance::Glance;
 const STARTS: usize = 4;
 /// The same where none of those lies on a soil that carries the loads.
 const MORE_STARTS: usize = 64;
+/// The same of a model with effects that none of the first leads to an explanation with.
+const STARTS_OF_EFFECTS: usize = 16;
 /// Steps after which a fit to most of the runs from that to all tells whether it is worth its end.
 const BRIEFLY: usize = 6;
 /// Steps of one that is to be near its end.
@@ -80,14 +83,20 @@ impl<'a> Bench<'a> {
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
         let from = |count: usize| {
             let starts = scattered_starts(&model, &self.measurements.rows, count, SEED);
-            fit_from_many(&model, &self.measurements.rows, &starts, &self.options)
+            fit_from_many(&model, &self.measurements.rows, &self.without, &starts, &self.options)
         };
         let fits = match from(STARTS) {
             Err(FitError::NoPrediction) => from(MORE_STARTS),
+            Ok(fits) if !specification.effects.is_empty() && self.is_unexplained(&fits.best) => from(STARTS_OF_EFFECTS),
             fits => fits,
         };
         let fit = fits?.best;
         Ok(Trial { specification, model, fit })
+    }
+
+    /// Whether a fit leaves more than noise: everywhere, or in how far runs are off.
+    pub fn is_unexplained(&self, fit: &Fit) -> bool {
+        fit.dispersion > MISFIT || self.measurements.off_by_run(&fit.offset_std).next().is_some()
     }
 
     /// A model with one more effect: the better of the fit from that without, and of the fit from a soil as it is expected.

@@ -14,8 +14,6 @@ use super::trial::Trial;
 const ONE_SLIP: f64 = 0.03;
 /// Share of its prior's standard deviation that a parameter must be known to, to count as told by the data.
 const TOLD: f64 = 0.7;
-/// Times the stated noise from which the offsets of runs are told.
-const OFF: f64 = 2.0;
 
 /// Said where the load is one number throughout.
 const SET_LOAD: &str = "The load is the same number in every row: it is what was put on the wheel, and not what a sensor read. Errors \
@@ -90,17 +88,12 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
 
 /// The channels that are off by another amount in each run, by far more than their stated noise.
 fn off_by_run<'a>(measurements: &'a Measurements, selected: &'a Selected<'_>) -> impl Iterator<Item = String> + 'a {
-    let fit = &selected.model().fit;
-    let judged = Reading::JUDGED.into_iter().filter(|reading| measurements.noise[reading.index()].stated);
-    judged.filter_map(|reading| {
-        let times = fit.offset_std[reading.index()] / measurements.noise[reading.index()].std;
-        (measurements.has(reading) && times > OFF).then(|| {
-            format!(
-                "{} is off by another amount in each run, by {times:.1} times its stated noise: the zero of a sensor, or a law \
-                 that changes little within a run. The model does not say which.",
-                super::measurements::COLUMNS[reading.index()].name()
-            )
-        })
+    measurements.off_by_run(&selected.model().fit.offset_std).map(|(reading, times)| {
+        format!(
+            "{} is off by another amount in each run, by {times:.1} times its stated noise: the zero of a sensor, or a law \
+             that changes little within a run. The model does not say which.",
+            super::measurements::COLUMNS[reading.index()].name()
+        )
     })
 }
 

@@ -19,8 +19,11 @@ use super::settings::{Settled, settle};
 pub const COLUMNS: [Channel; CHANNELS] =
     [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
 
-/// Rows to which the runs are thinned together, but for at least one of each run.
+/// Rows to which the runs are thinned together, but for at least one of each run; of more runs, as of rows that are runs of their own, so many
+/// stay.
 const MOST_ROWS: usize = 240;
+/// Times the stated noise from which runs are far off.
+const OFF: f64 = 2.0;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
 const BRAKING: f64 = -0.05;
 
@@ -111,11 +114,16 @@ impl Measurements {
         };
         let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
             usable.iter().map(|(row, readings)| (*row, readings)).collect();
-        for (name, mut places) in campaign.runs() {
-            places.retain(|place| by_place.contains_key(place));
+        let mut runs = campaign.runs();
+        runs.iter_mut().for_each(|(_, places)| places.retain(|place| by_place.contains_key(place)));
+        runs.retain(|(_, places)| !places.is_empty());
+        let runs: Vec<_> = evenly(&runs, MOST_ROWS).collect();
+        let rows = runs.iter().map(|(_, places)| places.len()).sum();
+        for (name, places) in runs {
+            let mut places = places.clone();
             places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
             let mut of_run = Vec::new();
-            for place in thinned(&places, usable.len()) {
+            for place in thinned(&places, rows) {
                 let readings = by_place[&place];
                 of_run.push(found.rows.len());
                 found.places.push(place);
@@ -126,13 +134,11 @@ impl Measurements {
                     noise: noise.map(|noise| noise.std),
                 });
             }
-            if !of_run.is_empty() {
-                found.runs.push(name.to_owned());
-                found.rows_of_run.push(of_run);
-            }
+            found.runs.push((*name).to_owned());
+            found.rows_of_run.push(of_run);
         }
         if found.rows.len() < usable.len() {
-            let reason = "thinned evenly along each run, to keep within seconds".to_owned();
+            let reason = "thinned evenly, to keep within seconds".to_owned();
             found.left_out.push(LeftOut { reason, rows: usable.len() - found.rows.len() });
         }
         let rates = wheel_rates(campaign, &found.places, &found.rows, &found.rows_of_run);
@@ -149,6 +155,14 @@ impl Measurements {
     /// Whether any row has the reading.
     pub fn has(&self, reading: Reading) -> bool {
         self.rows.iter().any(|row| row.readings[reading.index()].is_some())
+    }
+
+    /// The channels in which runs are each off by far more than the stated noise, and by how many times it, where run offsets scatter so.
+    pub fn off_by_run(&self, offset_std: &[f64; CHANNELS]) -> impl Iterator<Item = (Reading, f64)> {
+        let judged =
+            Reading::JUDGED.into_iter().filter(|reading| self.noise[reading.index()].stated && self.has(*reading));
+        let times = |reading: Reading| (reading, offset_std[reading.index()] / self.noise[reading.index()].std);
+        judged.map(times).filter(|(_, times)| *times > OFF)
     }
 
     /// The slips of a run.
@@ -184,8 +198,13 @@ impl Measurements {
 /// The rows of a run that stay, evenly along it, where all runs together have `all` rows.
 fn thinned(run: &[usize], all: usize) -> impl Iterator<Item = usize> {
     let share = (run.len() * MOST_ROWS + all / 2) / all;
-    let stay = share.max(1).min(run.len());
-    (0..stay).map(move |place| run[place * run.len() / stay])
+    evenly(run, share.max(1)).copied()
+}
+
+/// So many of some things, evenly along them; all where there are fewer.
+fn evenly<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+    let stay = most.min(all.len());
+    (0..stay).map(move |place| &all[place * all.len() / stay])
 }
 
 /// The middle of some numbers; none of none.
@@ -247,6 +266,14 @@ fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_many_runs_some_stay_evenly() {
+        let rows: Vec<usize> = (0..1000).collect();
+        let kept: Vec<_> = evenly(&rows, MOST_ROWS).copied().collect();
+        assert_eq!((kept.len(), kept[0], kept[1], kept[MOST_ROWS - 1]), (MOST_ROWS, 0, 4, 995));
+        assert_eq!(evenly(&rows[..7], MOST_ROWS).count(), 7);
+    }
 
     #[test]
     fn runs_are_thinned_evenly_and_none_is_lost() {

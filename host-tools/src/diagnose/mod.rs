@@ -44,6 +44,7 @@ mod residual_search;
 mod selection;
 mod sentence;
 mod settings;
+mod shared_place;
 mod site;
 mod sizes;
 mod soil_coordinates;

@@ -21,9 +21,13 @@ impl Sinking {
 
     /// What is read at a slip and a load.
     pub fn seen(&self, slip: f64, load_n: f64, noise: &WheelNoise<f64>, random: &mut ChaCha8Rng) -> WheelState<f64> {
+        self.truth(slip, load_n).blurred(noise, || StandardNormal.sample(random))
+    }
+
+    /// The same without noise.
+    pub fn truth(&self, slip: f64, load_n: f64) -> WheelState<f64> {
         let [cohesion, friction, shear] = self.strength;
         let soil: Soil<f64> = prior::soil([cohesion, friction, shear, 1.0 - self.by_slip * slip, 2e6, 0.3, 0.15]);
-        let truth = WheelState::under_load(&prior::KAPVIK_WHEEL, &soil, slip, load_n).expect("a soil that carries");
-        truth.blurred(noise, || StandardNormal.sample(random))
+        WheelState::under_load(&prior::KAPVIK_WHEEL, &soil, slip, load_n).expect("a soil that carries")
     }
 }

@@ -41,7 +41,8 @@ impl<'a> Glance<'a> {
 
 impl<'a> Bench<'a> {
     /// A short look at a model with one more effect: a few steps as of [`Bench::glance_near`], and from a soil as it is expected
-    /// with scales of its own; where both end where the effect does nothing, one more.
+    /// with scales of its own; one more where both end where the effect does nothing, or where an effect that has a shape leaves the
+    /// data unexplained: from the wrong side of a shape no slope may lead to the right one.
     pub fn glance(&self, held: &Held, base: &Trial<'a>, effect: &EffectForm) -> Option<Glance<'a>> {
         let extended = self.extended(base, effect);
         let most_iterations = if base.fit.dispersion > MISFIT { AFRESH_OF_A_MISFIT } else { AFRESH };
@@ -51,8 +52,11 @@ impl<'a> Bench<'a> {
             (Some(near), Some(afresh)) => Glance { better: near, other: None }.beside(afresh),
             (near, afresh) => Glance { better: near.or(afresh)?, other: None },
         };
-        let is_silent = glance.better.is_silent_of(base.fit.parameters.len());
-        let roused = if is_silent { self.roused(held, base, &extended, &options) } else { None };
+        let known = base.fit.parameters.len();
+        let has_shape = extended.1.coordinates().len() > known + 1;
+        let is_lost = (has_shape && self.is_unexplained(&glance.better.fit)) || glance.better.is_silent_of(known);
+        let far = Options { most_iterations: AFRESH_OF_A_MISFIT, ..options };
+        let roused = if is_lost { self.roused(held, base, &extended, &far) } else { None };
         Some(match roused {
             Some(roused) => glance.beside(roused),
             None => glance,

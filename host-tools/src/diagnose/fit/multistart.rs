@@ -6,7 +6,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::model::{Coordinate, Model};
 use super::observation::Row;
 use super::options::{FitError, Options};
-use super::outcome::{Fit, fit};
+use super::outcome::{Fit, fit_without};
 use super::start::Start;
 
 /// Difference in log posterior below which two fits are the same optimum.
@@ -25,17 +25,19 @@ pub struct ManyFits {
     pub fitted: usize,
 }
 
-/// Fits from each start, in parallel; the highest posterior is the answer.
+/// Fits to all rows but those of some runs from each start, in parallel; the highest posterior is the answer.
 ///
 /// # Errors
 /// [`FitError::NoStart`] without a start, else the first start's error if no start came to a fit.
 pub fn fit_from_many(
     model: &dyn Model,
     rows: &[Row],
+    without: &[usize],
     starts: &[Start],
     options: &Options,
 ) -> Result<ManyFits, FitError> {
-    let fits: Vec<Result<Fit, FitError>> = starts.par_iter().map(|start| fit(model, rows, start, options)).collect();
+    let from = |start: &Start| fit_without(model, rows, without, start, options);
+    let fits: Vec<Result<Fit, FitError>> = starts.par_iter().map(from).collect();
     let first_error = fits.iter().find_map(|fit| fit.as_ref().err().copied());
     let fits: Vec<Fit> = fits.into_iter().flatten().collect();
     let highest = fits.iter().map(|fit| fit.log_posterior).fold(f64::NEG_INFINITY, f64::max);

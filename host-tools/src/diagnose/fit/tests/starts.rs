@@ -45,11 +45,11 @@ fn many_starts_find_the_deeper_valley() {
     let (model, rows) = valleys(f64::INFINITY);
     let one = fit(&model, &rows, &Start::of(&model, &rows), &plain()).unwrap();
     assert!(one.parameters[0] > 0.0);
-    let many = fit_from_many(&model, &rows, &scattered_starts(&model, &rows, 8, 1), &plain()).unwrap();
+    let many = fit_from_many(&model, &rows, &[], &scattered_starts(&model, &rows, 8, 1), &plain()).unwrap();
     // The roots of 4 x (x² − 1) + 0.2.
     assert!((many.best.parameters[0] + 1.0241).abs() < 1e-3, "{:?}", many.best.parameters);
     assert!(many.fitted == 8 && many.agreed >= 2 && many.agreed < 8, "{} of {}", many.agreed, many.fitted);
-    assert_eq!(fit_from_many(&model, &rows, &[], &plain()).unwrap_err(), FitError::NoStart);
+    assert_eq!(fit_from_many(&model, &rows, &[], &[], &plain()).unwrap_err(), FitError::NoStart);
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn nearly_all_starts_come_to_one_optimum() {
     for seed in 0..5 {
         let (_, rows, one) = fitted(seed);
         let starts = scattered_starts(&Soil::new(), &rows, 8, 3);
-        let many = fit_from_many(&Soil::new(), &rows, &starts, &options()).unwrap();
+        let many = fit_from_many(&Soil::new(), &rows, &[], &starts, &options()).unwrap();
         assert!(many.agreed >= 6 && many.fitted == 8, "{} of {}", many.agreed, many.fitted);
         assert!(one.log_posterior > many.best.log_posterior - 0.1);
     }
@@ -124,7 +124,7 @@ fn from_afar_a_fit_finds_its_way_to_precise_readings() {
     for seed in 0..5 {
         let (_, rows) = campaign_of_noise(0.01, RUNS, 4, seed);
         let starts = scattered_starts(&Soil::new(), &rows, 8, 3);
-        agreed += fit_from_many(&Soil::new(), &rows, &starts, &options()).unwrap().agreed;
+        agreed += fit_from_many(&Soil::new(), &rows, &[], &starts, &options()).unwrap().agreed;
     }
     assert!(agreed >= 36, "{agreed} of 40");
 }
