@@ -37,12 +37,12 @@ fn campaign(length_m: f64, random: &mut ChaCha8Rng) -> Campaign {
     let soil = Sinking::drawn(0.0, random);
     let mut csv = format!("{COLUMNS},travel_m\n");
     for (run, (slip, load_n)) in SLIPS.into_iter().zip(LOADS_N).enumerate() {
+        let settled_m = soil.truth(slip, load_n).sinkage_m.expect("simulated");
         for row in 0..ROWS {
             let travel_m = STEP_M * (row as f64 + 0.5);
-            let mut seen = soil.seen(slip, load_n, &NOISE, random);
-            let settled = soil.truth(slip, load_n).sinkage_m.expect("simulated");
-            let lacking = (1.0 - START) * libm::exp(-travel_m / length_m) * settled;
-            seen = WheelState { sinkage_m: seen.sinkage_m.map(|read| read - lacking), ..seen };
+            let lacking_m = (1.0 - START) * libm::exp(-travel_m / length_m) * settled_m;
+            let read = soil.seen(slip, load_n, &NOISE, random);
+            let seen = WheelState { sinkage_m: read.sinkage_m.map(|read_m| read_m - lacking_m), ..read };
             writeln!(csv, "r{run},{row},{},{travel_m:.4}", readings(&seen)).expect("text");
         }
     }
