@@ -12,7 +12,7 @@ use kapvik_host::data::campaign::{Campaign, Declared, Knowledge};
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
 use kapvik_host::diagnose::{DiagnoseOptions, declared_file, diagnose};
 use kapvik_host::identify::{Document, identify_rehearsed};
-use kapvik_host::train::prior;
+use kapvik_host::prior;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -10,7 +10,7 @@ use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
 use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
-use kapvik_host::train::prior;
+use kapvik_host::prior;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

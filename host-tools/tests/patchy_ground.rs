@@ -3,8 +3,8 @@
 use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::{Rover, Side};
 use kapvik_firmware::terramechanics::Soil;
+use kapvik_host::prior::FRICTION_ANGLE_RAD;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
-use kapvik_host::train::prior::FRICTION_ANGLE_RAD;
 use rayon::prelude::*;
 
 /// Seeds that development of the networks has not looked at.

@@ -10,8 +10,8 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
 use crate::identify::method::{Assumed, Evidence, literature_bank, training_prior};
+use crate::prior;
 use crate::train::dataset::stream;
-use crate::train::prior;
 
 use super::situation::{GREATEST_SLIP_SINKAGE, SLIPS, Situation, SlipSinkage, Truth};
 

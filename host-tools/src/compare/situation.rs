@@ -2,7 +2,7 @@
 
 use kapvik_firmware::terramechanics::Soil;
 
-use crate::train::prior;
+use crate::prior;
 
 /// What is asked of every method, many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]

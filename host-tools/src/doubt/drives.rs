@@ -13,11 +13,11 @@ use super::rows::{Known, Row, SideRows};
 use crate::data::rover_file::RoverFile;
 use crate::data::sensor_channels::names;
 use crate::error::HostError;
+use crate::prior;
 use crate::simulate::effects::RoverEffects;
 use crate::simulate::faults::{Failure, Fault};
 use crate::simulate::{Options, Scenario, Traverse};
 use crate::train::dataset::stream;
-use crate::train::prior;
 use crate::trial::WARM_UP_S;
 
 /// What the network has to be right on.

@@ -3,7 +3,7 @@
 use kapvik_firmware::wheel_state::WheelNoise;
 use serde::Serialize;
 
-use crate::train::prior::{INSTANT_NOISE, KAPVIK_LOAD_N, KAPVIK_WHEEL};
+use crate::prior::{INSTANT_NOISE, KAPVIK_LOAD_N, KAPVIK_WHEEL};
 
 /// Independent instants of [`instant_noise`] in a second.
 ///

@@ -12,7 +12,7 @@ use kapvik_firmware::terramechanics::Soil;
 use nalgebra::{Matrix4, SMatrix, Vector4};
 
 use crate::limit::response::{Response, respond_exactly};
-use crate::train::prior::DEEPEST;
+use crate::prior::DEEPEST;
 
 /// Balances of a side: force along the ground (N) and across it (N), moments of bogie and rocker (N·m).
 pub type Balances = Vector4<f64>;

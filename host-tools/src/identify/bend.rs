@@ -10,7 +10,7 @@ use kapvik_firmware::wheel_state::WheelState;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
-use crate::train::prior;
+use crate::prior;
 
 use super::combine::MeanState;
 use super::layout::{Forces, Layout, Rehearsed};

@@ -6,7 +6,7 @@ use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
-use crate::train::prior::{self, Range};
+use crate::prior::{self, Range};
 
 use super::method::{Finding, Fit, Method, Statement, network_refusal};
 use super::misfit::{misfits, misfits_of};

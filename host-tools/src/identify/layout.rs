@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::train::prior::DEEPEST;
+use crate::prior::DEEPEST;
 
 use super::SensorNoise;
 use super::combine::MeanState;

@@ -7,7 +7,7 @@ use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
 use crate::data::campaign::{Campaign, Ground};
 use crate::error::HostError;
-use crate::train::prior::{self, Range};
+use crate::prior::{self, Range};
 
 use super::bend::Bends;
 use super::combine::MeanState;

@@ -15,9 +15,9 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
+use crate::prior::{self, Range, SOIL_PARAMETERS};
 use crate::statistics::{quantile, sorted};
 use crate::train::example::soil_targets;
-use crate::train::prior::{self, Range, SOIL_PARAMETERS};
 
 use super::layout::Layout;
 use super::target::Target;

@@ -4,7 +4,7 @@ use kapvik_firmware::wheel_state::WheelNoise;
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel};
-use crate::train::prior::{AVERAGING, INSTANT_NOISE};
+use crate::prior::{AVERAGING, INSTANT_NOISE};
 
 use super::combine::MeanState;
 

@@ -7,10 +7,10 @@ use super::coordinates::Targets;
 use super::sampler::Effort;
 use super::summary::{NoPosterior, Summary, draws};
 use super::wheel_likelihood::LoadPrior;
+use crate::prior;
 use crate::train::dataset::stream;
 use crate::train::example::targets;
 use crate::train::observe::observe;
-use crate::train::prior;
 use crate::train::scene::{Design, Scene, scenes};
 
 /// The loads that [`Design::Kapvik`] draws.

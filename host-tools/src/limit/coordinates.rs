@@ -7,8 +7,8 @@ use kapvik_firmware::network::TARGETS;
 use kapvik_firmware::terramechanics::Soil;
 use nalgebra::SVector;
 
+use crate::prior::{self, Range, SOIL_RANGES};
 use crate::train::example::soil_targets;
-use crate::train::prior::{self, Range, SOIL_RANGES};
 
 /// Parameters that the prior of a soil draws.
 pub const DIMENSION: usize = prior::SOIL_PARAMETERS;

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::coordinates::{Coordinates, DIMENSION};
 use super::wheel_likelihood::{Explanation, LoadPrior, WheelObservation, Whitening};
-use crate::train::prior;
+use crate::prior;
 
 /// Residuals of the prior and of three channels of six wheels.
 pub const RESIDUALS: usize = DIMENSION + 3 * WHEELS;

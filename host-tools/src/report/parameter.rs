@@ -4,7 +4,7 @@ use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use crate::data::campaign::{Ground, Knowledge};
 use crate::parameter::Parameter;
-use crate::train::prior::{self, Range};
+use crate::prior::{self, Range};
 
 use super::draw::{Pixels, Scale};
 

@@ -3,7 +3,7 @@
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
 use crate::data::campaign::{Campaign, Channel, Knowledge};
-use crate::train::prior;
+use crate::prior;
 
 /// The equations beside the measurements.
 #[derive(Debug, Clone)]

@@ -9,7 +9,7 @@ use super::faults::Fault;
 use super::ground_soils::Change;
 use super::programme::{Command, Programme, Wander};
 use super::terrain::{Shape, Terrain};
-use crate::train::prior;
+use crate::prior;
 
 /// A drive, all its details drawn.
 #[derive(Debug, Clone)]

@@ -16,7 +16,7 @@ use super::programme::Command;
 use super::terrain::{Shape, Terrain};
 use super::varied_ground::draw_varied_ground;
 use crate::data::sensor_channels::WHEEL_NAMES;
-use crate::train::prior::Range;
+use crate::prior::Range;
 
 /// A kind of drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, ValueEnum)]

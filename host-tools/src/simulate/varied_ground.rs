@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::course::{Hills, draw_hills};
 use super::terrain::Shape;
-use crate::train::prior::Range;
+use crate::prior::Range;
 
 /// From where on the ground is uneven, m: the front wheels stand at 0.35 m.
 const FROM_M: f64 = 0.4;

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::example::{Example, RoverFeatures, RoverInput, RoverNormalisation, WheelInput, rover_features, targets};
 use super::fifth_input::Candidate;
 use super::observe::observe;
-use super::prior::{self, Range};
 use super::scene::Scene;
+use crate::prior::{self, Range};
 
 /// A stream of random numbers for one purpose (`seed`) and one scene (`index`).
 pub fn stream(seed: u64, index: usize) -> ChaCha8Rng {

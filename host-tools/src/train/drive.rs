@@ -3,7 +3,7 @@
 use kapvik_firmware::terramechanics::effects::{Conditions, Grousers};
 use kapvik_firmware::wheel_state::WHEELS;
 
-use super::prior;
+use crate::prior;
 
 /// The circumstances of one scene.
 ///

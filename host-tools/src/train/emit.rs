@@ -5,8 +5,8 @@ use kapvik_table_file::{Block, TableFile};
 
 use super::fifth_input::Candidate;
 use super::plan::Plan;
-use super::prior::{self, Range};
 use super::world::World;
+use crate::prior::{self, Range};
 
 /// The note that says which effects the networks were trained with.
 pub const EFFECTS_NOTE: &str = "effects";

@@ -22,7 +22,6 @@ pub mod moments;
 pub mod observe;
 mod patches;
 pub mod plan;
-pub mod prior;
 mod product;
 mod rank_update;
 pub mod rounding;

@@ -3,7 +3,7 @@
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::WHEELS;
 
-use super::prior::{self, SOIL_PARAMETERS};
+use crate::prior::{self, SOIL_PARAMETERS};
 
 /// Where the parameters of a soil lie in the ranges of the prior, each as a share 0 … 1 of its range.
 type SoilShares = [f64; SOIL_PARAMETERS];

@@ -11,10 +11,10 @@ use super::dataset::{rover_example_anew, rover_examples, seen_by_rover};
 use super::epochs::train_by_epochs;
 use super::example::{RoverFeatures, RoverNormalisation};
 use super::plan::{Plan, Purpose};
-use super::prior::{MANOEUVRE_SHARE, PATCHY_SHARE};
 use super::rover_weights::RoverWeights;
 use super::scene::{Design, Scene, scenes_in};
 use super::world::World;
+use crate::prior::{MANOEUVRE_SHARE, PATCHY_SHARE};
 
 /// The scenes that the rover network is trained on: a part of all kinds, the rest of the manoeuvre that makes a soil observable;
 /// of either a share on patchy ground.

@@ -9,8 +9,8 @@ use crate::error::HostError;
 
 use super::drive::Drive;
 use super::patches::Patches;
-use super::prior;
 use super::world::World;
+use crate::prior;
 
 /// Wheels of one instant, true to the wheel–soil equations and the effects of a world, and how noisily they will be seen.
 #[derive(Debug, Clone)]

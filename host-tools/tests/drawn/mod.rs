@@ -7,7 +7,7 @@ use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::Document;
-use kapvik_host::train::prior;
+use kapvik_host::prior;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -3,11 +3,11 @@
 use clap::ValueEnum;
 use kapvik_firmware::rover::{Rover, Side};
 use kapvik_firmware::terramechanics::{Soil, wheel_forces};
+use kapvik_host::prior;
 use kapvik_host::simulate::audit::imbalance;
 use kapvik_host::simulate::balance::Instant;
 use kapvik_host::simulate::pose::{Coordinates, Pose};
 use kapvik_host::simulate::{BALANCE, Options, Scenario, Traverse};
-use kapvik_host::train::prior;
 use nalgebra::{Rotation3, Vector3};
 
 use super::drive;

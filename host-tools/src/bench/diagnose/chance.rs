@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::train::prior::Range;
+use crate::prior::Range;
 
 /// A stream of random numbers that belongs to one campaign.
 #[derive(Debug, Clone)]

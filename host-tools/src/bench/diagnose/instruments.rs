@@ -7,7 +7,7 @@ use super::site::Site;
 use super::state::{LOAD, MEASURED, SLIP, State};
 use super::wants::Wants;
 use crate::data::campaign::Channel;
-use crate::train::prior::{INSTANT_NOISE, Range};
+use crate::prior::{INSTANT_NOISE, Range};
 
 /// Factor on the noise of an instant of drawbar pull, torque and sinkage.
 const NOISE_FACTOR: Range = Range { low: 0.2, high: 2.0, logarithmic: true };

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use super::chance::Chance;
 use super::layout::Layout;
 use super::state::LOAD;
-use crate::train::prior::Range;
+use crate::prior::Range;
 
 /// How the errors of a run's rows hang together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

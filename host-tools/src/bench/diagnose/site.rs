@@ -4,7 +4,7 @@ use kapvik_firmware::terramechanics::{Soil, Wheel};
 
 use super::chance::Chance;
 use crate::data::wheel_file::Grousers;
-use crate::train::prior::{self, Range};
+use crate::prior::{self, Range};
 
 /// Radius of the wheels that are drawn, m.
 const RADIUS_M: Range = Range { low: 0.05, high: 0.17, logarithmic: true };

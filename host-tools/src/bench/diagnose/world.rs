@@ -6,7 +6,7 @@ use kapvik_firmware::terramechanics::{Memory, Quadrature, Readings, WheelOnSoil}
 use super::overlay::Act;
 use super::site::Site;
 use super::state::{Row, Setting, State};
-use crate::train::prior::DEEPEST;
+use crate::prior::DEEPEST;
 
 /// What acts beside equations 1–11.
 #[derive(Debug, Clone, Copy)]

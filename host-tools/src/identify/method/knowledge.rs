@@ -3,7 +3,7 @@
 use kapvik_firmware::identification::{Belief, SoilPrior};
 
 use crate::data::campaign::{Campaign, Knowledge};
-use crate::train::prior::{self, Range};
+use crate::prior::{self, Range};
 
 /// The usual prior, but for what a campaign's `[soil]` says.
 pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {

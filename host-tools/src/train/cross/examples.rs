@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::super::dataset::stream;
 use super::super::example::soil_targets;
-use super::super::prior::{self, DEEPEST, Range, SOIL_PARAMETERS};
 use super::{INPUTS, Scope, TARGETS};
+use crate::prior::{self, DEEPEST, Range, SOIL_PARAMETERS};
 
 // Wide enough for most soils of the literature; ours, not the paper's.
 // The order is that of [`prior::SOIL_RANGES`].

@@ -17,7 +17,7 @@ mod training;
 
 use kapvik_firmware::terramechanics::Wheel;
 
-use super::prior::{KAPVIK_WHEEL, Range};
+use crate::prior::{KAPVIK_WHEEL, Range};
 
 use examples::Scale;
 use network::Network;
