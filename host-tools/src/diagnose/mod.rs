@@ -23,7 +23,6 @@ mod folds;
 pub mod force_channels;
 mod formula;
 mod formula_groups;
-
 mod formula_search;
 mod forward;
 mod gain_chance;
@@ -52,6 +51,7 @@ pub mod specification;
 mod steps;
 mod term_screen;
 mod told;
+mod trace;
 pub mod trial;
 mod unseen_runs;
 
@@ -59,3 +59,4 @@ pub use declared_file::declared_file;
 pub use force_channels::force_channels;
 pub use outcome::{DiagnoseOptions, Outcome, diagnose};
 pub use told::{Told, told};
+pub use trace::{Trace, Traced};

@@ -5,19 +5,17 @@ use super::bench::Bench;
 use super::candidates::is_measured;
 use super::curvature::{add_curvature, curvature};
 use super::document::Diagnosis;
-use super::fit::{CHANNELS, Reading};
 use super::force_channels;
 use super::formula_search::law;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
-use super::lone_rows::{LoneRow, bearing, in_words};
-use super::measurements::{COLUMNS, Measurements};
+use super::lone_rows::{Bearing, LoneRow, bearing, in_words};
+use super::measurements::Measurements;
 use super::specification::Specification;
 use super::trial::Trial;
 use crate::data::campaign::{Campaign, Fingerprint};
 use crate::error::HostError;
-use crate::report::diagnosis::{Trace, Traced};
 
 /// Chance below which a candidate is tried again without the held-out runs.
 const NEAR: f64 = 0.5;
@@ -48,34 +46,6 @@ pub struct Outcome {
     pub guilty: Option<String>,
 }
 
-impl Outcome {
-    /// Readings and their predictions by channel, for each of a campaign's `rows`.
-    pub fn traces(&self, rows: usize) -> Vec<Trace> {
-        let measured = Reading::JUDGED.into_iter().filter(|reading| self.measurements.has(*reading));
-        measured
-            .map(|reading| Trace {
-                channel: COLUMNS[reading.index()].name().to_owned(),
-                rows: self.traced(reading, rows),
-            })
-            .collect()
-    }
-
-    fn traced(&self, reading: Reading, rows: usize) -> Vec<Option<Traced>> {
-        let mut traced = vec![None; rows];
-        let name = COLUMNS[reading.index()].name();
-        let noise = self.document.channels.get(name).map_or(1.0, |channel| channel.noise);
-        for (row, place) in self.measurements.places.iter().enumerate() {
-            let measured = self.measurements.rows[row].readings[reading.index()];
-            let predicted = |errors: &[[Option<f64>; CHANNELS]]| Some(measured? - errors[row][reading.index()]?);
-            if let (Some(measured), Some(entry)) = (measured, traced.get_mut(*place)) {
-                let (before, after) = (predicted(&self.errors.before), predicted(&self.errors.after));
-                *entry = Some(Traced { measured, noise, before, after });
-            }
-        }
-        traced
-    }
-}
-
 /// Diagnoses a campaign. `progress` is told what is being done.
 ///
 /// # Errors
@@ -93,21 +63,8 @@ pub fn diagnose(
     let measurements = measured(whole.in_runs, options, &[])?;
     let bench = Bench::new(whole.in_runs, &measurements);
     let selected = select(&bench, declared_model(&bench)?, progress);
-    let Some(lone) = bearing(&measurements, &selected) else {
-        return Ok(whole.concluded(&bench, &selected, &[], progress));
-    };
-    progress("without rows that stand alone");
-    let fewer = measured(whole.in_runs, options, &lone.rows);
-    let without = fewer.as_ref().ok().map(|fewer| Bench::new(whole.in_runs, fewer));
-    let declared = without.as_ref().and_then(|without| Some((without, declared_model(without).ok()?)));
-    let Some((without, declared)) = declared else {
-        return Ok(whole.concluded(&bench, &selected, &[], progress));
-    };
-    let again = select(without, declared, progress);
-    if lone.are_explained && !selected.found.is_empty() && ids(&again) == ids(&selected) {
-        return Ok(whole.concluded(&bench, &selected, &[], progress));
-    }
-    Ok(whole.concluded(without, &again, &lone.rows, progress))
+    let without = bearing(&measurements, &selected).and_then(|lone| whole.without(&lone, options, &selected, progress));
+    Ok(without.unwrap_or_else(|| whole.concluded(&bench, &selected, &[], progress)))
 }
 
 fn ids(selected: &Selected<'_>) -> Vec<&'static str> {
@@ -122,6 +79,23 @@ struct Whole<'a> {
 }
 
 impl Whole<'_> {
+    /// What comes of a selection without rows that alone bear another; none where no model has a fit without them, or the other finds the
+    /// same effects and they explain these rows, too.
+    fn without(
+        &self,
+        lone: &Bearing,
+        options: &DiagnoseOptions,
+        selected: &Selected<'_>,
+        progress: &(dyn Fn(&str) + Sync),
+    ) -> Option<Outcome> {
+        progress("without rows that stand alone");
+        let fewer = measured(self.in_runs, options, &lone.rows).ok()?;
+        let bench = Bench::new(self.in_runs, &fewer);
+        let again = select(&bench, declared_model(&bench).ok()?, progress);
+        let are_same = lone.are_explained && !selected.found.is_empty() && ids(&again) == ids(selected);
+        (!are_same).then(|| self.concluded(&bench, &again, &lone.rows, progress))
+    }
+
     /// What came of a selection.
     fn concluded(
         &self,

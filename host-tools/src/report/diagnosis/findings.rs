@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::data::campaign::{Campaign, Channel, Knowledge, Provenance};
 use crate::diagnose::document::Diagnosis;
+use crate::diagnose::{Trace, Traced};
 
 /// A diagnosis with what is drawn of it.
 #[derive(Debug, Clone)]
@@ -24,28 +25,6 @@ pub struct DiagnosisFindings {
     pub traces: Vec<Trace>,
     /// The column that the residual of the declared model follows best; a product is written `slip*sinkage_m`.
     pub guilty: Option<String>,
-}
-
-/// One measured channel.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trace {
-    /// The name of its column.
-    pub channel: String,
-    /// For every row of the campaign; none where nothing was measured or the row was not used.
-    pub rows: Vec<Option<Traced>>,
-}
-
-/// One reading and what was predicted for it, in the channel's unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Traced {
-    /// The reading.
-    pub measured: f64,
-    /// One standard deviation of its noise, above 0.
-    pub noise: f64,
-    /// Predicted by the declared model, refitted without the row's run; none where it has no answer.
-    pub before: Option<f64>,
-    /// Predicted with the effects found, fitted without the row's run.
-    pub after: Option<f64>,
 }
 
 /// The declared model, or that with the effects found.

@@ -16,7 +16,7 @@ mod sample;
 mod soil;
 mod terminal;
 
-pub use findings::{DiagnosisFindings, Trace, Traced};
+pub use findings::DiagnosisFindings;
 pub use page::page;
 pub use quantity::Quantity;
 pub use terminal::terminal;

@@ -2,10 +2,11 @@
 
 use maud::{Markup, html};
 
-use super::findings::{DiagnosisFindings, Side, Trace, Traced};
+use super::findings::{DiagnosisFindings, Side};
 use super::pair::{Pair, span, stride};
 use super::quantity::Quantity;
 use crate::data::campaign::Channel;
+use crate::diagnose::{Trace, Traced};
 use crate::report::draw::{Scale, dot, line};
 use crate::report::legend::entry;
 

@@ -2,9 +2,10 @@
 
 use maud::{Markup, html};
 
-use super::findings::{DiagnosisFindings, Side, Trace};
+use super::findings::{DiagnosisFindings, Side};
 use super::pair::{Pair, span, stride};
 use super::quantity::Quantity;
+use crate::diagnose::Trace;
 use crate::report::draw::{Scale, dot, line, path, vertical_band};
 use crate::report::legend::entry;
 

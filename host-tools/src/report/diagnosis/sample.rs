@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::findings::{DiagnosisFindings, Trace, Traced};
+use super::findings::DiagnosisFindings;
 use crate::data::campaign::{Campaign, Carried, Channel};
 use crate::diagnose::document::{
     Candidate, ChannelErrors, Diagnosis, EndsApart, ErrorPair, Estimate, FoundEffect, FoundLaw, LeftOut, LevelsLeftOut,
     RunnerUp, Unexplained, Verdict,
 };
+use crate::diagnose::{Trace, Traced};
 
 /// Two effects found on the steady runs, with something in every list.
 pub fn findings() -> DiagnosisFindings {
