@@ -54,9 +54,7 @@ impl FrameReader {
 
     /// The columns that are passed over, such as those of a sensor whose name is not quite right.
     pub fn unknown_columns(&self) -> Vec<String> {
-        let sensors = names();
-        let is_unknown = |name: &&String| *name != TIME && !sensors.contains(name);
-        self.stream.header().iter().filter(is_unknown).cloned().collect()
+        no_sensors(&self.stream).map(|(_, name)| name.clone()).collect()
     }
 
     fn frame(&mut self, row: &Row) -> Result<SensorFrame, HostError> {
@@ -104,15 +102,20 @@ impl Iterator for FrameReader {
 
 /// Refuses a header in which a sensor would be absent for the sake of a letter or a unit.
 fn no_misspelt_column(stream: &NumberStream) -> Result<(), HostError> {
-    let header = stream.header();
     let sensors = names();
-    let absent = || sensors.iter().filter(|name| !header.contains(name)).map(String::as_str);
-    for (place, name) in header.iter().enumerate().filter(|(_, name)| *name != TIME && !sensors.contains(name)) {
+    let absent = || sensors.iter().filter(|name| !stream.header().contains(name)).map(String::as_str);
+    for (place, name) in no_sensors(stream) {
         if let Some(meant) = column_meant(name, absent()) {
             return Err(stream.error(1, place as u64 + 1, format!("`{name}` is no sensor: is `{meant}` meant?")));
         }
     }
     Ok(())
+}
+
+/// The columns of a table that are neither the time nor a sensor, and their places.
+fn no_sensors(stream: &NumberStream) -> impl Iterator<Item = (usize, &String)> {
+    let sensors = names();
+    stream.header().iter().enumerate().filter(move |(_, name)| *name != TIME && !sensors.contains(name))
 }
 
 /// Whether a table is one of sensor frames, by its header: a column of a sensor, or one that is named like an encoder's.
