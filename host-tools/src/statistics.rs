@@ -9,6 +9,13 @@ pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     values
 }
 
+/// The lowest and the highest of some values; none of none.
+pub fn ends(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    let wider =
+        |(low, high): (f64, f64), (other_low, other_high): (f64, f64)| (low.min(other_low), high.max(other_high));
+    values.into_iter().map(|value| (value, value)).reduce(wider)
+}
+
 /// The value below which a share 0 … 1 of sorted values lies, between neighbours in proportion; not a number of none.
 pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * sorted.len().saturating_sub(1) as f64;
@@ -32,7 +39,7 @@ pub fn robust_std(errors: impl IntoIterator<Item = f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{median, quantile, sorted};
+    use super::{ends, median, quantile, sorted};
 
     #[test]
     fn quantiles_lie_between_neighbours() {
@@ -41,5 +48,7 @@ mod tests {
         assert_eq!([0.0, 0.5, 0.75, 1.0].map(|share| quantile(&values, share)), [1.0, 2.5, 3.5, 5.0]);
         assert_eq!(median([4.0, 1.0, 9.0]), 4.0);
         assert!(median([]).is_nan());
+        assert_eq!(ends([3.0, 1.0, 2.0]), Some((1.0, 3.0)));
+        assert_eq!(ends([]), None);
     }
 }

@@ -2,6 +2,8 @@
 
 mod glance;
 
+use std::ops::Range;
+
 use super::campaign_model::CampaignModel;
 use super::fit::{
     CHANNELS, Fit, FitError, HeldOutRun, Model, OffsetStd, Options, Reading, Row, Start, fit_from_many, fit_without,
@@ -81,16 +83,19 @@ impl<'a> Bench<'a> {
     /// Where no start leads to a fit.
     pub fn fitted_from_many_starts(&self, specification: Specification) -> Result<Trial<'a>, FitError> {
         let model = CampaignModel::new(self.campaign, self.measurements, &specification);
-        let from = |count: usize| {
-            let starts = scattered_starts(&model, &self.measurements.rows, count, SEED);
-            fit_from_many(&model, &self.measurements.rows, &self.without, &starts, &self.options)
+        let rows = &self.measurements.rows;
+        let from = |places: Range<usize>| {
+            let starts = scattered_starts(&model, rows, places.end, SEED);
+            fit_from_many(&model, rows, &self.without, &starts[places], &self.options).map(|fits| fits.best)
         };
-        let fits = match from(STARTS) {
-            Err(FitError::NoPrediction) => from(MORE_STARTS),
-            Ok(fits) if !specification.effects.is_empty() && self.is_unexplained(&fits.best) => from(STARTS_OF_EFFECTS),
-            fits => fits,
+        let fit = match from(0..STARTS) {
+            Err(FitError::NoPrediction) => from(STARTS..MORE_STARTS)?,
+            Ok(few) if !specification.effects.is_empty() && self.is_unexplained(&few) => {
+                let more = from(STARTS..STARTS_OF_EFFECTS).ok();
+                more.filter(|more| more.log_posterior > few.log_posterior).unwrap_or(few)
+            }
+            few => few?,
         };
-        let fit = fits?.best;
         Ok(Trial { specification, model, fit })
     }
 

@@ -3,6 +3,7 @@
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, Column, Conditions, EffectInfo, Form};
 
 use crate::data::campaign::{Campaign, Channel};
+use crate::statistics::ends;
 
 use super::fit::Reading;
 use super::measurements::{Measurements, varies};
@@ -47,9 +48,7 @@ pub fn rates_differ(measurements: &Measurements) -> bool {
 
 /// Whether the range of some numbers is at least a share of the largest.
 fn differ(values: impl Iterator<Item = f64>, share: f64) -> bool {
-    let (low, high) =
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (value.min(low), value.max(high)));
-    high > low && high - low >= share * high.abs()
+    ends(values).is_some_and(|(low, high)| high > low && high - low >= share * high.abs())
 }
 
 /// Whether a campaign has what a form needs.

@@ -1,6 +1,7 @@
 //! What a reader of a diagnosis should know about its data.
 
 use crate::data::campaign::Campaign;
+use crate::statistics::ends;
 
 use super::candidates::loads_differ;
 use super::fit::{Model, Reading};
@@ -149,7 +150,5 @@ fn untold(selected: &Selected<'_>) -> Option<String> {
 
 /// The least and the greatest reading.
 fn spread(measurements: &Measurements, reading: Reading) -> Option<(f64, f64)> {
-    let values = measurements.rows.iter().filter_map(|row| row.readings[reading.index()]);
-    let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    ends.0.is_finite().then_some(ends)
+    ends(measurements.rows.iter().filter_map(|row| row.readings[reading.index()]))
 }

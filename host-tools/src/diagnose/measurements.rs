@@ -214,9 +214,7 @@ pub fn median(values: Vec<f64>) -> Option<f64> {
 
 /// Whether some numbers differ by more than their rounding.
 pub fn varies(values: impl Iterator<Item = f64>) -> bool {
-    let (low, high) =
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    high - low > 1e-6 * (low.abs() + high.abs())
+    statistics::ends(values).is_some_and(|(low, high)| high - low > 1e-6 * (low.abs() + high.abs()))
 }
 
 fn check_columns(campaign: &Campaign) -> Result<(), HostError> {

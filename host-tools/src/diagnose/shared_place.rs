@@ -5,6 +5,7 @@
 use kapvik_firmware::terramechanics::effects::Conditions;
 
 use super::measurements::Measurements;
+use crate::statistics::ends;
 
 /// Fewer rows lie together by chance.
 const LEAST_ROWS: usize = 4;
@@ -40,8 +41,7 @@ fn order_in_run(measurements: &Measurements) -> Vec<Option<f64>> {
 /// Whether rows are among the few with the lowest values of a column, or the highest.
 fn lie_at_an_end(column: &[Option<f64>], rows: &[usize]) -> bool {
     let Some(own) = rows.iter().map(|row| column[*row]).collect::<Option<Vec<f64>>>() else { return false };
-    let low = own.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = own.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let Some((low, high)) = ends(own) else { return false };
     let are_few = |is_as_far: &dyn Fn(f64) -> bool| {
         column.iter().flatten().filter(|value| is_as_far(**value)).count() as f64 <= END * column.len() as f64
     };

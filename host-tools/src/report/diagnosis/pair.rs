@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::findings::Side;
 use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, px, text};
+use crate::statistics::ends;
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 262.0;
@@ -52,12 +53,7 @@ impl Pair<'_> {
 
 /// From the least to the greatest of the values, with some room; a little around the one where all are equal.
 pub fn span(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    let (low, high) = values
-        .filter(|value| value.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    if low > high {
-        return None;
-    }
+    let (low, high) = ends(values.filter(|value| value.is_finite()))?;
     let room = if high > low { 0.06 * (high - low) } else { 0.5_f64.max(0.05 * high.abs()) };
     Some((low - room, high + room))
 }
