@@ -82,7 +82,8 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     }
     said.extend(off_by_run(measurements, selected));
     said.extend(selected.found.iter().flat_map(|found| at_an_end(selected.model(), found.winner.id())));
-    said.extend(selected.found.iter().skip(1).filter_map(left_open));
+    let (first, others) = selected.found.split_at(selected.found.len().min(1));
+    said.extend(first.iter().filter(|found| !found.also_near.is_empty()).chain(others).filter_map(left_open));
     said.extend(untold(selected));
     said
 }
@@ -124,9 +125,9 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
     said.collect()
 }
 
-/// What is said of an effect after the first that others are not told from.
+/// What is said of an effect that others are not told from; of the first the verdict itself names the likeliest of them.
 fn left_open(found: &FoundStep<'_>) -> Option<String> {
-    let others = &found.ambiguous_with;
+    let others = [found.ambiguous_with.as_slice(), &found.also_near].concat();
     (!others.is_empty())
         .then(|| format!("{}: these data do not tell it from {}.", found.winner.id(), others.join(" or ")))
 }

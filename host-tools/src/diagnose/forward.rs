@@ -35,8 +35,10 @@ pub struct Selected<'a> {
 pub struct FoundStep<'a> {
     /// The winner.
     pub winner: Judged<'a>,
-    /// The ids that these data do not tell from it.
+    /// The ids that these data do not tell from it, the likeliest.
     pub ambiguous_with: Vec<&'static str>,
+    /// The same of those for which there was no place among these.
+    pub also_near: Vec<&'static str>,
     /// Everyone.
     pub step: Step<'a>,
 }
@@ -182,6 +184,7 @@ pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
         other.score > winner.score - TELLS_APART && other.held_out.per_row > winner.held_out.per_row - errors
     };
     let near = |other: &&Judged<'_>| other.id() != winner.id() && is_near(other);
-    let ambiguous_with = step.ranking.iter().filter(near).take(MOST_ALTERNATIVES).map(Judged::id).collect();
-    FoundStep { winner, ambiguous_with, step }
+    let mut ambiguous_with: Vec<_> = step.ranking.iter().filter(near).map(Judged::id).collect();
+    let also_near = ambiguous_with.split_off(MOST_ALTERNATIVES.min(ambiguous_with.len()));
+    FoundStep { winner, ambiguous_with, also_near, step }
 }
