@@ -92,6 +92,9 @@ fn a_lacking_column_is_named_and_a_lacking_value_leaves_the_row_out() {
     let csv = "run,t_s,slip,load_n,drawbar_pull_n\na,0,0.1,65,1\n";
     let error = document(csv, TOML).expect_err("no torque");
     assert!(error.starts_with("made.csv:1:1: no column torque_nm: the method network needs"), "{error}");
+    let csv = "run,t_s,Slip,load_n,drawbar_pull_n,torque_nm\na,0,0.1,65,1,2\n";
+    let error = document(csv, TOML).expect_err("no slip");
+    assert!(error.contains("no column slip") && error.contains("a column `Slip` and none `slip`"), "{error}");
     let csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm\na,0,0.1,65,1,\nb,0,0.1,65,-1,1.3\nb,0,0.2,0,-1,1.3\n";
     let document = document(csv, TOML).expect("identified");
     let runs = document["runs"].as_array().expect("runs");

@@ -184,10 +184,13 @@ fn held_out_runs(measurements: &Measurements, errors: &HeldOutErrors) -> Vec<Str
 /// What is said where a run that was held out is predicted by one of the models or by none.
 fn without_answer(measurements: &Measurements, predicted: &[String]) -> Option<String> {
     let runs: Vec<&str> = measurements.runs.iter().filter(|run| !predicted.contains(run)).map(String::as_str).collect();
+    let why = match measurements.runs.len() {
+        1 => "there is nothing else to fit",
+        _ => "on the soil that these came to the wheel finds no hold",
+    };
     (!runs.is_empty()).then(|| {
         format!(
-            "Not predicted by fits that did not know them, since on the soil that these came to the wheel finds no hold: {}. Errors before and \
-             after are without them.",
+            "Not predicted by fits that did not know them, since {why}: {}. Errors before and after are without them.",
             runs.join(", ")
         )
     })

@@ -221,9 +221,10 @@ impl Campaign {
         HostError::Input { path: self.path.clone(), line, column, message: message.into() }
     }
 
-    /// An error about the table as a whole.
+    /// An error about a column that the table lacks; columns that may be meant are named beside.
     pub fn error(&self, message: impl Into<String>) -> HostError {
-        HostError::Input { path: self.path.clone(), line: 1, column: 1, message: message.into() }
+        let said: Vec<_> = std::iter::once(message.into()).chain(further_columns::misspelt(&self.header)).collect();
+        HostError::Input { path: self.path.clone(), line: 1, column: 1, message: said.join(". ") }
     }
 }
 
