@@ -13,7 +13,7 @@ use super::force_channels::ForceChannels;
 use super::forward::Selected;
 use super::held_out_errors::HeldOutErrors;
 use super::left_over::{LeftOver, left_over};
-use super::measurements::{COLUMNS, Measurements};
+use super::measurements::{Measurements, column_name};
 use super::selection::Judged;
 use super::trial::Trial;
 
@@ -171,7 +171,7 @@ fn channels(
 }
 
 fn name(reading: Reading) -> String {
-    COLUMNS[reading.index()].name().to_owned()
+    column_name(reading).to_owned()
 }
 
 /// The runs of which both models predicted anything.

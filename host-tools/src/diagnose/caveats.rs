@@ -6,7 +6,7 @@ use crate::statistics::ends;
 use super::candidates::loads_differ;
 use super::fit::{Model, Reading};
 use super::forward::{FoundStep, Selected};
-use super::measurements::Measurements;
+use super::measurements::{Measurements, column_name};
 use super::selection::MISFIT;
 use super::soil_coordinates::SoilParameter;
 use super::trial::Trial;
@@ -62,7 +62,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     let guessed = Reading::JUDGED
         .into_iter()
         .filter(|reading| measurements.has(*reading) && !measurements.noise[reading.index()].stated);
-    let guessed: Vec<_> = guessed.map(|reading| super::measurements::COLUMNS[reading.index()].name()).collect();
+    let guessed: Vec<_> = guessed.map(column_name).collect();
     if !guessed.is_empty() {
         said.push(format!(
             "The noise of {} is not stated; it is estimated from what the model leaves.",
@@ -82,8 +82,9 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     }
     said.extend(off_by_run(measurements, selected));
     said.extend(selected.found.iter().flat_map(|found| at_an_end(selected.model(), found.winner.id())));
-    let (first, others) = selected.found.split_at(selected.found.len().min(1));
-    said.extend(first.iter().filter(|found| !found.also_near.is_empty()).chain(others).filter_map(left_open));
+    let untold_by_verdict =
+        selected.found.iter().enumerate().filter(|(place, found)| *place > 0 || !found.also_near.is_empty());
+    said.extend(untold_by_verdict.filter_map(|(_, found)| left_open(found)));
     said.extend(untold(selected));
     said
 }
@@ -94,7 +95,7 @@ fn off_by_run<'a>(measurements: &'a Measurements, selected: &'a Selected<'_>) ->
         format!(
             "{} is off by another amount in each run, by {times:.1} times its stated noise: the zero of a sensor, or a law \
              that changes little within a run. The model does not say which.",
-            super::measurements::COLUMNS[reading.index()].name()
+            column_name(reading)
         )
     })
 }

@@ -40,7 +40,7 @@ impl<'a> Field<'a> {
         let names = base.specification.names();
         let held = bench.held(&base.fit);
         let begin = |known: &Trial<'a>| {
-            let effect = known.specification.effects.last()?;
+            let effect = known.added()?;
             if base.specification.has(effect.info.id) {
                 return None;
             }

@@ -10,7 +10,7 @@ use super::formula::{Group, Term, figure, terms};
 use super::formula_groups::{Scale, groups, scale};
 use super::gain_chance::Gain;
 use super::linearised::{AddedTerms, Linearised, Term as AddedTerm};
-use super::measurements::COLUMNS;
+use super::measurements::column_name;
 use super::residual_search::Structure;
 use super::selection::SIGNIFICANT;
 use super::term_screen::Screen;
@@ -158,7 +158,7 @@ impl Search<'_, '_> {
     }
 
     fn tell(&self, nothing: &Law, law: &Law) -> FoundLaw {
-        let channel = COLUMNS[self.channel.index()].name().to_owned();
+        let channel = column_name(self.channel);
         let mut formula = format!("{channel} +=");
         for (number, place) in law.chosen.iter().enumerate() {
             let value = self.coefficient(law, number).value;
@@ -173,7 +173,12 @@ impl Search<'_, '_> {
         }
         let gain = held_out_gain(nothing, law).map_or(0.0, |(gain, _)| gain);
         let rows = self.bench.measurements.rows.len().max(1);
-        FoundLaw { channel, formula, coefficient: self.coefficient(law, 0), gain_per_row: gain / rows as f64 }
+        FoundLaw {
+            channel: channel.to_owned(),
+            formula,
+            coefficient: self.coefficient(law, 0),
+            gain_per_row: gain / rows as f64,
+        }
     }
 
     /// The dimensionless coefficient of a law's term.

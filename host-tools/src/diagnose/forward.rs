@@ -141,7 +141,7 @@ fn together<'a>(
         }
         _ => return None,
     };
-    let tried = known.as_ref().and_then(|known| known.one.specification.effects.last()).map_or("", |one| one.info.id);
+    let tried = known.as_ref().map_or("", |known| known.one.added_id());
     let best = known.and_then(|known| from_known(steps, known));
     let asks_for_more = || {
         let is_of_contact = |structure: &Structure| structure.is_significant() && structure.of_contact;

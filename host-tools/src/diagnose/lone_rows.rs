@@ -7,7 +7,7 @@
 
 use super::fit::{Fit, Reading};
 use super::forward::Selected;
-use super::measurements::{COLUMNS, Measurements};
+use super::measurements::{COLUMNS, Measurements, column_name};
 use super::shared_place::share_a_place;
 use crate::data::campaign::Campaign;
 use crate::statistics::robust_std;
@@ -77,7 +77,7 @@ fn lone_rows(measurements: &Measurements, fit: &Fit) -> Vec<LoneRow> {
 pub fn in_words(campaign: &Campaign, rows: &[LoneRow]) -> Option<String> {
     let name = |lone: &LoneRow| {
         let row = &campaign.rows()[lone.place];
-        let channel = COLUMNS[lone.channel.index()].name();
+        let channel = column_name(lone.channel);
         format!("run {} at {} s ({channel} off by {:.0} times what is usual)", row.run, row.t_s, lone.times)
     };
     let named: Vec<String> = rows.iter().take(NAMED).map(name).collect();

@@ -27,6 +27,11 @@ const OFF: f64 = 2.0;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
 const BRAKING: f64 = -0.05;
 
+/// The name of a reading's column.
+pub fn column_name(reading: Reading) -> &'static str {
+    COLUMNS[reading.index()].name()
+}
+
 /// What a campaign measured, row by row.
 #[derive(Debug, Clone)]
 pub struct Measurements {
@@ -115,15 +120,16 @@ impl Measurements {
         let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
             usable.iter().map(|(row, readings)| (*row, readings)).collect();
         let mut runs = campaign.runs();
-        runs.iter_mut().for_each(|(_, places)| places.retain(|place| by_place.contains_key(place)));
+        for (_, places) in &mut runs {
+            places.retain(|place| by_place.contains_key(place));
+            places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
+        }
         runs.retain(|(_, places)| !places.is_empty());
         let runs: Vec<_> = evenly(&runs, MOST_ROWS).collect();
         let rows = runs.iter().map(|(_, places)| places.len()).sum();
         for (name, places) in runs {
-            let mut places = places.clone();
-            places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
             let mut of_run = Vec::new();
-            for place in thinned(&places, rows) {
+            for place in thinned(places, rows) {
                 let readings = by_place[&place];
                 of_run.push(found.rows.len());
                 found.places.push(place);

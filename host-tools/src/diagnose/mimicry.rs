@@ -33,7 +33,7 @@ const ROUNDS: usize = 3;
 pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structure: &Structure) -> bool {
     let (added, common) = (&structure.added, &structure.common);
     let gains = || {
-        let form = effect.specification.effects.last()?;
+        let form = effect.added()?;
         let dependence = log_posterior_with(bench, &step.base, added)?;
         let both = log_posterior_with(bench, effect, added)?;
         let alone = log_posterior_with(bench, effect, common)?;

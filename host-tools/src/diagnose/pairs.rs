@@ -52,8 +52,8 @@ pub fn from_known<'a>(steps: &Steps<'_, 'a>, known: Known<'a>) -> Option<Pair<'a
 /// the way that it found beside the other.
 pub fn alone<'a>(steps: &Steps<'_, 'a>, first: &Step<'a>, one: &Trial<'a>, both: &Trial<'a>) -> Option<FoundStep<'a>> {
     let bench = steps.bench;
-    let other = bench.finished(bench.without_effect(both, last_id(one))?);
-    let id = last_id(&other);
+    let other = bench.finished(bench.without_effect(both, one.added_id())?);
+    let id = other.added_id();
     if worth(&other) <= worth(one) {
         return None;
     }
@@ -88,10 +88,6 @@ pub fn from_ahead<'a>(
     best
 }
 
-fn last_id(trial: &Trial<'_>) -> &'static str {
-    trial.specification.effects.last().map_or("", |effect| effect.info.id)
-}
-
 /// From a model whose last effect is the first of a pair: its best companion, that one's best companion, and so on until they
 /// agree. None where there is no companion, or no agreement.
 fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundStep<'a>>) -> Option<Pair<'a>> {
@@ -99,15 +95,15 @@ fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundS
     for _ in 0..EXCHANGES {
         let second = known.take().or_else(|| companion(steps, &one))?;
         let both = &second.winner.trial;
-        let other = steps.bench.without_effect(both, last_id(&one))?;
+        let other = steps.bench.without_effect(both, one.added_id())?;
         let first = companion(steps, &other)?;
-        let id = last_id(&one);
+        let id = one.added_id();
         if first.winner.id() == id || first.ambiguous_with.contains(&id) {
             let kept = first.step.ranking.iter().position(|judged| judged.id() == id && judged.is_significant())?;
             let worth = both.log_posterior() - PARAMETER_COST * both.effect_parameters() as f64;
             return Some(Pair { first: found(first.step, kept), second, worth });
         }
-        one = steps.bench.without_effect(&first.winner.trial, last_id(&other))?;
+        one = steps.bench.without_effect(&first.winner.trial, other.added_id())?;
     }
     None
 }

@@ -8,7 +8,7 @@ use super::bench::Bench;
 use super::candidates::{loads_differ, rates_differ};
 use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
-use super::measurements::COLUMNS;
+use super::measurements::column_name;
 use super::rates::speed_ratio;
 
 /// A column, or a product of two, about zero and one in size. What is made of slip, load, sinkage or speed is a function of
@@ -38,7 +38,7 @@ const SAME: f64 = 0.999;
 impl Regressor {
     /// Whether it is made of what a channel reads.
     pub fn contains(&self, reading: Reading) -> bool {
-        self.parts.iter().any(|part| part == COLUMNS[reading.index()].name())
+        self.parts.iter().any(|part| part == column_name(reading))
     }
 
     /// Whether it is made of slip, load and sinkage alone.
@@ -53,7 +53,7 @@ impl Regressor {
 }
 
 fn is_contact(part: &str) -> bool {
-    CONTACT.iter().any(|reading| part == COLUMNS[reading.index()].name())
+    CONTACT.iter().any(|reading| part == column_name(*reading))
 }
 
 /// What the contact itself is made of.

@@ -58,12 +58,12 @@ pub struct Judged<'a> {
 impl Judged<'_> {
     /// The candidate.
     pub fn effect(&self) -> Option<&EffectForm> {
-        self.trial.specification.effects.last()
+        self.trial.added()
     }
 
     /// Its id.
     pub fn id(&self) -> &'static str {
-        self.effect().map_or("", |effect| effect.info.id)
+        self.trial.added_id()
     }
 
     /// Whether chance does not explain it.
@@ -203,7 +203,7 @@ fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Tr
     let glances: Vec<_> = all.par_iter().filter_map(|form| bench.glance(&held, base, form)).collect();
     let glances = beside_leader(bench, base, glances);
     let best = best_glances(&glances);
-    let form = |trial: &Trial<'_>| trial.specification.effects.last().cloned();
+    let form = |trial: &Trial<'_>| trial.added().cloned();
     let leaders: Vec<_> = best.iter().take(LEADERS).filter_map(form).collect();
     let leads = |candidate: &EffectForm| leaders.iter().any(|leader| leader.info.id == candidate.info.id);
     let gain = |trial: &Trial<'_>| trial.log_posterior() - base.log_posterior();
@@ -218,21 +218,12 @@ fn trials<'a>(bench: &Bench<'a>, base: &Trial<'a>, all: &[EffectForm]) -> Vec<Tr
     fitted.extend(others);
     let fitted = finished(bench, fitted);
     let again = from_many_starts(bench, base, all, &fitted);
-    if again.is_empty() { fitted } else { with_better_forms(fitted, again) }
-}
-
-/// Fits of candidates, those of a form that was fitted better again exchanged; the best first.
-fn with_better_forms<'a>(mut fitted: Vec<Trial<'a>>, again: Vec<Trial<'a>>) -> Vec<Trial<'a>> {
-    let name = |trial: &Trial<'_>| trial.specification.effects.last().map(EffectForm::name);
-    for trial in again {
-        match fitted.iter_mut().find(|known| name(known) == name(&trial)) {
-            Some(known) if worth(known) < worth(&trial) => *known = trial,
-            Some(_) => {}
-            None => fitted.push(trial),
-        }
+    if again.is_empty() {
+        return fitted;
     }
-    fitted.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-    fitted
+    let mut better = best_of_each(fitted.into_iter().chain(again), form_name);
+    better.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    better
 }
 
 /// The best effect in all of its forms from many starts, where it leaves more than noise: its fits may have come to the wrong place, whose
@@ -245,8 +236,7 @@ fn from_many_starts<'a>(
 ) -> Vec<Trial<'a>> {
     let best = fitted.iter().max_by(|a, b| worth(a).total_cmp(&worth(b)));
     let Some(best) = best.filter(|best| bench.is_unexplained(&best.fit)) else { return Vec::new() };
-    let effect = best.specification.effects.last().map(|effect| effect.info.id);
-    let forms = all.par_iter().filter(|form| Some(form.info.id) == effect);
+    let forms = all.par_iter().filter(|form| form.info.id == best.added_id());
     let again = |form: &EffectForm| bench.fitted_from_many_starts(base.specification.with(form.clone())).ok();
     forms.filter_map(again).collect()
 }
@@ -266,8 +256,7 @@ fn beside_leader<'a>(bench: &Bench<'a>, base: &Trial<'a>, glances: Vec<Glance<'a
     if leader.log_posterior() - base.log_posterior() < PROMISING_LESS * base.fit.dispersion.max(1.0) {
         return glances;
     }
-    let name = |trial: &Trial<'_>| trial.specification.effects.last().map(EffectForm::name);
-    let is_other = |glance: &Glance<'a>| others.iter().any(|other| name(other) == name(&glance.better));
+    let is_other = |glance: &Glance<'a>| others.iter().any(|other| form_name(other) == form_name(&glance.better));
     let again = |glance| if is_other(&glance) { bench.glance_beside(glance, base, leader) } else { glance };
     glances.into_par_iter().map(again).collect()
 }
@@ -288,10 +277,21 @@ pub fn worth(trial: &Trial<'_>) -> f64 {
 
 /// Of each effect the form that is worth most.
 fn best_forms(trials: Vec<Trial<'_>>) -> Vec<Trial<'_>> {
-    let id = |trial: &Trial<'_>| trial.specification.effects.last().map(|effect| effect.info.id);
-    let mut best: Vec<Trial<'_>> = Vec::new();
+    best_of_each(trials, |trial| trial.added_id())
+}
+
+fn form_name(trial: &Trial<'_>) -> Option<(&'static str, &'static str)> {
+    trial.added().map(EffectForm::name)
+}
+
+/// Of those that are the same by a key the one that is worth most, where the first of them was.
+fn best_of_each<'a, K: PartialEq>(
+    trials: impl IntoIterator<Item = Trial<'a>>,
+    key: impl Fn(&Trial<'a>) -> K,
+) -> Vec<Trial<'a>> {
+    let mut best: Vec<Trial<'a>> = Vec::new();
     for trial in trials {
-        match best.iter_mut().find(|other| id(other) == id(&trial)) {
+        match best.iter_mut().find(|other| key(other) == key(&trial)) {
             Some(other) if worth(other) < worth(&trial) => *other = trial,
             Some(_) => {}
             None => best.push(trial),
@@ -310,7 +310,7 @@ pub fn look_ahead<'a>(bench: &Bench<'a>, trials: &[Trial<'a>]) -> Vec<Trial<'a>>
         let glance = |form: &EffectForm| bench.glance_near(&held, first, form);
         let mut glances = best_forms(next.par_iter().filter_map(glance).collect());
         glances.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        let chosen = glances.iter().take(SECONDS).filter_map(|trial| trial.specification.effects.last());
+        let chosen = glances.iter().take(SECONDS).filter_map(Trial::added);
         let chosen: Vec<_> = chosen.collect();
         chosen.into_par_iter().filter_map(|form| bench.with_effect_near(first, form)).collect::<Vec<_>>()
     };

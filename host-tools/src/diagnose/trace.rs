@@ -1,7 +1,7 @@
 //! Readings beside what was predicted for them.
 
 use super::fit::{CHANNELS, Reading};
-use super::measurements::COLUMNS;
+use super::measurements::column_name;
 use super::outcome::Outcome;
 
 /// One measured channel.
@@ -31,16 +31,13 @@ impl Outcome {
     pub fn traces(&self, rows: usize) -> Vec<Trace> {
         let measured = Reading::JUDGED.into_iter().filter(|reading| self.measurements.has(*reading));
         measured
-            .map(|reading| Trace {
-                channel: COLUMNS[reading.index()].name().to_owned(),
-                rows: self.traced(reading, rows),
-            })
+            .map(|reading| Trace { channel: column_name(reading).to_owned(), rows: self.traced(reading, rows) })
             .collect()
     }
 
     fn traced(&self, reading: Reading, rows: usize) -> Vec<Option<Traced>> {
         let mut traced = vec![None; rows];
-        let name = COLUMNS[reading.index()].name();
+        let name = column_name(reading);
         let noise = self.document.channels.get(name).map_or(1.0, |channel| channel.noise);
         for (row, place) in self.measurements.places.iter().enumerate() {
             let measured = self.measurements.rows[row].readings[reading.index()];

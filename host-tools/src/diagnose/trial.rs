@@ -2,7 +2,7 @@
 
 use super::campaign_model::CampaignModel;
 use super::fit::{Coordinate, Fit, Model, Start};
-use super::specification::Specification;
+use super::specification::{EffectForm, Specification};
 
 /// Share of the variance of its bounds beyond which nothing is known of a parameter.
 const SILENT: f64 = 0.9;
@@ -67,7 +67,7 @@ impl Trial<'_> {
     /// not one that they support; nor is a shape that they push out of it at all, for the form then stands for another law. Of a
     /// shape that may be absent, and is, the data say just that.
     pub fn is_out_of_bounds(&self) -> bool {
-        let Some(effect) = self.specification.effects.last() else { return false };
+        let Some(effect) = self.added() else { return false };
         self.places_of(effect.info.id).any(|(place, name)| {
             let is_size = effect.form.free.first() == Some(&name);
             let neutral = effect.info.parameter(name).map(|info| info.neutral);
@@ -78,7 +78,7 @@ impl Trial<'_> {
 
     /// Whether all parameters of the last effect lie so few standard deviations from doing nothing.
     pub fn may_be_neutral(&self, errors: f64) -> bool {
-        let Some(effect) = self.specification.effects.last() else { return true };
+        let Some(effect) = self.added() else { return true };
         self.places_of(effect.info.id).all(|(place, name)| {
             let neutral = effect.info.parameter(name).map_or(f64::NAN, |info| info.neutral);
             (self.fit.parameters[place] - neutral).abs() <= errors * self.std(place)
@@ -101,8 +101,18 @@ impl Trial<'_> {
         self.model.effect_parameters().len()
     }
 
+    /// Its last effect.
+    pub fn added(&self) -> Option<&EffectForm> {
+        self.specification.effects.last()
+    }
+
+    /// The id of that; nothing without one.
+    pub fn added_id(&self) -> &'static str {
+        self.added().map_or("", |effect| effect.info.id)
+    }
+
     /// Parameters that the last effect frees.
     pub fn added_parameters(&self) -> usize {
-        self.specification.effects.last().map_or(0, |effect| effect.form.free.len())
+        self.added().map_or(0, |effect| effect.form.free.len())
     }
 }
