@@ -22,11 +22,16 @@ impl<S: Scalar> Contact<S> {
     /// to many soils). The peak is then held inside by one millionth of the contact's length: the region that vanishes
     /// keeps a width, and the forces are those of the limit to about as much.
     pub fn new(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, sinkage_m: S) -> Self {
+        Self::free(wheel, soil, slip, sinkage_m).held()
+    }
+
+    /// The same with the peak where equation 10 puts it, be that outside the contact.
+    pub(super) fn free(wheel: &Wheel<S>, soil: &Soil<S>, slip: S, sinkage_m: S) -> Self {
         let depth = sinkage_m / wheel.radius_m;
         let entry_rad = rim_angle(depth);
         let exit_rad = -rim_angle(soil.rebound_ratio * depth);
         let peak_rad = (soil.peak_stress_c1 + soil.peak_stress_c2 * slip) * entry_rad;
-        Self { entry_rad, peak_rad, exit_rad }.held()
+        Self { entry_rad, peak_rad, exit_rad }
     }
 
     /// The same without what the scalar carries along.

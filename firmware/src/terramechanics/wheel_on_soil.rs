@@ -97,7 +97,7 @@ impl<S: Scalar> WheelOnSoil<'_, S> {
         if !soil.is_valid() {
             return Err(ForceError::Soil);
         }
-        let mut contact = Contact::new(self.wheel, &soil, slip, sinkage_m);
+        let mut contact = Contact::free(self.wheel, &soil, slip, sinkage_m);
         self.effects.contact(&mut contact, &at);
         let contact = contact.held();
         let found = self.integrals(&soil, &contact, slip, self.effects.shear(&at));

@@ -111,6 +111,21 @@ fn peak_stress_shift() {
     check(&[("peak-stress-shift", "shift", 0.1)], [[-1.5, 0.04, 1.2], [-2.1, 0.01, 1.4], [-2.7, -0.01, 1.8]]);
 }
 
+/// Coefficients of equation 10 are free beyond what keeps the peak inside the contact: skidding at 0.8, this soil has it behind the exit by
+/// its own ones, and inside by the shifted ones.
+#[test]
+fn peak_stress_shift_from_outside_the_contact() {
+    let soil = |peak_stress_c1| Soil { peak_stress_c1, ..SAND };
+    let (own, shifted) = (soil(0.1), soil(0.4));
+    assert!(own.peak_stress_c1 - 0.8 * own.peak_stress_c2 < 0.0);
+    let effects = with(&[("peak-stress-shift", "shift", 0.3)]);
+    let on_own = WheelOnSoil { soil: &own, ..on_sand(&effects) };
+    let found = on_own.forces(&Conditions::default(), -0.8, LOAD_N, 0.01).expect("in range");
+    let expected = wheel_forces(&WHEEL, &shifted, -0.8, 0.01).expect("in range");
+    assert!((found.load_n - expected.load_n).abs() < 1e-9, "{} for {}", found.load_n, expected.load_n);
+    assert!((found.torque_nm - expected.torque_nm).abs() < 1e-9);
+}
+
 /// The figures of the notes are of drawbar pull and torque alone.
 fn check_forces(settings: &[(&str, &str, f64)], expected: [[f64; 2]; 3]) {
     let effects = with(settings);

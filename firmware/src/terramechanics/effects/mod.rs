@@ -87,7 +87,7 @@ pub trait Effect<S: Scalar>: Parameters<S> {
 
     /// Changes the soil that this wheel meets at this instant.
     fn soil(&self, _soil: &mut Soil<S>, _at: &Circumstances<'_, S>) {}
-    /// Moves the contact angles.
+    /// Moves the contact angles. The peak may be outside the contact, where equation 10 puts it, and is held inside afterwards.
     fn contact(&self, _contact: &mut Contact<S>, _at: &Circumstances<'_, S>) {}
     /// Changes how the soil shears on the rim.
     fn shear(&self, _shear: &mut ShearConditions<S>, _at: &Circumstances<'_, S>) {}
