@@ -61,7 +61,7 @@ const CONFIDENCE: f64 = 0.99;
 ///
 /// # Errors
 /// Where the posterior of a case cannot be sampled.
-pub fn run(arguments: &LimitArguments, estimator: Option<&Estimator<'_>>) -> Result<(), HostError> {
+pub fn run(arguments: &LimitArguments, estimator: &Estimator<'_>) -> Result<(), HostError> {
     for &sinkage in arguments.sinkage.each() {
         for instants in [1, 100] {
             let bar = bar(format!("posteriors, instants: {instants}"), arguments.cases as usize);
@@ -75,11 +75,11 @@ pub fn run(arguments: &LimitArguments, estimator: Option<&Estimator<'_>>) -> Res
     Ok(())
 }
 
-fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: Option<&Estimator<'_>>) {
+fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: &Estimator<'_>) {
     let seen = if sinkage { "seen" } else { "unseen" };
     println!("{} cases, mean of {instants} instant(s), sinkage {seen}", cases.len());
     let limit = Errors::new(cases.iter().map(|case| (case.summary.means(), case.truth)));
-    let other = estimator.map(|estimator| Errors::new(cases.iter().map(|case| (estimator(&case.query), case.truth))));
+    let other = Errors::new(cases.iter().map(|case| (estimator(&case.query), case.truth)));
     println!(
         "  {:<6}{:>16}{:>14}{:>8}{:>10}{:>8}{:>18}{:>16}",
         "", "limit RMSE", "posterior std", "R²", "sampling", "rank", "estimator RMSE", "ratio"
@@ -93,16 +93,10 @@ fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: Option<&Estima
         let explained = 1.0 - (rmse.value / f64::from(prior.std[target])).powi(2);
         print!("  {name:<6}{:>16}{:>14.3}{explained:>8.2}", text(rmse, *factor), std * factor);
         print!("{:>10.4}{:>8.3}", sampling * factor, distance_from_uniform(ranks));
-        match &other {
-            Some(other) => {
-                println!("{:>18}{:>16}", text(other.rmse(target), *factor), text(other.ratio(&limit, target), 1.0));
-            }
-            None => println!(),
-        }
+        println!("{:>18}{:>16}", text(other.rmse(target), *factor), text(other.ratio(&limit, target), 1.0));
     }
     let of_modulus = |errors: &Errors| 100.0 * errors.median_relative(2);
-    print!("  median error of K: {:.1} %", of_modulus(&limit));
-    println!("{}", other.map_or(String::new(), |other| format!(", estimator {:.1} %", of_modulus(&other))));
+    println!("  median error of K: {:.1} %, estimator {:.1} %", of_modulus(&limit), of_modulus(&other));
     print_trust(cases);
 }
 

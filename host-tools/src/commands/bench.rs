@@ -63,7 +63,7 @@ impl Subject {
             Self::Faults(arguments) => faults::run(&arguments),
             Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),
-            Self::Limit(arguments) => limit::run(&arguments, Some(&network::rover_mean))?,
+            Self::Limit(arguments) => limit::run(&arguments, &network::rover_mean)?,
             Self::Network(Cases { cases, seed }) => network::print(cases, seed)?,
             Self::Target => target::execute()?,
             Self::Training => training::print()?,

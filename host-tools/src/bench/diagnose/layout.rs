@@ -127,7 +127,7 @@ impl Programme {
         let step = |place: usize| {
             let share = if rows > 1 { place as f64 / (rows - 1) as f64 } else { 0.0 };
             let slip = (from + (to - from) * share + chance.normal(0.004)).clamp(0.005, 0.75);
-            let turn_rad = self.turn_rad * place as f64 * chance.between(0.98, 1.02);
+            let turn_rad = turned(self.turn_rad, place, chance.between(0.98, 1.02));
             let speed_m_s = rate_rad_s * site.wheel.radius_m * (1.0 - slip);
             let t_s = turn_rad / rate_rad_s;
             if place > 0 {
@@ -188,6 +188,13 @@ impl Slips {
     }
 }
 
+/// How far the wheel has turned at a row, rad, where it turns so far between rows: the first of them at so many times the rate that was asked
+/// for, any others as asked for, so that no row is earlier than the one before it.
+fn turned(between_rows_rad: f64, place: usize, rate: f64) -> f64 {
+    let first = place.min(ROWS.1);
+    between_rows_rad * first as f64 * rate + between_rows_rad * (place - first) as f64
+}
+
 /// One load or three.
 fn load_levels(chance: &mut Chance, mean_n: f64, several: bool) -> Vec<f64> {
     if several || chance.happens(0.4) {
@@ -213,5 +220,17 @@ fn turn_between_rows(chance: &mut Chance, site: &Site, wants: &Wants) -> f64 {
         Some(pitch_rad) if wants.fast_rows => chance.between(0.1, FAST_ROWS) * pitch_rad,
         _ if wants.changing_slip => chance.between(0.2, 1.0) * site.contact_length_m() / site.wheel.radius_m,
         _ => chance.log_between(0.02, 1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_ROWS, turned};
+
+    #[test]
+    fn each_row_of_a_run_is_later_than_the_one_before_it() {
+        for place in 1..MOST_ROWS {
+            assert!(turned(0.1, place, 0.98) > turned(0.1, place - 1, 1.02), "row {place}");
+        }
     }
 }

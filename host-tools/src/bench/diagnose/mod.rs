@@ -69,12 +69,11 @@ pub struct DiagnoseArguments {
     pub write: Option<PathBuf>,
 }
 
-/// Draws the campaigns, has each diagnosed, and prints how often that was right. Without a diagnosis it prints what was
-/// drawn.
+/// Draws the campaigns, has each diagnosed, and prints how often that was right.
 ///
 /// # Errors
 /// Where the campaigns cannot be written.
-pub fn run(arguments: &DiagnoseArguments, diagnose: Option<&Diagnoser<'_>>) -> Result<(), HostError> {
+pub fn run(arguments: &DiagnoseArguments, diagnose: &Diagnoser<'_>) -> Result<(), HostError> {
     let counts = Counts {
         per_effect: arguments.per_effect,
         clean: arguments.clean,
@@ -96,15 +95,10 @@ pub fn run(arguments: &DiagnoseArguments, diagnose: Option<&Diagnoser<'_>>) -> R
     if let Some(folder) = &arguments.write {
         save_all(&drawn, folder)?;
     }
-    match diagnose {
-        Some(diagnose) => {
-            let trials = diagnose_all(&drawn, diagnose);
-            score::print(&trials);
-            if arguments.oracle {
-                oracle::print(&drawn, &trials);
-            }
-        }
-        None => score::print_drawn(&drawn),
+    let trials = diagnose_all(&drawn, diagnose);
+    score::print(&trials);
+    if arguments.oracle {
+        oracle::print(&drawn, &trials);
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 
 use super::answer::Answer;
-use super::campaign_draw::{Drawn, Subject};
+use super::campaign_draw::Subject;
 use super::share::Share;
 use super::trial::Trial;
 use super::undeclared::effect_ids;
@@ -20,18 +20,6 @@ pub fn print(trials: &[Trial]) {
     print_clean(trials);
     print_wrong(trials);
     print_times(trials);
-}
-
-/// What was drawn, where nothing diagnoses it.
-pub fn print_drawn(drawn: &[Drawn]) {
-    let mut sizes: Vec<f64> = drawn.iter().map(|drawn| drawn.truth.size).filter(|size| *size > 0.0).collect();
-    sizes.sort_by(f64::total_cmp);
-    let known = Share::of(drawn, |drawn| drawn.truth.known_soil);
-    let variants = Share::of(drawn, |drawn| drawn.truth.variant);
-    println!("{} campaigns; soil known in {known}; another law than the library's in {variants}", drawn.len());
-    if let (Some(least), Some(most)) = (sizes.first(), sizes.last()) {
-        println!("sizes {least:.2}–{most:.2} σ, median {:.2} σ", sizes[sizes.len() / 2]);
-    }
 }
 
 fn is_right(trial: &Trial) -> bool {

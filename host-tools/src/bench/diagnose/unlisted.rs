@@ -18,8 +18,6 @@ pub struct Unlisted {
     pub wants: fn() -> Wants,
     /// How it acts.
     pub act: Act,
-    /// Sizes that are looked at, from 0.
-    pub greatest: f64,
 }
 
 impl Unlisted {
@@ -39,7 +37,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.torque_nm += size * moment_nm(place) * place.setting.temperature_c / 20.0;
         }),
-        greatest: 3.0,
     },
     Unlisted {
         law: "drawbar pull with the root of humidity",
@@ -49,7 +46,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.drawbar_pull_n += size * place.load_n * libm::sqrt(place.setting.other.max(0.0) / 50.0);
         }),
-        greatest: 3.0,
     },
     Unlisted {
         law: "sinkage with slip times temperature",
@@ -59,7 +55,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.sinkage_m += size * place.sinkage_m * place.slip * place.setting.temperature_c / 10.0;
         }),
-        greatest: 5.0,
     },
     Unlisted {
         law: "torque with a wave along the travel",
@@ -70,7 +65,6 @@ pub const UNLISTED: [Unlisted; 11] = [
             let phase = place.setting.travel_m / (1.3 * place.site.wheel.radius_m);
             state.torque_nm += size * moment_nm(place) * libm::sin(phase);
         }),
-        greatest: 3.0,
     },
     Unlisted {
         law: "side force linear in travel",
@@ -80,7 +74,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.side_force_n += size * place.site.load_n * place.setting.travel_m / place.site.wheel.radius_m;
         }),
-        greatest: 10.0,
     },
     Unlisted {
         law: "sinkage with the wheel's angle: an eccentric wheel",
@@ -90,7 +83,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.sinkage_m += size * place.site.wheel.radius_m * libm::sin(place.setting.wheel_angle_rad);
         }),
-        greatest: 0.6,
     },
     Unlisted {
         law: "drawbar pull linear in the supply's voltage",
@@ -100,7 +92,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.drawbar_pull_n += size * place.site.load_n * (place.setting.other - 40.0) / 20.0;
         }),
-        greatest: 3.0,
     },
     Unlisted {
         law: "torque with the square of hours since zero",
@@ -111,7 +102,6 @@ pub const UNLISTED: [Unlisted; 11] = [
             let hours = place.setting.hours_since_zero;
             state.torque_nm += size * moment_nm(place) * hours * hours / 9.0;
         }),
-        greatest: 3.0,
     },
     Unlisted {
         law: "sinkage linear in pitch",
@@ -121,7 +111,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.sinkage_m += size * place.site.wheel.radius_m * place.setting.pitch_rad;
         }),
-        greatest: 4.0,
     },
     Unlisted {
         law: "side force with the logarithm of speed",
@@ -131,7 +120,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state, size| {
             state.side_force_n += size * place.site.load_n * libm::log(place.setting.speed_m_s / 0.05);
         }),
-        greatest: 1.0,
     },
     Unlisted {
         law: "torque linear in the number of passes",
@@ -141,7 +129,6 @@ pub const UNLISTED: [Unlisted; 11] = [
         act: Act::State(|place, state: &mut State, size| {
             state.torque_nm += size * moment_nm(place) * (place.setting.pass - 1.0);
         }),
-        greatest: 1.0,
     },
 ];
 

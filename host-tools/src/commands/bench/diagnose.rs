@@ -7,7 +7,7 @@ use crate::error::HostError;
 
 /// Draws campaigns, diagnoses each, and prints how often that was right.
 pub fn execute(arguments: &DiagnoseArguments) -> Result<(), HostError> {
-    run(arguments, Some(&diagnosis))
+    run(arguments, &diagnosis)
 }
 
 fn diagnosis(campaign: &Campaign) -> Result<Answer, HostError> {
