@@ -42,6 +42,11 @@ pub(super) fn check<S: Scalar>(
 }
 
 impl<S: Scalar> Observation<S> {
+    /// Whether the wheel drove, or rolled; not whether it braked.
+    pub(super) fn is_driven(&self) -> bool {
+        self.state.slip >= S::zero()
+    }
+
     /// The sinkage, m, where it is above zero and at most the wheel's radius.
     pub(super) fn sinkage_on(&self, wheel: &Wheel<S>) -> Result<S, Refusal> {
         let sinkage_m = self.state.sinkage_m.ok_or(Refusal::NoSinkage)?;

@@ -56,7 +56,7 @@ fn exp_of_extreme(high: f32, low: f32) -> f32 {
 
 /// 2^k for −126 ≤ k ≤ 127.
 #[inline]
-fn power_of_two(k: i32) -> f32 {
+pub(crate) const fn power_of_two(k: i32) -> f32 {
     f32::from_bits((k.wrapping_add(127) << 23).cast_unsigned())
 }
 

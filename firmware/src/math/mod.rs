@@ -29,6 +29,7 @@ mod square_root;
 mod trigonometric;
 
 pub use exp::exp;
+pub(crate) use exp::power_of_two;
 pub use hyperbolic::{bipolar_sigmoid, tanh};
 pub use limit::limit;
 pub use ln::ln;

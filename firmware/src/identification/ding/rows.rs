@@ -40,7 +40,7 @@ impl<'a, S: Scalar> Rows<'a, S> {
 
     /// The observations that were driving.
     pub fn driven(&self) -> impl Iterator<Item = &'a Observation<S>> + use<'a, S> {
-        self.observations.iter().filter(|observation| observation.state.slip >= S::zero())
+        self.observations.iter().filter(|observation| observation.is_driven())
     }
 
     /// Their stresses.

@@ -70,21 +70,12 @@ impl<S: Scalar> Place<S> {
 
     /// Where the damped step leads.
     fn step(&self, damping: S, bounds: &[Bounds<S>; 3]) -> Option<[S; 3]> {
-        let mut equations = self.step;
-        let longest = (0..3).map(|place| self.step.length(place)).fold(S::zero(), Scalar::max);
-        let weight = damping.sqrt() * longest;
-        for (place, (value, bounds)) in self.at.iter().zip(bounds).enumerate() {
+        let mut free = [true; 3];
+        for (place, ((free, value), bounds)) in free.iter_mut().zip(&self.at).zip(bounds).enumerate() {
             let outward = self.step.descent(place);
-            if (*value <= bounds.low && outward <= S::zero()) || (*value >= bounds.high && outward >= S::zero()) {
-                equations.drop_column(place);
-            }
+            *free = !(*value <= bounds.low && outward <= S::zero() || *value >= bounds.high && outward >= S::zero());
         }
-        for place in 0..3 {
-            let mut row = [S::zero(); 3];
-            row.iter_mut().skip(place).take(1).for_each(|entry| *entry = weight);
-            equations.add(row, S::zero());
-        }
-        let mut next = equations.solution()?;
+        let mut next = self.step.damped_solution(damping, &free)?;
         next.iter_mut().zip(&self.at).for_each(|(step, value)| *step += *value);
         Some(held(next, bounds))
     }

@@ -56,13 +56,8 @@ impl Free {
     /// Equations that hold those at a bound.
     fn held<S: Scalar>(&self) -> Triangle<S, 3> {
         let mut held = Triangle::new();
-        for place in 0..3 {
-            let mut row = [S::zero(); 3];
-            let entry = row.iter_mut().zip(&self.0).nth(place);
-            if let Some((entry, false)) = entry {
-                *entry = S::one();
-            }
-            held.add(row, S::zero());
+        for (place, _) in self.0.iter().enumerate().filter(|(_, free)| !**free) {
+            held.add_alone(place, S::one(), S::zero());
         }
         held
     }

@@ -55,7 +55,7 @@ impl<'a, S: Scalar> DrawbarPulls<'a, S> {
     }
 
     fn driven(&self) -> impl Iterator<Item = &Observation<S>> {
-        self.observations.iter().filter(|observation| observation.state.slip >= S::zero())
+        self.observations.iter().filter(|observation| observation.is_driven())
     }
 
     fn soil(&self, at: &Unknowns<S>) -> Soil<Dual<S, 3>> {

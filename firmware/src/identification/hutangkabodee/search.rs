@@ -88,7 +88,7 @@ fn damped<S: Scalar>(pulls: &DrawbarPulls<'_, S>, bounds: &Bounds<S>) -> Option<
     for steps in 1..=MOST_STEPS {
         let free = bounds.free(&at, &[0, 1, 2].map(|place| equations.descent(place)));
         // Nothing to follow: every derivative is zero.
-        let change = damped_step(&equations, damping, free).unwrap_or([S::zero(); 3]);
+        let change = equations.damped_solution(damping, &free).unwrap_or([S::zero(); 3]);
         let trial = bounds.held(moved(&at, &change));
         let settled = longest(&at, &trial) <= short_enough();
         match pulls.equations(&trial) {
@@ -103,23 +103,6 @@ fn damped<S: Scalar>(pulls: &DrawbarPulls<'_, S>, bounds: &Bounds<S>) -> Option<
         }
     }
     None
-}
-
-/// The step of least squares with √damping x = 0 beside the equations, damping being in units of the longest column's
-/// square, and only the `free` unknowns.
-fn damped_step<S: Scalar>(equations: &Equations<S>, damping: S, free: [bool; 3]) -> Option<Unknowns<S>> {
-    let longest = [0, 1, 2].map(|place| equations.length(place)).into_iter().fold(S::zero(), Scalar::max);
-    let weight = longest * damping.sqrt();
-    let mut damped = *equations;
-    for (place, free) in free.into_iter().enumerate() {
-        if !free {
-            damped.drop_column(place);
-        }
-    }
-    for place in 0..3 {
-        damped.add(core::array::from_fn(|column| if column == place { weight } else { S::zero() }), S::zero());
-    }
-    damped.solution()
 }
 
 fn whole<S: Scalar>(pulls: &DrawbarPulls<'_, S>) -> Option<Settled<S>> {

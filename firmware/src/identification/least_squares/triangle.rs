@@ -89,6 +89,21 @@ impl<S: Scalar, const N: usize> Triangle<S, N> {
         self.root.iter_mut().filter_map(|row| row.get_mut(place)).for_each(|entry| *entry = S::zero());
     }
 
+    /// The best x beside √damping ℓ x = 0, ℓ being the length of the longest column, where the unknowns that are not `free` are zero (Levenberg
+    /// 1944); none as for [`Self::solution`].
+    pub fn damped_solution(&self, damping: S, free: &[bool; N]) -> Option<[S; N]> {
+        let longest = (0..N).map(|place| self.length(place)).fold(S::zero(), Scalar::max);
+        let weight = damping.sqrt() * longest;
+        let mut damped = *self;
+        for (place, _) in free.iter().enumerate().filter(|(_, free)| !**free) {
+            damped.drop_column(place);
+        }
+        for place in 0..N {
+            damped.add_alone(place, weight, S::zero());
+        }
+        damped.solution()
+    }
+
     /// The best x; none where a column is a combination of those before it, to the last digits.
     pub fn solution(&self) -> Option<[S; N]> {
         self.back(&self.right)

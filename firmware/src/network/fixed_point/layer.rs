@@ -2,7 +2,8 @@
 
 use super::activation::{ACTIVATION_BITS, SUM_BITS, activated};
 use super::multiply_accumulate::weighted_sums;
-use super::{Pair, Quad, power_of_two};
+use super::{Pair, Quad};
+use crate::math::power_of_two;
 use crate::network::words;
 
 /// The most fraction bits that weights have.

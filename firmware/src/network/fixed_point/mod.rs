@@ -26,8 +26,3 @@ fn unwritten<const T: usize>(layer: &mut MaybeUninit<[Quad; T]>) -> &mut [MaybeU
     // what is in them; what is written through one is a `Quad` in the other.
     unsafe { &mut *layer.as_mut_ptr().cast::<[MaybeUninit<Quad>; T]>() }
 }
-
-/// 2 to the power of `exponent`, from −126 to 127.
-const fn power_of_two(exponent: i32) -> f32 {
-    f32::from_bits((127_i32.wrapping_add(exponent) << 23).cast_unsigned())
-}

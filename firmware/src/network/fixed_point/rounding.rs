@@ -1,6 +1,7 @@
 //! Numbers of single precision to numbers of 16 bits.
 
-use super::{Pair, Quad, power_of_two};
+use super::{Pair, Quad};
+use crate::math::power_of_two;
 
 /// Rounds numbers to so many fraction bits, four a quad; zeros follow the last one, and what has no place is left out. Fraction
 /// bits are at most 111.

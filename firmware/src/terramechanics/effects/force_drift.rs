@@ -3,6 +3,7 @@
 use crate::scalar::Scalar;
 
 use super::info::effect_parameters;
+use super::saturation::saturated;
 use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
 
 effect_parameters! {
@@ -109,7 +110,7 @@ impl<S: Scalar> Effect<S> for ForceDrift<S> {
     ];
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
-        if let Some(hours) = at.conditions.hours_since_zero.map(|hours| self.settled(hours)) {
+        if let Some(hours) = at.conditions.hours_since_zero.map(|hours| saturated(hours, self.settling_per_h)) {
             readings.drawbar_pull_n += self.drawbar_pull_n_per_h * hours;
             readings.load_n += self.load_n_per_h * hours;
             readings.side_force_n += self.side_force_n_per_h * hours;
@@ -120,17 +121,5 @@ impl<S: Scalar> Effect<S> for ForceDrift<S> {
             readings.load_n += self.load_n_per_c * warmer;
             readings.side_force_n += self.side_force_n_per_c * warmer;
         }
-    }
-}
-
-impl<S: Scalar> ForceDrift<S> {
-    /// (1 − e^(−κt))/κ, h.
-    fn settled(&self, hours: S) -> S {
-        let shares = self.settling_per_h * hours;
-        // Where the difference to one loses its digits, two terms of the series have more.
-        if shares.abs() < S::constant(1e-3) {
-            return hours * (S::one() - S::constant(0.5) * shares);
-        }
-        (S::one() - (-shares).exp()) / self.settling_per_h
     }
 }

@@ -6,6 +6,7 @@
 
 mod conditions;
 mod info;
+mod saturation;
 
 mod bulldozing;
 mod crosstalk;

@@ -4,6 +4,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::Soil;
 
 use super::info::effect_parameters;
+use super::saturation::saturated;
 use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
 
 effect_parameters! {
@@ -27,19 +28,6 @@ effect_parameters! {
     }
 }
 
-impl<S: Scalar> SlipSinkage<S> {
-    fn measure(&self, slip: S) -> S {
-        let slip = slip.abs();
-        let bend = self.saturation * slip;
-        // The series where the difference would lose its digits.
-        if bend.abs() < S::constant(1e-3) {
-            slip * (S::one() - S::constant(0.5) * bend)
-        } else {
-            (S::one() - (-bend).exp()) / self.saturation
-        }
-    }
-}
-
 impl<S: Scalar> Effect<S> for SlipSinkage<S> {
     const ID: &'static str = "slip-sinkage";
     const SUMMARY: &'static str = "the wheel sinks deeper the more it slips";
@@ -53,13 +41,14 @@ impl<S: Scalar> Effect<S> for SlipSinkage<S> {
     ];
 
     fn soil(&self, soil: &mut Soil<S>, at: &Circumstances<'_, S>) {
-        let slip = self.measure(at.felt_slip());
+        let slip = saturated(at.felt_slip().abs(), self.saturation);
         let stretch = (S::one() + self.stretch_per_slip * slip).max(S::constant(0.05));
         soil.scale_stiffness((-(soil.sinkage_exponent * stretch.ln())).exp());
         soil.sinkage_exponent = (soil.sinkage_exponent + self.exponent_per_slip * slip).max(S::zero());
     }
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
-        readings.sinkage_m = readings.sinkage_m * (S::one() + self.apparent_per_slip * self.measure(at.felt_slip()));
+        let slip = saturated(at.felt_slip().abs(), self.saturation);
+        readings.sinkage_m = readings.sinkage_m * (S::one() + self.apparent_per_slip * slip);
     }
 }
