@@ -6,24 +6,21 @@ use std::path::Path;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::misspelling::column_meant;
-use super::number_stream::{LONGEST_S, NumberStream, Row, microseconds, write_seconds};
+use super::number_stream::{NumberStream, Row};
 use super::sensor_channels::{names, values, values_mut};
+use super::time_column::{self, TIME, TimeColumn};
 use crate::error::HostError;
-
-/// The column of the time.
-pub(super) const TIME: &str = "t_s";
 
 /// The frames of a file, in the order of time.
 ///
 /// Needed are `t_s`, which must not fall from row to row, and at least one sensor. A sensor without a column is absent, one
-/// with an empty field gave nothing in that frame, and columns of other names are passed over, but not those that seem to be a sensor's. `NaN` and `inf` are values:
-/// a sensor may say so, and it is for the flight software to refuse them.
+/// with an empty field gave nothing in that frame, and columns of other names are passed over, but not those that seem to be a
+/// sensor's. `NaN` and `inf` are values: a sensor may say so, and it is for the flight software to refuse them.
 pub struct FrameReader {
     stream: NumberStream,
-    time: usize,
+    time: TimeColumn,
     /// Where each sensor stands in a row, in the order of the channels.
     columns: Vec<Option<usize>>,
-    last_us: Option<u64>,
     /// No row has been read yet.
     is_empty: bool,
 }
@@ -42,14 +39,14 @@ impl FrameReader {
     /// # Errors
     /// Where its header has no time or no sensor, or a column that is nearly one of a sensor which it has not.
     pub fn new(stream: NumberStream) -> Result<Self, HostError> {
-        let time = stream.required_column(TIME)?;
+        let time = TimeColumn::of(&stream)?;
         let columns: Vec<_> = names().iter().map(|name| stream.column(name)).collect();
         if columns.iter().all(Option::is_none) {
             let expected = "no sensor: expected columns such as wheel_rate_fl_rad_s, load_cell_fl_n, accel_x_m_s2";
             return Err(stream.error(1, 1, format!("{expected} in the header (found {})", stream.header().join(", "))));
         }
         no_misspelt_column(&stream)?;
-        Ok(Self { stream, time, columns, last_us: None, is_empty: true })
+        Ok(Self { stream, time, columns, is_empty: true })
     }
 
     /// The columns that are passed over, such as those of a sensor whose name is not quite right.
@@ -58,33 +55,14 @@ impl FrameReader {
     }
 
     fn frame(&mut self, row: &Row) -> Result<SensorFrame, HostError> {
-        let time_us = self.time(row)?;
+        let time_us = self.time.next(&self.stream, row)?;
         let mut frame = SensorFrame { time_us, ..SensorFrame::default() };
         for (value, column) in values_mut(&mut frame).zip(&self.columns) {
             if let Some(column) = *column {
                 *value = self.stream.number(row, column)?;
             }
         }
-        self.last_us = Some(time_us);
         Ok(frame)
-    }
-
-    fn time(&self, row: &Row) -> Result<u64, HostError> {
-        let number: Option<f64> = self.stream.number(row, self.time)?;
-        let refuse = |found: String, expected: &str| {
-            Err(self.stream.error_at(row, self.time, format!("{found}: expected {expected}")))
-        };
-        let Some(time_s) = number else { return refuse("empty".into(), "a time in s") };
-        let Some(time_us) = microseconds(time_s) else {
-            let expected = format!("a time of 0 s or more, at most {LONGEST_S} s");
-            return refuse(time_s.to_string(), &expected);
-        };
-        match self.last_us {
-            Some(last) if time_us < last => {
-                refuse(format!("{time_s}: time runs backwards"), "no earlier time than before")
-            }
-            _ => Ok(time_us),
-        }
     }
 }
 
@@ -134,7 +112,7 @@ pub fn is_one(path: &Path) -> Result<bool, HostError> {
 /// # Errors
 /// Those of `out`.
 pub fn write_header(out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "{TIME},{}", names().join(","))
+    time_column::write_header(out, &names())
 }
 
 /// Writes a frame as a row, each number in as many digits as lead back to it.
@@ -142,12 +120,5 @@ pub fn write_header(out: &mut dyn Write) -> std::io::Result<()> {
 /// # Errors
 /// Those of `out`.
 pub fn write_frame(out: &mut dyn Write, frame: &SensorFrame) -> std::io::Result<()> {
-    write_seconds(out, frame.time_us)?;
-    for value in values(frame) {
-        match value {
-            Some(value) => write!(out, ",{value}")?,
-            None => write!(out, ",")?,
-        }
-    }
-    writeln!(out)
+    time_column::write_row(out, frame.time_us, values(frame).into_iter())
 }

@@ -1,7 +1,7 @@
 //! Long CSV tables of numbers, row by row: no more than a row is ever in memory.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -75,7 +75,8 @@ impl NumberStream {
     /// The next row; `None` at the end. Empty lines are passed over.
     ///
     /// # Errors
-    /// Where the file cannot be read, is not UTF-8, leaves a quote open, or has a row unlike the header in length.
+    /// Where the file cannot be read, is not UTF-8, has a line that ends in a carriage return alone or leaves a quote open, or a row unlike the
+    /// header in length.
     pub fn next_row(&mut self) -> Result<Option<Row>, HostError> {
         loop {
             self.text.clear();
@@ -94,12 +95,16 @@ impl NumberStream {
     }
 
     fn row(&self) -> Result<Row, HostError> {
+        if self.text.len() as u64 == LONGEST_ROW {
+            return Err(self.error(self.line, 1, "this row does not end: expected a table of numbers"));
+        }
         let text = std::str::from_utf8(&self.text).map_err(|error| {
             let column = String::from_utf8_lossy(&self.text[..error.valid_up_to()]).chars().count() as u64 + 1;
             self.error(self.line, column, "this byte is not UTF-8; expected text in UTF-8")
         })?;
-        if self.text.len() as u64 == LONGEST_ROW {
-            return Err(self.error(self.line, 1, "this row does not end: expected a table of numbers"));
+        if let Some(place) = text.trim_end_matches(['\r', '\n']).find('\r') {
+            let column = text[..place].matches(',').count() as u64 + 1;
+            return Err(self.error(self.line, column, "a line ends in a carriage return alone: expected a line feed"));
         }
         if text.matches('"').count() % 2 == 1 {
             let column = text.rfind('"').map_or(1, |place| text[..place].chars().count() as u64 + 1);
@@ -142,23 +147,4 @@ impl NumberStream {
     pub fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
         HostError::Input { path: self.path.clone(), line, column, message: message.into() }
     }
-}
-
-/// The latest time, s: up to 2³¹ s, 68 years, seconds with six decimals come back as the same whole number.
-pub const LONGEST_S: f64 = 2_147_483_648.0;
-
-/// Seconds since the start as µs; `None` where it is no time, or too long for one.
-pub fn microseconds(time_s: f64) -> Option<u64> {
-    (0.0..=LONGEST_S).contains(&time_s).then(|| libm::round(1.0e6 * time_s) as u64)
-}
-
-/// Writes µs as seconds, with no more decimals than it takes.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_seconds(out: &mut dyn Write, time_us: u64) -> std::io::Result<()> {
-    let decimals = format!("{:06}", time_us % 1_000_000);
-    let decimals = decimals.trim_end_matches('0');
-    let point = if decimals.is_empty() { "" } else { "." };
-    write!(out, "{}{point}{decimals}", time_us / 1_000_000)
 }

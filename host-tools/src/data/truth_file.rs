@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use kapvik_firmware::rover::PerWheel;
 
-use super::frame_file::TIME;
-use super::number_stream::{NumberStream, Row, microseconds, write_seconds};
+use super::number_stream::{NumberStream, Row};
 use super::sensor_channels::WHEEL_NAMES;
+use super::time_column::{self, TimeColumn};
 use crate::error::HostError;
 
 /// The soil at one place.
@@ -159,7 +159,7 @@ impl<I: Iterator<Item = Option<f64>>> Values<I> {
 /// # Errors
 /// Those of `out`.
 pub fn write_header(out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "{TIME},{}", names().join(","))
+    time_column::write_header(out, &names())
 }
 
 /// Writes a truth as a row, each number in as many digits as lead back to it.
@@ -167,20 +167,13 @@ pub fn write_header(out: &mut dyn Write) -> std::io::Result<()> {
 /// # Errors
 /// Those of `out`.
 pub fn write_truth(out: &mut dyn Write, truth: &Truth) -> std::io::Result<()> {
-    write_seconds(out, truth.time_us)?;
-    for value in values(truth) {
-        match value {
-            Some(value) => write!(out, ",{value}")?,
-            None => write!(out, ",")?,
-        }
-    }
-    writeln!(out)
+    time_column::write_row(out, truth.time_us, values(truth).into_iter())
 }
 
 /// The truths of a file, row by row. Beside `t_s` each column may be missing; what is not there is NaN.
 pub struct TruthReader {
     stream: NumberStream,
-    time: usize,
+    time: TimeColumn,
     columns: Vec<Option<usize>>,
 }
 
@@ -191,16 +184,13 @@ impl TruthReader {
     /// Where it cannot be read, or its header has no time.
     pub fn open(path: &Path) -> Result<Self, HostError> {
         let stream = NumberStream::open(path)?;
-        let time = stream.required_column(TIME)?;
+        let time = TimeColumn::of(&stream)?;
         let columns = names().iter().map(|name| stream.column(name)).collect();
         Ok(Self { stream, time, columns })
     }
 
-    fn truth(&self, row: &Row) -> Result<Truth, HostError> {
-        let time_s: Option<f64> = self.stream.number(row, self.time)?;
-        let Some(time_us) = time_s.and_then(microseconds) else {
-            return Err(self.stream.error_at(row, self.time, "expected a time in s, of 0 or more"));
-        };
+    fn truth(&mut self, row: &Row) -> Result<Truth, HostError> {
+        let time_us = self.time.next(&self.stream, row)?;
         let number = |column: &Option<usize>| column.map_or(Ok(None), |column| self.stream.number(row, column));
         let values = self.columns.iter().map(number).collect::<Result<Vec<_>, _>>()?;
         Ok(Values(values.into_iter()).truth(time_us))

@@ -7,8 +7,8 @@ use kapvik_firmware::estimator::{Estimate, WheelActivity, WheelEstimate};
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
-use crate::data::number_stream::write_seconds;
 use crate::data::sensor_channels::WHEEL_NAMES;
+use crate::data::time_column::write_seconds;
 
 /// A field of a row.
 enum Field {

@@ -122,7 +122,7 @@ fn frames_are_read_as_they_are_written() {
 
 #[test]
 fn frames_that_are_wrong_are_refused_by_line_and_column() {
-    let cases: [(&[u8], &str); 16] = [
+    let cases: [(&[u8], &str); 17] = [
         (b"", "f.csv:1:1: the file is empty"),
         (b"load_cell_fl_n\n1\n", "f.csv:1:1: no column `t_s`"),
         (b"t_s,load_cell_xx_n\n0,1\n", "f.csv:1:1: no sensor: expected columns such as"),
@@ -139,6 +139,7 @@ fn frames_that_are_wrong_are_refused_by_line_and_column() {
         (b"t_s,gyro_x_rad_s\r\n0.2,1\r\n0.1,1\r\n", "f.csv:3:1: t_s: 0.1: time runs backwards"),
         (b"t_s,gyro_x_rad_s\n0,\xff\n", "f.csv:2:3: this byte is not UTF-8"),
         (b"t_s,gyro_x_rad_s\n0,\"1\n", "f.csv:2:3: a quote is not closed"),
+        (b"t_s,gyro_x_rad_s\n0,1\r0.1,1\n", "f.csv:2:2: a line ends in a carriage return alone"),
     ];
     for (text, expected) in cases {
         let said = frames(text).expect_err(expected);
@@ -199,4 +200,10 @@ fn truths_come_back() {
     fs::write(&path, text).expect("written");
     let found: Vec<_> = TruthReader::open(&path).expect("truths").map(|truth| truth.expect("a truth")).collect();
     assert!(found.iter().eq(rows.iter().map(|(_, truth)| truth)), "to the bit");
+    fs::write(&path, "t_s,x_m\n0.2,0\n0.1,0\n").expect("written");
+    let said = TruthReader::open(&path).expect("truths").find_map(Result::err).expect("refused").to_string();
+    assert!(
+        said.ends_with("a.truth.csv:3:1: t_s: 0.1: time runs backwards: expected no earlier time than before"),
+        "{said}"
+    );
 }
