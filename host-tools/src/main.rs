@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use kapvik_host::commands::Command;
+use kapvik_host::data::unfinished::remove_at_an_early_end;
 
 /// Fits make and drop many small vectors; this allocator takes half of the system's time for them.
 #[global_allocator]
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
     // Whoever reads only the first lines of what is printed ends the command, as with other commands, and has no panic.
     sigpipe::reset();
     output::end_where_it_cannot_be_written();
+    remove_at_an_early_end();
     let command = match CommandLine::try_parse() {
         Ok(line) => line.command,
         Err(error) => return usage::explain(&error),

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use tempfile::Builder;
 
+use super::unfinished::Unfinished;
 use crate::error::HostError;
 
 /// Writes a file beside its place and then renames it there, so that an error on the way leaves what was there before.
@@ -35,11 +36,13 @@ pub fn write_atomically(
         builder.permissions(permissions);
     }
     let mut file = builder.tempfile_in(folder).map_err(failed)?;
+    let unfinished = Unfinished::new(file.path());
     let mut out = BufWriter::new(file.as_file_mut());
     write(&mut out)?;
     out.flush().map_err(failed)?;
     drop(out);
     file.persist(&target).map_err(|error| failed(error.error))?;
+    drop(unfinished);
     Ok(())
 }
 

@@ -13,6 +13,8 @@ pub mod sensor_channels;
 pub mod soil_file;
 pub mod table;
 pub mod text;
+pub mod time_column;
 pub mod toml_file;
 pub mod truth_file;
+pub mod unfinished;
 pub mod wheel_file;
