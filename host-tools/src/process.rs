@@ -63,8 +63,7 @@ pub fn run_with_spinner(command: &mut Command, what: &str) -> Result<String, Hos
         String::from_utf8_lossy(&text).into_owned()
     });
     let mut said = Vec::new();
-    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()).map_while(Result::ok)
-    {
+    for line in child.stderr.take().into_iter().flat_map(lines) {
         spinner.set_message(format!("{what}: {}", line.trim()));
         said.push(line);
     }
@@ -76,6 +75,11 @@ pub fn run_with_spinner(command: &mut Command, what: &str) -> Result<String, Hos
     }
     let tail = said.len().saturating_sub(40);
     Err(failed(format!("{status}\n{}", said.get(tail..).unwrap_or(&[]).join("\n"))))
+}
+
+/// The lines that another program prints, up to an error. To its end: where nobody reads on, the program fails when it prints more.
+pub fn lines(from: impl Read) -> impl Iterator<Item = String> {
+    BufReader::new(from).split(b'\n').map_while(Result::ok).map(|line| String::from_utf8_lossy(&line).into_owned())
 }
 
 /// What cargo says of a file that it has made.

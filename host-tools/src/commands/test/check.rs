@@ -1,9 +1,10 @@
 //! One check of `kapvik test`: a program to run and what came of it.
 
 use std::fmt;
-use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+
+use crate::process::lines;
 
 /// A check that has not run yet.
 pub struct Check {
@@ -18,7 +19,7 @@ pub struct Outcome {
     pub passed: u32,
     /// Tests that failed.
     pub failed: u32,
-    /// Tests that were left out.
+    /// Checks that were left out.
     pub skipped: u32,
     took: Duration,
     remark: String,
@@ -95,8 +96,7 @@ struct Counts {
 fn run_and_count(program: &mut Command) -> std::io::Result<Counts> {
     let mut child = program.stdout(Stdio::piped()).spawn()?;
     let mut counts = Counts::default();
-    for line in child.stdout.take().into_iter().flat_map(|stdout| BufReader::new(stdout).lines()) {
-        let line = line?;
+    for line in child.stdout.take().into_iter().flat_map(lines) {
         println!("{line}");
         if let Some(result) = result_line(&line) {
             counts.passed += result.passed;
