@@ -13,7 +13,7 @@ use crate::data::truth_file::{truth_path, write_truth};
 use crate::data::{frame_file, truth_file};
 use crate::error::HostError;
 use crate::progress::bar;
-use crate::simulate::effects::RoverEffects;
+use crate::simulate::effects::{EffectError, RoverEffects};
 use crate::simulate::faults::{FAILURES, Fault};
 use crate::simulate::ground_soils::{Becomes, Change};
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
@@ -73,7 +73,9 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let truth = truth_path(&arguments.output);
     let [soil, right_soil] = [&arguments.soil, &arguments.right_soil].map(|soil| soil.as_deref().map(Path::new));
-    let inputs = [arguments.rover.as_deref(), soil, right_soil];
+    let further_soils =
+        arguments.then.iter().filter_map(|text| text.rsplit_once('@')).map(|(name, _)| Some(Path::new(name)));
+    let inputs: Vec<_> = [arguments.rover.as_deref(), soil, right_soil].into_iter().chain(further_soils).collect();
     outputs::check(&[Some(&arguments.output), Some(&truth)], &inputs)?;
     let RoverFile { rover, grousers } = match &arguments.rover {
         Some(path) => RoverFile::read(path)?,
@@ -178,11 +180,10 @@ fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), Ho
         let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
         // A wrong name is told before a wrong number.
         let mut tried = effects;
-        let said =
-            tried.set(id, number.unwrap_or(0.0)).map_err(|message| match message.contains("no effect is named") {
-                true => format!("{message}, {}", FAILURES.map(|(name, _)| name).join(", ")),
-                false => message,
-            });
+        let said = tried.set(id, number.unwrap_or(0.0)).map_err(|error| match error {
+            EffectError::Unknown(_) => format!("{error}, {}", FAILURES.map(|(name, _)| name).join(", ")),
+            EffectError::Refused(reason) => reason,
+        });
         match number {
             Some(_) => said.map_err(refuse)?,
             None => {

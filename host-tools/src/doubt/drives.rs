@@ -242,6 +242,7 @@ impl Deviation {
         let mut rover = RoverFile::assumed().rover;
         let mut effects = RoverEffects::default();
         let mut faults = Vec::new();
+        let only = |id, value| RoverEffects::only(id, value).map_err(|error| error.to_string());
         match self {
             Self::None => {}
             Self::Noise => rover.noise = other_noise(&rover.noise, random),
@@ -253,8 +254,8 @@ impl Deviation {
                 rover.wheel.radius_m = RADII_M.at(random.random());
                 rover.wheel.width_m = rover.wheel.radius_m;
             }
-            Self::SlipSinkage => effects.set("slip-sinkage", random.random_range(0.0..0.3))?,
-            Self::GrouserRipple => effects.set("grouser-ripple", random.random_range(0.0..0.25))?,
+            Self::SlipSinkage => effects = only("slip-sinkage", random.random_range(0.0..0.3))?,
+            Self::GrouserRipple => effects = only("grouser-ripple", random.random_range(0.0..0.25))?,
         }
         Ok((rover, Options { effects, faults, ..Options::default() }))
     }

@@ -8,6 +8,7 @@
 use std::ops::RangeInclusive;
 
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Effects, Form, effect_info};
+use thiserror::Error;
 
 /// Effects on soil, sensors and drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,12 +50,23 @@ impl Default for RoverEffects {
     }
 }
 
+/// Why an effect is not set.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum EffectError {
+    /// None has this id.
+    #[error("no effect is named `{0}`: expected one of {known}", known = known())]
+    Unknown(String),
+    /// It has no such parameter, means nothing on a rover, or cannot have this value.
+    #[error("{0}")]
+    Refused(String),
+}
+
 impl RoverEffects {
     /// One effect alone, as of [`Self::set`].
     ///
     /// # Errors
     /// Those of [`Self::set`].
-    pub fn only(name: &str, value: f64) -> Result<Self, String> {
+    pub fn only(name: &str, value: f64) -> Result<Self, EffectError> {
         let mut effects = Self::default();
         effects.set(name, value)?;
         Ok(effects)
@@ -64,12 +76,12 @@ impl RoverEffects {
     /// `ID.PARAMETER`.
     ///
     /// # Errors
-    /// What is wrong with the name or the value, in words: there is no such effect or parameter, it means nothing on a
-    /// rover, or the value is outside its bounds.
-    pub fn set(&mut self, name: &str, value: f64) -> Result<(), String> {
+    /// What is wrong with the name or the value: there is no such effect or parameter, it means nothing on a rover, or the value is outside
+    /// its bounds.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), EffectError> {
         if let Some(own) = OWN.iter().find(|own| own.id == name) {
             if !own.range.contains(&value) {
-                return Err(format!("{value}: expected {} to {}", own.range.start(), own.range.end()));
+                return refused(format!("{value}: expected {} to {}", own.range.start(), own.range.end()));
             }
             (own.place)(self, value);
             return Ok(());
@@ -78,37 +90,42 @@ impl RoverEffects {
             Some((id, parameter)) => (id, Some(parameter)),
             None => (name, None),
         };
-        let info = effect_info(id).ok_or_else(|| format!("no effect is named `{id}`: expected one of {}", known()))?;
+        let info = effect_info(id).ok_or_else(|| EffectError::Unknown(id.to_owned()))?;
         let parameter = match parameter {
             Some(parameter) => parameter,
             None => self.take_form(info)?,
         };
         let Some(about) = info.parameter(parameter) else {
             let names: Vec<_> = info.parameters.iter().map(|parameter| parameter.name).collect();
-            return Err(format!("{id} has no parameter `{parameter}`: expected {}", names.join(", ")));
+            return refused(format!("{id} has no parameter `{parameter}`: expected {}", names.join(", ")));
         };
         if let Some(reason) = lacks(id, parameter) {
-            return Err(format!("{name} means nothing on a rover: {reason}. What does: {}", known()));
+            return refused(format!("{name} means nothing on a rover: {reason}. What does: {}", known()));
         }
         if !acts_on_sensors(id) && !(about.low..=about.high).contains(&value) {
-            return Err(format!("{parameter} = {value}: expected {} to {} {}", about.low, about.high, about.unit));
+            return refused(format!("{parameter} = {value}: expected {} to {} {}", about.low, about.high, about.unit));
         }
         self.library.set(id, parameter, value);
         Ok(())
     }
 
     /// Sets what the first form that shows on a rover has set, and gives its first free parameter.
-    fn take_form(&mut self, info: &'static EffectInfo) -> Result<&'static str, String> {
+    fn take_form(&mut self, info: &'static EffectInfo) -> Result<&'static str, EffectError> {
         let Some(form) = form_on_a_rover(info) else {
             let reason = info.parameters.iter().find_map(|parameter| lacks(info.id, parameter.name));
             let reason = reason.unwrap_or("it has no form");
-            return Err(format!("{} means nothing on a rover: {reason}. What does: {}", info.id, known()));
+            return refused(format!("{} means nothing on a rover: {reason}. What does: {}", info.id, known()));
         };
         for (name, value) in form.set {
             self.library.set(info.id, name, *value);
         }
-        form.free.first().copied().ok_or_else(|| format!("{} has nothing to set", info.id))
+        let nothing = || EffectError::Refused(format!("{} has nothing to set", info.id));
+        form.free.first().copied().ok_or_else(nothing)
     }
+}
+
+fn refused<T>(reason: String) -> Result<T, EffectError> {
+    Err(EffectError::Refused(reason))
 }
 
 /// The first form of an effect whose parameters all mean something on a rover.
@@ -194,7 +211,7 @@ mod tests {
             ("crosstalk.torque_to_drawbar_pull_per_m", 0.3, "no sensor of the drawbar pull"),
             ("pitch-misalignment.own_weight_n", 3.0, "no sensor of the drawbar pull"),
         ] {
-            let said = effects.set(name, value).expect_err(name);
+            let said = effects.set(name, value).expect_err(name).to_string();
             assert!(said.contains(words), "{name}: {said}");
         }
         assert_eq!(effects, RoverEffects::default());

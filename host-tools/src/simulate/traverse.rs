@@ -156,7 +156,7 @@ impl Traverse {
             random,
             velocities: VecDeque::new(),
             rate_hz,
-            frames: 1 + (options.duration_s.unwrap_or(course.duration_s) * rate_hz) as u64,
+            frames: frames_within(options.duration_s.unwrap_or(course.duration_s), rate_hz),
             next: 0,
         })
     }
@@ -277,6 +277,13 @@ impl Iterator for Traverse {
     }
 }
 
+/// Frames of a drive, from its start on; the last may be at its end.
+fn frames_within(duration_s: f64, rate_hz: f64) -> u64 {
+    // The product of a whole number of frames may fall short of it by rounding.
+    const ROUNDING: f64 = 1.0e-6;
+    1 + libm::floor(duration_s * rate_hz + ROUNDING) as u64
+}
+
 fn true_soil(soil: &Soil<f64>, width_m: f64) -> TrueSoil {
     TrueSoil {
         cohesion_pa: soil.cohesion_pa,
@@ -284,5 +291,22 @@ fn true_soil(soil: &Soil<f64>, width_m: f64) -> TrueSoil {
         shear_modulus_m: soil.shear_modulus_m,
         stiffness_pa_m_n: soil.stiffness(width_m),
         sinkage_exponent: soil.sinkage_exponent,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::frames_within;
+
+    #[test]
+    fn the_last_frame_is_at_the_end() {
+        for rate_hz in [1.0, 4.0, 10.0, 20.0, 30.0, 50.0, 100.0] {
+            for hundredths in 1..=3000_u64 {
+                let duration_s = hundredths as f64 / 100.0;
+                // Whole hundredths of frames: exact.
+                let expected = 1 + hundredths * rate_hz as u64 / 100;
+                assert_eq!(frames_within(duration_s, rate_hz), expected, "{duration_s} s at {rate_hz} Hz");
+            }
+        }
     }
 }

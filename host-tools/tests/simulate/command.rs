@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::process::{Command, Output};
+use std::time::Duration;
 
 use kapvik_host::data::frame_file::FrameReader;
 use kapvik_host::data::truth_file::TruthReader;
@@ -194,4 +195,35 @@ fn what_was_there_survives_a_refusal() {
     fs::write(folder.0.path().join("a.csv"), "before").expect("written");
     refused(&folder, &["--scenario", "slope", "--soil", "snow-us"], "", 1);
     assert_eq!(folder.text("a.csv"), "before");
+}
+
+#[test]
+fn a_soil_that_is_driven_onto_is_not_overwritten() {
+    let folder = Folder::new();
+    let soil = "n = 1.1\nk_phi = 2e6\nc = 300\nphi = 0.5\nK = 0.015\nc1 = 0.3\nc2 = 0.2\n";
+    fs::write(folder.0.path().join("s.toml"), soil).expect("written");
+    let output = folder.run(&["--seed", "1", "--then", "s.toml@2", "-o", "s.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && said.contains("the output is the input"), "{said}");
+    assert_eq!((folder.text("s.toml").as_str(), folder.files()), (soil, 1));
+}
+
+/// Ended by `kill` while it writes.
+#[cfg(unix)]
+#[test]
+fn a_drive_that_is_ended_early_leaves_nothing_behind() {
+    use std::os::unix::process::ExitStatusExt;
+
+    let folder = Folder::new();
+    let arguments = ["simulate", "--seed", "3", "--scenario", "level", "--duration", "100000", "-o", "a.csv"];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_kapvik"));
+    let mut drive = command.current_dir(folder.0.path()).args(arguments).spawn().expect("kapvik runs");
+    while folder.files() < 2 {
+        assert!(drive.try_wait().expect("known").is_none(), "the drive came to its end");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let killed = Command::new("kill").arg(drive.id().to_string()).status().expect("kill runs");
+    assert!(killed.success());
+    assert_eq!(drive.wait().expect("ended").signal(), Some(15));
+    assert_eq!(folder.files(), 0, "something is left behind");
 }
