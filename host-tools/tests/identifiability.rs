@@ -179,6 +179,16 @@ fn the_advice_keeps_its_word_and_nothing_on_the_grid_is_cheaper() {
 }
 
 #[test]
+fn no_advice_takes_longer_than_what_was_asked_for() {
+    for longest_s in [5.0, 33.5, 119.5] {
+        let question = Question { longest_s, accuracy: 0.3, ..question(&Target::ALL) };
+        let advice = Advice::new(&question, || ()).unwrap();
+        let times_s = [&advice.best].into_iter().chain(&advice.others).map(|finding| finding.expense.time_s);
+        assert!(times_s.clone().all(|time_s| time_s <= longest_s), "{longest_s}: {:?}", times_s.collect::<Vec<_>>());
+    }
+}
+
+#[test]
 fn what_is_out_of_reach_is_said() {
     let question = question(&[Target::Cohesion]);
     let advice = Advice::new(&question, || ()).unwrap();

@@ -18,7 +18,9 @@ use crate::identifiability::manoeuvre::RimSpeeds;
 use crate::identifiability::map::{self, LOAD_CELLS, MapQuestion, SLIP_CELLS};
 use crate::identifiability::rover_side::RoverMeasurement;
 use crate::identifiability::search::Question;
-use crate::identifiability::sensors::{FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LastingErrors, instant_noise};
+use crate::identifiability::sensors::{
+    FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LASTING_PITCH_DEG, LastingErrors, instant_noise,
+};
 use crate::identifiability::single_wheel::WheelMeasurement;
 use crate::identifiability::target::Target;
 use crate::progress::bar;
@@ -93,7 +95,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N_M", default_value_t = LastingErrors::default().torque_nm, value_parser = not_negative)]
     torque_bias: f64,
     /// Lasting error of the pitch, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.2, value_parser = not_negative)]
+    #[arg(long, value_name = "DEG", default_value_t = LASTING_PITCH_DEG, value_parser = not_negative)]
     pitch_bias: f64,
     /// Cost of a joule beyond the usual drive, in seconds of driving
     #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_joule, value_parser = not_negative)]

@@ -163,11 +163,17 @@ impl Question {
     /// A manoeuvre just long enough, in whole seconds, for some targets; none where the longest is not enough.
     fn shortest(&self, manoeuvre: &Manoeuvre<'_>, usual: &DrivenLeg, targets: &[Target]) -> Option<Finding> {
         let known_after = |time_s: f64| self.bound(manoeuvre, time_s).is_some_and(|bound| self.is_met(&bound, targets));
+        let (least_s, longest_s) = self.times_s(manoeuvre)?;
         let legs = manoeuvre.count() as f64;
-        let least_s = legs * (SETTLING_S + SHORTEST_S);
-        let time_s = shortest(least_s, self.longest_s.max(least_s), HALVINGS, known_after)?;
-        // Whole seconds for every leg.
+        let time_s = shortest(least_s, longest_s, HALVINGS, known_after)?;
         self.finding(manoeuvre, usual, legs * (time_s / legs).ceil())
+    }
+
+    /// The least and the longest time that a manoeuvre may take, s, in whole seconds for every leg; none where that is too short for it.
+    fn times_s(&self, manoeuvre: &Manoeuvre<'_>) -> Option<(f64, f64)> {
+        let legs = manoeuvre.count() as f64;
+        let (least_s, longest_s) = (legs * (SETTLING_S + SHORTEST_S).ceil(), legs * (self.longest_s / legs).floor());
+        (least_s <= longest_s).then_some((least_s, longest_s))
     }
 
     /// The cheapest manoeuvre of each kind for some targets, cheapest first.
@@ -203,7 +209,7 @@ impl Question {
     /// The largest set of the targets asked for that a manoeuvre of the longest time makes known.
     pub fn within_reach(&self, manoeuvres: &[Manoeuvre<'_>]) -> Vec<Target> {
         let known = |manoeuvre: &Manoeuvre<'_>| -> Vec<Target> {
-            let bound = self.bound(manoeuvre, self.longest_s);
+            let bound = self.times_s(manoeuvre).and_then(|(_, longest_s)| self.bound(manoeuvre, longest_s));
             let met = |target: &&Target| bound.is_some_and(|bound| self.is_met(&bound, &[**target]));
             self.targets.iter().filter(met).copied().collect()
         };

@@ -38,11 +38,20 @@ impl LastingErrors {
     pub const NONE: Self = Self { speed_scale: 0.0, load_n: 0.0, torque_nm: 0.0, drawbar_pull_n: 0.0, pitch_rad: 0.0 };
 }
 
+/// What is assumed of the pitch's, degrees.
+pub const LASTING_PITCH_DEG: f64 = 0.2;
+
 impl Default for LastingErrors {
     /// Assumed: what a calibration before the drive leaves. The drawbar pull's is a sixth of what the pitch's does to the
     /// weight of the assumed rover.
     fn default() -> Self {
-        Self { speed_scale: 0.005, load_n: 0.3, torque_nm: 0.02, drawbar_pull_n: 0.25, pitch_rad: 0.0035 }
+        Self {
+            speed_scale: 0.005,
+            load_n: 0.3,
+            torque_nm: 0.02,
+            drawbar_pull_n: 0.25,
+            pitch_rad: LASTING_PITCH_DEG.to_radians(),
+        }
     }
 }
 
