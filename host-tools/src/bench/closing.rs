@@ -20,8 +20,8 @@ const AMOUNTS: [&str; 3] = ["0.0", "0.35", "0.7"];
 #[derive(Args)]
 pub struct ClosingArguments {
     /// Simulated rovers of each kind
-    #[arg(long, default_value_t = 10_000)]
-    cases: usize,
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    cases: u32,
     /// Seed of the rovers; training uses 1, and 4294967294 for its check
     #[arg(long, default_value_t = 2026)]
     seed: u32,
@@ -44,7 +44,7 @@ pub fn run(arguments: &ClosingArguments) -> Result<(), HostError> {
         _ => Plan::medium(1),
     };
     let after = slip_sinkage(FREE)?;
-    let rovers = Rovers::draw(&after, arguments.cases, arguments.seed)?;
+    let rovers = Rovers::draw(&after, arguments.cases as usize, arguments.seed)?;
     let (before, found) = (train(&World::seed(), &plan, false)?, train(&after, &plan, false)?);
     println!(
         "Six-wheel rovers on soil with slip-sinkage, n = n₀ + n₁ i with n₁ uniform in 0 … 0.7: {} of each kind, seed {}.\n\
@@ -53,7 +53,7 @@ pub fn run(arguments: &ClosingArguments) -> Result<(), HostError> {
     );
     println!("{}\n", errors_of_soil(&compare(&[&before.rover, &found.rover], &rovers)));
     for amount in AMOUNTS {
-        let rovers = Rovers::draw(&slip_sinkage(amount)?, arguments.cases, arguments.seed)?;
+        let rovers = Rovers::draw(&slip_sinkage(amount)?, arguments.cases as usize, arguments.seed)?;
         println!("n₁ = {amount}\n{}\n", errors_of_soil(&compare(&[&before.rover, &found.rover], &rovers)));
     }
     println!("The network that is shipped, which knows no effect, with n₁ uniform in 0 … 0.7:\n");

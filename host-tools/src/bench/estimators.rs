@@ -35,7 +35,7 @@ const PLANE: [Scenario; 3] = [Scenario::Level, Scenario::Spread, Scenario::Slope
 pub fn run(arguments: &EstimatorArguments) {
     let scenarios = if arguments.scenario.is_empty() { REPORTED.to_vec() } else { arguments.scenario.clone() };
     for scenario in scenarios {
-        let trial = trial(scenario, arguments.seed..arguments.seed + arguments.drives, &Rover::assumed());
+        let trial = trial(scenario, arguments.seed..arguments.seed.saturating_add(arguments.drives), &Rover::assumed());
         print(&trial);
         estimators_soil::print(&trial);
     }

@@ -34,7 +34,7 @@ pub const REPORTED: [Scenario; 2] = [Scenario::Spread, Scenario::Hills];
 /// Drives and prints.
 pub fn run(arguments: &FaultArguments) {
     let scenarios = if arguments.scenario.is_empty() { REPORTED.to_vec() } else { arguments.scenario.clone() };
-    let seeds = arguments.seed..arguments.seed + arguments.drives;
+    let seeds = arguments.seed..arguments.seed.saturating_add(arguments.drives);
     let catalogue = catalogue(&scenarios, seeds, &Rover::assumed());
     catalogue.failures.iter().for_each(|failure| println!("no drive: {failure}"));
     let seconds = FAULT_S.1 - FAULT_S.0;

@@ -43,8 +43,8 @@ pub enum Subject {
 #[derive(Args)]
 pub struct Cases {
     /// Unseen cases of each kind.
-    #[arg(long, default_value_t = 20_000)]
-    cases: usize,
+    #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    cases: u32,
     /// Seed of the cases; training uses 1, and 4294967294 for its check.
     #[arg(long, default_value_t = 2026)]
     seed: u32,
@@ -64,7 +64,7 @@ impl Subject {
             Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),
             Self::Limit(arguments) => limit::run(&arguments, &network::rover_mean)?,
-            Self::Network(Cases { cases, seed }) => network::print(cases, seed)?,
+            Self::Network(Cases { cases, seed }) => network::print(cases as usize, seed)?,
             Self::Target => target::execute()?,
             Self::Training => training::print()?,
         }
