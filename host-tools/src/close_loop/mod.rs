@@ -54,7 +54,7 @@ pub struct ClosedSoil {
 
 /// Trains before and after, and compares; `truth` is the campaign's soil, where it is known, and `say` is told what comes next.
 /// Writes `declared.toml` and, where an effect was found, the table that flies with
-/// it (`kapvik.table`) to `folder`.
+/// it (`kapvik.table`) to `folder`, which is there.
 ///
 /// # Errors
 /// Where a file cannot be written, or no rover could drive with the effects.
@@ -68,7 +68,6 @@ pub fn close(
 ) -> Result<Closed, HostError> {
     let (path, table) = (folder.join("declared.toml"), folder.join("kapvik.table"));
     let declaration = declared_file(campaign, diagnosis);
-    std::fs::create_dir_all(folder).map_err(HostError::file(folder))?;
     let forces = errors_of_forces(diagnosis);
     if diagnosis.effects.is_empty() {
         remove(&table)?;
@@ -89,7 +88,7 @@ pub fn close(
     let soil = ClosedSoil {
         effects: [worlds[0].to_string(), after.to_string()],
         errors: errors_of_soil(&compare(&tables, &rovers)),
-        estimates: estimates(&on_campaign(campaign, &tables)?, fits, truth),
+        estimates: estimates(&on_campaign(campaign, &tables), fits, truth),
     };
     // Both at the end: a table of an earlier campaign must not stand beside the declaration of this one.
     write_text(&path, &declaration)?;

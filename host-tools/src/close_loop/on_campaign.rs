@@ -5,7 +5,6 @@ use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate, answer};
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::data::campaign::Campaign;
-use crate::error::HostError;
 use crate::identify::{IdentifiedRun, identify};
 use crate::statistics::{quantile, sorted};
 use crate::train::score::rover_posterior;
@@ -34,15 +33,13 @@ pub struct SoilColumn {
     pub scatter: f64,
 }
 
-/// What each network says of the campaign's runs. Of a campaign that lacks a column that the networks need it says nothing.
-///
-/// # Errors
-/// Never in practice: nothing is asked but this process.
-pub fn on_campaign(campaign: &Campaign, tables: &[&RoverTable]) -> Result<Vec<CampaignSoil>, HostError> {
+/// What each network says of the campaign's runs. Of a campaign that cannot be asked about, as it lacks a column that the networks need, it
+/// says why.
+pub fn on_campaign(campaign: &Campaign, tables: &[&RoverTable]) -> Vec<CampaignSoil> {
     tables.iter().map(|table| of_table(campaign, table)).collect()
 }
 
-fn of_table(campaign: &Campaign, table: &RoverTable) -> Result<CampaignSoil, HostError> {
+fn of_table(campaign: &Campaign, table: &RoverTable) -> CampaignSoil {
     let identified = identify(campaign, &mut |query| {
         let mut said = answer(query);
         // What is refused is refused by its numbers alone, whatever network is asked.
@@ -59,7 +56,7 @@ fn of_table(campaign: &Campaign, table: &RoverTable) -> Result<CampaignSoil, Hos
     let soils: Vec<SoilEstimate> = runs.iter().filter_map(|run| run.question.as_ref()?.rover().ok().copied()).collect();
     let column =
         |pick: fn(&SoilEstimate) -> ParameterEstimate| SoilColumn::of(&soils.iter().map(pick).collect::<Vec<_>>());
-    Ok(CampaignSoil {
+    CampaignSoil {
         runs: soils.len(),
         refused: refused.filter(|_| soils.is_empty()),
         outside: soils.iter().filter(|soil| soil.outside_training_range).count(),
@@ -68,7 +65,7 @@ fn of_table(campaign: &Campaign, table: &RoverTable) -> Result<CampaignSoil, Hos
             column(|soil| soil.friction_angle_rad),
             column(|soil| soil.shear_modulus_m),
         ],
-    })
+    }
 }
 
 fn estimate(table: &RoverTable, query: &SoilQuery) -> SoilEstimate {
