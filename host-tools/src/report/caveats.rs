@@ -8,6 +8,7 @@ use crate::identify::{IdentifiedRun, NoiseSource};
 use super::findings::{EstimateRow, Findings, RowKind};
 use super::verdict::Verdict;
 use crate::parameter::Parameter;
+use crate::statistics::ends;
 
 /// Loads closer together than this share are one load.
 const ONE_LOAD: f64 = 0.1;
@@ -68,9 +69,7 @@ fn noise(findings: &Findings) -> Option<String> {
 }
 
 fn one_load(findings: &Findings) -> Option<String> {
-    let loads = findings.campaign.column(Channel::Load.name())?.iter().flatten();
-    let (low, high) =
-        loads.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), load| (low.min(*load), high.max(*load)));
+    let (low, high) = ends(findings.campaign.column(Channel::Load.name())?.iter().flatten().copied())?;
     (high <= (1.0 + ONE_LOAD) * low).then(|| {
         "Every state has one load. Cohesion and friction can then stand in for each other: the same forces come from more \
          of one and less of the other. One wheel at one load cannot tell cohesion; where several slips together seem to, \
