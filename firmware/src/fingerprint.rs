@@ -18,7 +18,11 @@ pub struct Fingerprint {
     pub compute: fn() -> u32,
 }
 
-/// Everything that flight computes with, from the elementary functions up.
+/// The elementary functions, layers of whole numbers, equations 1–11, with which flight does not compute, and steps of the
+/// filter: [`SigmaPointFilter::predict`], [`SigmaPointFilter::random_walk`] and [`SigmaPointFilter::update`].
+///
+/// Not all of flight: the other functions of the filter ([`Gaussian::take`] among them), [`math::octaves()`] and
+/// [`math::of_octaves`] are not in it, and [`math::sin_cos_of_slope`] only where the equations call it.
 pub const FINGERPRINTS: [Fingerprint; 12] = [
     Fingerprint {
         name: "sin_cos",

@@ -22,9 +22,12 @@ static STATE: State =
     State { encoder: UnsafeCell::new(defmt::Encoder::new()), restore: UnsafeCell::new(RestoreState::invalid()) };
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
+// Microseconds since the link was taken, in 32 bits: they start again at zero every 71.6 min. Clock ticks in an image that counts these.
 defmt::timestamp!("{=u32:us}", ticks::now());
 
-// SAFETY: `acquire` to `release` is a critical section, and a second `acquire` in between ends the program.
+// SAFETY: `acquire` to `release` is a critical section. A second `acquire` in between comes of a fault or panic inside a log statement alone: it
+// ends the frame under way with a zero byte and starts a new one. The handlers of both end the program behind that, so that nothing goes on
+// with the frame that was cut.
 unsafe impl defmt::Logger for UartLogger {
     fn acquire() {
         // SAFETY: released in `release`, which defmt calls after each `acquire`.

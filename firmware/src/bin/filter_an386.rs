@@ -1,4 +1,5 @@
-//! The filter alone, every function of it and nothing that prints: no panic may be linked into this image.
+//! The filter alone, without anything that prints: an update, predictions by a model, by drift and with correlated noise, one state forgotten,
+//! and variances read off the estimate. No panic may be linked into this image.
 #![no_std]
 #![no_main]
 

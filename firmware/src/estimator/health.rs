@@ -152,7 +152,7 @@ pub struct EstimatorHealth {
     /// Frames from before the one before, which were left out, but for those with which the filters started anew.
     #[serde(with = "crate::outlined")]
     pub backward_frames: u32,
-    /// Frames after a gap so long that the filters started anew.
+    /// Frames with which the filters started anew: after a long gap, or after a clock was set back.
     #[serde(with = "crate::outlined")]
     pub gaps: u32,
     /// Failed factorisations: a filter was reset to its stated floor.

@@ -132,6 +132,7 @@ impl<S: Scalar> HubForceFilter<S> {
         self.beyond_rest_n().map(|force| self.at_rest_n + force)
     }
 
+    /// The force along each cell at the mean, less [`Self::at_rest_n`], N.
     pub fn beyond_rest_n(&self) -> PerAxle<S> {
         let [front, middle, rear, ..] = *self.filter.estimate().mean();
         PerAxle { front, middle, rear }

@@ -15,7 +15,7 @@ use crate::sensor_frame::SensorFrame;
 
 /// After a gap this long the filters start anew, µs.
 const GAP_US: u64 = 5_000_000;
-/// So many frames in a row from the past mean that the clock was set back.
+/// So many frames from the past, without a newer one between, mean that the clock was set back.
 const CLOCK_SET_BACK: u8 = 8;
 /// What the costly work of each side begins with, so that it is spread over frames.
 const PHASES: PerSide<usize> = PerSide { left: 0, right: 3 };
@@ -192,7 +192,8 @@ impl<S: Scalar> RoverEstimator<S> {
         &self.common.health
     }
 
-    /// Seconds since the frame before; none for a frame that is to be left out.
+    /// Seconds since the frame before; none for a frame that is to be left out. Zero for the first one, and for one after a long gap, or after
+    /// a clock was set back, with which the filters start anew.
     fn step_s(&mut self, time_us: u64) -> Option<S> {
         let Some(last) = self.common.last_time_us else {
             self.common.last_time_us = Some(time_us);
@@ -219,6 +220,7 @@ impl<S: Scalar> RoverEstimator<S> {
         Some(S::from_f32(step_us as f32 * 1.0e-6))
     }
 
+    /// Starts the filters anew after a long gap, or after a clock was set back. Both count as a gap.
     fn start_anew(&mut self) {
         self.common.health.gaps = self.common.health.gaps.saturating_add(1);
         self.common.attitude = Attitude::new(self.common.rover.gravity_m_s2);

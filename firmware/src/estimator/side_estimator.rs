@@ -82,7 +82,7 @@ pub(super) struct SideEstimator<S> {
 pub struct SideInnovations<S> {
     /// Filter 1 of each wheel: rate and speed of the hub.
     pub wheels: PerAxle<Innovation<S, { slip_torque::MEASUREMENTS }>>,
-    /// Filter 2, contact angles: velocity of the axis forward and up, angles of rocker and bogie.
+    /// Filter 2, contact angles: velocity of the axis forward and up, angles of rocker and bogie, pitch of the body.
     pub angles: Innovation<S, { contact_angle::MEASUREMENTS }>,
     /// Filter 2, forces: the cells, the moments on bogie and rocker.
     pub forces: Innovation<S, { hub_force::MEASUREMENTS }>,

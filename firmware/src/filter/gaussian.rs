@@ -74,7 +74,8 @@ impl<T: Scalar, const N: usize> Gaussian<T, N> {
     }
 
     /// Takes a measurement of a weighted sum of the numbers, Σ wᵢ xᵢ, whose noise has this variance, which must be positive.
-    /// Nothing changes where what comes out is not finite.
+    /// Nothing changes where the innovation over its variance, or the factor of what the root loses, is not finite. Of numbers whose products
+    /// overflow that is no check: mean or root may then come out not finite.
     ///
     /// With f = Sᵀ w and a = f·f + r: K = S f/a, and the root becomes S − K fᵀ/(1 + √(r/a)) (Potter 1963; a factor, never a
     /// difference of covariances). For sums alone: a model that bends goes through [`SigmaPointFilter::update`].

@@ -1,11 +1,14 @@
-//! A square-root sigma-point (unscented) filter of fixed size that cannot end in NaN.
+//! A square-root sigma-point (unscented) filter of fixed size whose steps cannot end in NaN.
 //!
-//! [`SigmaPointFilter`] estimates a state of `N` numbers from `M` measurements, any of which may be missing. It carries the
-//! triangular root of the covariance and changes it by orthogonal reflections alone: nothing is subtracted from a
-//! covariance and no covariance is inverted, so a step cannot make it indefinite, in single precision either.
+//! [`SigmaPointFilter`] estimates a state of `N` numbers from `M` measurements, any of which may be missing. It carries a
+//! square root of the covariance, any one, in place of the covariance, and a step changes that by orthogonal reflections:
+//! nothing is subtracted from a covariance and no covariance is inverted, so a step cannot make it indefinite, in single
+//! precision either.
 //!
 //! A step is one of the predictions ([`SigmaPointFilter::predict`], [`SigmaPointFilter::random_walk`]) and an
 //! [`SigmaPointFilter::update`]. What a measurement did to the estimate is in the [`Innovation`] that `update` returns.
+//! Beside steps, [`SigmaPointFilter::take`] takes a measurement of a sum of states by Potter's factor of the root, without
+//! a guard against products that overflow.
 //!
 //! Source: the unscented transform of Julier and Uhlmann (2004, Proc. IEEE 92:401–422) with the weights of Wan and van der
 //! Merwe (2000), in differences of pairs; the measurement update is the information form of the array algorithms in

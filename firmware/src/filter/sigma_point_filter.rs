@@ -8,9 +8,9 @@ use super::{Gaussian, InvalidNumber, Spread};
 
 /// A square-root sigma-point filter for a state of `N` numbers.
 ///
-/// Mean and root stay finite whatever models and measurements do. Where a factorisation overflows (standard deviations
-/// beyond about 1e18 in single precision, or numbers that are not finite), the mean stays as it was, the root becomes the
-/// diagonal that was stated at construction, and that is counted and told.
+/// Mean and root stay finite whatever models and measurements do, except in [`SigmaPointFilter::take`]. Where a
+/// factorisation overflows (standard deviations beyond about 1e18 in single precision, or numbers that are not finite), the
+/// mean stays as it was, the root becomes the diagonal that was stated at construction, and that is counted and told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SigmaPointFilter<T, const N: usize> {
     pub(super) estimate: Gaussian<T, N>,
@@ -52,7 +52,8 @@ impl<T: Scalar, const N: usize> SigmaPointFilter<T, N> {
         &self.estimate
     }
 
-    /// Takes a measurement of a weighted sum of the states, as [`Gaussian::take`] does.
+    /// Takes a measurement of a weighted sum of the states, as [`Gaussian::take`] does. It does not fall back: of numbers whose products
+    /// overflow mean or root may come out not finite. The next prediction resets such a root, but not such a mean.
     pub fn take(&mut self, weights: &[T; N], measured: T, noise_variance: T) {
         self.estimate.take(weights, measured, noise_variance);
     }

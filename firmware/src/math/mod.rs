@@ -7,8 +7,8 @@
 //! (`vmla`), which the compiler may use. That takes the reset state of the floating-point control register:
 //! round to nearest, subnormals kept.
 //!
-//! An argument that is NaN gives NaN. The sign and payload of a NaN are the one thing that may differ between machines.
-//! No argument panics.
+//! An argument that is NaN gives NaN, except to [`limit()`], [`octaves()`] and [`of_octaves`], which give a number. The sign
+//! and payload of a NaN are the one thing that may differ between machines. No argument panics.
 //!
 //! Errors are in ulp, the distance between the two f32 beside the exact result. They were measured over every f32 of
 //! the stated range by `tests/math_exhaustive.rs`, which fails where a result is worse than stated here. Coefficients

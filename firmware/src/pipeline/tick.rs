@@ -48,8 +48,8 @@ impl Pipeline {
     }
 
     /// Takes a frame. Every number that comes out is finite, whatever comes in. A frame that repeats the time of the one
-    /// before, or comes from before it, changes nothing: the estimate is that of the one before; but where several in a row come from before,
-    /// the clock was set back, and the filters start anew with the last of them.
+    /// before, or comes from before it, changes nothing: the estimate is that of the one before; but where several come from before,
+    /// without a newer one between, the clock was set back, and the filters start anew with the last of them.
     pub fn tick(&mut self, frame: &SensorFrame) -> &FrameEstimate {
         let last = &mut self.last;
         if let Taken::Used(travel_m) = self.estimator.tick(frame) {

@@ -3,7 +3,7 @@
 use super::{Axes, PerAxle, Planar, Rover, Side};
 use crate::scalar::Scalar;
 
-/// A link's pitch against the body and how fast it changes, nose-up.
+/// A link's pitch against what carries it, a rocker's against the body and a bogie's against its rocker, and how fast it changes; nose-up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Link<S> {
     /// Pitch, rad.

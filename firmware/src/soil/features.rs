@@ -86,7 +86,7 @@ impl SoilQuery {
         if seen { FifthInput::sinkage(&self.wheel, state, &self.noise) } else { FifthInput::UNKNOWN }
     }
 
-    /// The rover network's inputs: the shared ones, then those of each wheel.
+    /// The rover network's inputs: the shared ones, then those of each wheel. Of no wheels there are shared ones alone, some of them NaN.
     pub fn rover_features(&self) -> (RoverContext, Vec<WheelFeatures, WHEELS>) {
         // One pass for what all wheels say together.
         let (mut load_n, mut seen) = (0.0, true);

@@ -22,7 +22,7 @@ pub struct Noticed {
     pub filter_resets: u32,
     /// Filters that gave up what they believed.
     pub relearned: u32,
-    /// Gaps after which the filters started anew.
+    /// How often the filters started anew: after a long gap, or a clock set back.
     pub gaps: u32,
     out_of_use_before: OutOfUse,
     out_of_use: OutOfUse,

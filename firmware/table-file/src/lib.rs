@@ -74,7 +74,7 @@ pub enum TableError {
     },
 }
 
-/// CRC-32 (ISO-HDLC) of the bytes before the last line.
+/// CRC-32 (ISO-HDLC) of the bytes given. In a file these are all before the last line.
 pub fn checksum(bytes: &[u8]) -> u32 {
     static CRC: crc::Crc<u32, crc::Table<16>> = crc::Crc::<u32, crc::Table<16>>::new(&crc::CRC_32_ISO_HDLC);
     CRC.checksum(bytes)
