@@ -1,7 +1,10 @@
 //! The three parameters of the soil, in the units that people read.
 
+use serde::Serialize;
+
 /// Cohesion, friction angle or shear modulus.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Parameter {
     /// Cohesion c.
     Cohesion,
@@ -12,7 +15,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// All three.
+    /// All three, in the order of the soil's parameters.
     pub const ALL: [Self; 3] = [Self::Cohesion, Self::FrictionAngle, Self::ShearModulus];
 
     /// Its name.

@@ -1,7 +1,7 @@
 //! How good the soil estimate is on simulated drives, and how soon it notices that the soil changed.
 
 use crate::identifiability::bound::Bound;
-use crate::identifiability::target::Target;
+use crate::parameter::Parameter;
 use crate::trial::{Drive, SOIL_LOOK_S, SoilPoint, Trial};
 
 /// Errors of one drive's estimate, with what it stated and the bound on what any could reach.
@@ -113,10 +113,10 @@ fn errors(point: &SoilPoint, bound: &Bound) -> Option<Errors> {
     (modulus.value > 0.0).then(|| Errors {
         friction_angle_deg: (f64::from(phi.value) - truth.friction_angle_rad).to_degrees(),
         friction_angle_std_deg: f64::from(phi.std).to_degrees(),
-        friction_angle_bound_deg: bound.std(Target::FrictionAngle).to_degrees(),
+        friction_angle_bound_deg: bound.std(Parameter::FrictionAngle).to_degrees(),
         ln_shear_modulus: (f64::from(modulus.value) / truth.shear_modulus_m).ln(),
         ln_shear_modulus_std: f64::from(modulus.std / modulus.value),
-        ln_shear_modulus_bound: bound.std(Target::ShearModulus),
+        ln_shear_modulus_bound: bound.std(Parameter::ShearModulus),
     })
 }
 

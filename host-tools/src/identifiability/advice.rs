@@ -4,18 +4,19 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use crate::parameter::Parameter;
+
 use super::bound::Bound;
 use super::cost::{CostWeights, Expense};
 use super::manoeuvre::{Leg, RimSpeeds, USUAL};
 use super::rover_side::RoverMeasurement;
 use super::search::{DrivenLeg, Finding, Manoeuvre, Question, manoeuvres};
-use super::target::Target;
 
 /// What is to be done, and what else could be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Advice {
     /// Targets asked for that are known well enough after it.
-    pub reached: Vec<Target>,
+    pub reached: Vec<Parameter>,
     /// The cheapest manoeuvre; where no target is within reach, the one that knows most.
     pub best: Finding,
     /// The cheapest of each other kind, cheapest first.
@@ -70,8 +71,8 @@ impl Advice {
     pub fn sentence(&self, question: &Question) -> String {
         let best = &self.best;
         let mut text = order(best);
-        let known = |target: &&Target| self.reached.contains(target);
-        let named = |target: &Target| {
+        let known = |target: &&Parameter| self.reached.contains(target);
+        let named = |target: &Parameter| {
             format!("{} to {}", target.symbol(), percent(best.bound.relative(*target, &question.soil)))
         };
         let reached: Vec<String> = question.targets.iter().filter(known).map(named).collect();
@@ -128,7 +129,7 @@ pub struct Document {
     /// The sentence.
     pub advice: String,
     /// Targets that are known well enough after it.
-    pub reached: Vec<Target>,
+    pub reached: Vec<Parameter>,
     /// Manoeuvres, cheapest first.
     pub manoeuvres: Vec<Row>,
     /// The single leg that tells most in the same time as the first; none where the first has a single leg.
@@ -183,9 +184,9 @@ impl Document {
                 legs: finding.legs.iter().map(LegRow::new).collect(),
                 expense: finding.expense,
                 cost: finding.cost,
-                cohesion_relative_std: relative(Target::Cohesion),
-                friction_angle_relative_std: relative(Target::FrictionAngle),
-                shear_modulus_relative_std: relative(Target::ShearModulus),
+                cohesion_relative_std: relative(Parameter::Cohesion),
+                friction_angle_relative_std: relative(Parameter::FrictionAngle),
+                shear_modulus_relative_std: relative(Parameter::ShearModulus),
             }
         };
         Self {

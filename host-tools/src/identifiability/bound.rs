@@ -3,9 +3,10 @@
 use kapvik_firmware::terramechanics::Soil;
 use nalgebra::SMatrix;
 
+use crate::parameter::Parameter;
+
 use super::beforehand::{Beforehand, PARAMETERS};
 use super::information::{Information, PITCH, SHARED, SPEED_SCALE, SharedInformation};
-use super::target::Target;
 
 /// Observations that share no sensor but the velocimeter and the inclinometer: each with the number of times that it is
 /// there, on sensors of its own.
@@ -42,12 +43,12 @@ impl Bound {
     }
 
     /// Standard deviation of ln c, φ (rad) or ln K.
-    pub fn std(&self, target: Target) -> f64 {
+    pub fn std(&self, target: Parameter) -> f64 {
         self.stds[target as usize]
     }
 
     /// Standard deviation of c, φ or K as a share of its value.
-    pub fn relative(&self, target: Target, soil: &Soil<f64>) -> f64 {
+    pub fn relative(&self, target: Parameter, soil: &Soil<f64>) -> f64 {
         target.relative(self.std(target), soil)
     }
 }

@@ -3,10 +3,11 @@
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 use rayon::prelude::*;
 
+use crate::parameter::Parameter;
+
 use super::bound::Bound;
 use super::single_wheel::WheelMeasurement;
 use super::spread::{Spread, SpreadInformation, WheelsInTurn};
-use super::target::Target;
 
 /// Wheels that a map is drawn for.
 pub const DESIGNS: [WheelsInTurn; 5] = [
@@ -68,12 +69,12 @@ pub struct PerTarget<T>([T; 3]);
 
 impl<T> PerTarget<T> {
     /// A value for each target.
-    pub fn from_fn(mut value: impl FnMut(Target) -> T) -> Self {
-        Self(Target::ALL.map(&mut value))
+    pub fn from_fn(mut value: impl FnMut(Parameter) -> T) -> Self {
+        Self(Parameter::ALL.map(&mut value))
     }
 
     /// The value of a target.
-    pub fn of(&self, target: Target) -> &T {
+    pub fn of(&self, target: Parameter) -> &T {
         &self.0[target as usize]
     }
 }
@@ -119,7 +120,7 @@ impl MapQuestion {
     }
 
     /// Averaging time until a target is known: errors only shrink with time.
-    fn time_s(&self, information: &SpreadInformation, design: WheelsInTurn, target: Target) -> Option<f64> {
+    fn time_s(&self, information: &SpreadInformation, design: WheelsInTurn, target: Parameter) -> Option<f64> {
         let known_after = |time_s: f64| {
             let bound = self.bound(information, design, time_s);
             bound.is_some_and(|bound| bound.relative(target, &self.soil) <= self.accuracy)

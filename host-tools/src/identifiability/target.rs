@@ -1,33 +1,12 @@
-//! The three parameters that are asked for.
+//! What is asked for: parameters of the soil.
 
 use kapvik_firmware::terramechanics::Soil;
-use serde::Serialize;
 
+use crate::parameter::Parameter;
 /// A parameter that is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Target {
-    /// Cohesion c.
-    Cohesion,
-    /// Angle of internal friction φ.
-    FrictionAngle,
-    /// Shear deformation modulus K.
-    ShearModulus,
-}
+pub use crate::parameter::Parameter as Target;
 
-impl Target {
-    /// All three, in the order of the soil's parameters.
-    pub const ALL: [Self; 3] = [Self::Cohesion, Self::FrictionAngle, Self::ShearModulus];
-
-    /// Its symbol.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Cohesion => "c",
-            Self::FrictionAngle => "φ",
-            Self::ShearModulus => "K",
-        }
-    }
-
+impl Parameter {
     /// A standard deviation of ln c, φ or ln K as a share of the parameter's value.
     pub fn relative(self, std: f64, soil: &Soil<f64>) -> f64 {
         match self {

@@ -7,7 +7,7 @@ use crate::parameter::Parameter;
 use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, px, text};
 
 use super::terminal::label;
-use super::verdict::{is_best, symbol};
+use super::verdict::is_best;
 
 const WIDTH: f64 = 440.0;
 const LEFT: f64 = 205.0;
@@ -29,7 +29,7 @@ pub fn chart(compared: &Compared, parameter: Parameter) -> Markup {
     let floor = TOP + ROW * shown.len() as f64;
     html! {
         svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(floor + 38.0)) } role="img"
-            aria-label={ "Errors of " (symbol(parameter)) ": " (compared.title) } {
+            aria-label={ "Errors of " (parameter.symbol()) ": " (compared.title) } {
             (bottom_axis(&scale, (TOP - 6.0, floor)))
             (line("truth", (scale.at(0.0), TOP - 6.0), (scale.at(0.0), floor)))
             @for (score, place) in shown.iter().zip(0..) {
@@ -64,12 +64,7 @@ fn bar(compared: &Compared, score: &Score, parameter: Parameter, (scale, widest)
 }
 
 fn axis_title(parameter: Parameter) -> String {
-    let (name, unit) = match parameter {
-        Parameter::Cohesion => ("c", "Pa"),
-        Parameter::FrictionAngle => ("φ", "°"),
-        Parameter::ShearModulus => ("K", "mm"),
-    };
-    format!("error of {name}, {unit}: median, and ± its median size")
+    format!("error of {}, {}: median, and ± its median size", parameter.symbol(), parameter.unit())
 }
 
 /// A share in percent.

@@ -9,7 +9,7 @@ use crate::report::page::head;
 
 use super::error_chart::{chart, percent};
 use super::terminal::{cramer_rao, duration, label, measured_rows};
-use super::verdict::{symbol, to_limit, verdicts};
+use super::verdict::{to_limit, verdicts};
 use super::{COMPARE_CSS, overview};
 
 /// What the reader has to know of how it was done.
@@ -38,7 +38,7 @@ pub fn page(comparison: &Comparison) -> String {
                 main {
                     @for parameter in [Parameter::FrictionAngle, Parameter::ShearModulus, Parameter::Cohesion] {
                         section {
-                            h2 { "Median error of " (symbol(parameter)) ", " (unit(parameter)) }
+                            h2 { "Median error of " (parameter.symbol()) ", " (unit(parameter)) }
                             (overview::table(comparison, parameter))
                         }
                     }
@@ -89,7 +89,7 @@ fn situation(compared: &Compared) -> Markup {
                 caption { "Medians [quartiles] of the estimates; share of the 68 % and 95 % intervals that hold the truth, in %." }
                 thead { tr {
                     th {}
-                    @for parameter in Parameter::ALL { th { (symbol(parameter)) ", " (unit(parameter)) } th { "68, 95" } th { "told" } }
+                    @for parameter in Parameter::ALL { th { (parameter.symbol()) ", " (unit(parameter)) } th { "68, 95" } th { "told" } }
                     th { "refused" } th { "time" }
                 } }
                 tbody { @for score in &compared.scores { (row(score)) } }

@@ -60,7 +60,7 @@ fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
     }
     let told: Vec<&Compared> = comparison.situations.iter().filter(told).collect();
     if told.is_empty() {
-        return Some(format!("{}: no method tells it in any situation", symbol(parameter)));
+        return Some(format!("{}: no method tells it in any situation", parameter.symbol()));
     }
     let lost = |soils_differ: bool| -> Vec<String> {
         let among = told.iter().filter(|compared| compared.soils_differ == soils_differ);
@@ -82,7 +82,7 @@ fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
     if !lost_one_soil.is_empty() {
         clauses.push(format!("where the soil is always the same, which ranks nobody, {}", lost_one_soil.join("; ")));
     }
-    (!clauses.is_empty()).then(|| format!("{}: {}", symbol(parameter), clauses.join("; ")))
+    (!clauses.is_empty()).then(|| format!("{}: {}", parameter.symbol(), clauses.join("; ")))
 }
 
 fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
@@ -94,13 +94,4 @@ fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
         return None;
     }
     Some(format!("{} in {} ({} against {})", label(best.contender), compared.id, error(best), error(map)))
-}
-
-/// The letter of a parameter.
-pub fn symbol(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Cohesion => "c",
-        Parameter::FrictionAngle => "φ",
-        Parameter::ShearModulus => "K",
-    }
 }

@@ -6,7 +6,7 @@ use super::terminal::{capitalised, loads, named, slips};
 use super::{Observability, assumptions, picture};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
-use crate::identifiability::target::Target;
+use crate::parameter::Parameter;
 use crate::report::page::head;
 
 /// Orders are sentences: they wrap.
@@ -61,7 +61,7 @@ fn manoeuvres(told: &Observability) -> Markup {
                     @if let Some(before) = &told.advice.before {
                         tr {
                             td { "Before any drive" } td {} td {} td {} td {}
-                            @for target in Target::ALL { td { (percent(before.relative(target, &told.question.soil))) } }
+                            @for target in Parameter::ALL { td { (percent(before.relative(target, &told.question.soil))) } }
                             td {} td {}
                         }
                     }
@@ -80,7 +80,7 @@ fn row(told: &Observability, what: &str, finding: &Finding) -> Markup {
             td { (format!("{:.0}", expense.time_s)) }
             td { (format!("{:.0}", expense.energy_j)) }
             td { (format!("{:.1}", 1e3 * expense.sinkage_m)) }
-            @for target in Target::ALL { td { (percent(finding.bound.relative(target, &told.question.soil))) } }
+            @for target in Parameter::ALL { td { (percent(finding.bound.relative(target, &told.question.soil))) } }
             td { (slips(finding)) }
             td { (loads(finding)) }
         }

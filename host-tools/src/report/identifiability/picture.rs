@@ -6,7 +6,7 @@ use super::{MAP_CSS, Observability};
 use crate::identifiability::advice::percent;
 use crate::identifiability::map::{Cell, DESIGNS, GREATEST_LOAD_SHARE, GREATEST_SLIP_SPREAD, LOAD_CELLS, SLIP_CELLS};
 use crate::identifiability::spread::WheelsInTurn;
-use crate::identifiability::target::Target;
+use crate::parameter::Parameter;
 use crate::report::draw::{Anchor, Scale, line, px, text, vertical_band};
 use crate::report::page::DRAW_CSS;
 
@@ -38,7 +38,7 @@ pub fn picture(told: &Observability) -> String {
             style { (PreEscaped(DRAW_CSS)) (PreEscaped(MAP_CSS)) }
             rect class="paper" width="100%" height="100%" {}
             (text("title", (14.0, 24.0), Anchor::Start, &format!("{title}, on {}", told.soil)))
-            @for (column, target) in Target::ALL.into_iter().enumerate() {
+            @for (column, target) in Parameter::ALL.into_iter().enumerate() {
                 (text("label strong", (left_of(column) + 0.5 * PANEL_WIDTH, TOP - 10.0), Anchor::Middle, &named(told, target)))
                 @for row in 0..DESIGNS.len() { (panel(told, target, (column, row))) }
             }
@@ -76,12 +76,12 @@ fn stations(design: &WheelsInTurn) -> String {
     }
 }
 
-fn named(told: &Observability, target: Target) -> String {
+fn named(told: &Observability, target: Parameter) -> String {
     let soil = &told.map_question.soil;
     match target {
-        Target::Cohesion => format!("cohesion c = {:.0} Pa", soil.cohesion_pa),
-        Target::FrictionAngle => format!("friction angle φ = {:.1}°", soil.friction_angle_rad.to_degrees()),
-        Target::ShearModulus => format!("shear modulus K = {:.1} mm", 1e3 * soil.shear_modulus_m),
+        Parameter::Cohesion => format!("cohesion c = {:.0} Pa", soil.cohesion_pa),
+        Parameter::FrictionAngle => format!("friction angle φ = {:.1}°", soil.friction_angle_rad.to_degrees()),
+        Parameter::ShearModulus => format!("shear modulus K = {:.1} mm", 1e3 * soil.shear_modulus_m),
     }
 }
 
@@ -91,7 +91,7 @@ fn class(time_s: Option<f64>) -> usize {
     time_s.map_or(beyond, |time_s| CLASSES.iter().position(|(limit, _)| time_s <= *limit).unwrap_or(beyond))
 }
 
-fn panel(told: &Observability, target: Target, (column, row): (usize, usize)) -> Markup {
+fn panel(told: &Observability, target: Parameter, (column, row): (usize, usize)) -> Markup {
     let (left, top) = (left_of(column), top_of(row));
     let across = Scale::linear(0.0, GREATEST_SLIP_SPREAD, (left, left + PANEL_WIDTH));
     let up = Scale::linear(0.0, 100.0 * GREATEST_LOAD_SHARE, (top + PANEL_HEIGHT, top));

@@ -5,7 +5,7 @@ use comfy_table::Table;
 use super::{Observability, assumptions};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
-use crate::identifiability::target::Target;
+use crate::parameter::Parameter;
 use crate::report::terminal::{align_right, plain_table, wrapped};
 
 /// The sentence, the table of manoeuvres, and what it rests on.
@@ -43,7 +43,7 @@ fn table(told: &Observability) -> Table {
         table.add_row(cells(told, name, finding));
     }
     if let Some(before) = &told.advice.before {
-        let known = Target::ALL.map(|target| percent(before.relative(target, &told.question.soil)));
+        let known = Parameter::ALL.map(|target| percent(before.relative(target, &told.question.soil)));
         table.add_row(["before", "", "", "", ""].map(str::to_owned).into_iter().chain(known));
     }
     align_right(&mut table);
@@ -59,7 +59,7 @@ fn cells(told: &Observability, what: String, finding: &Finding) -> Vec<String> {
         format!("{:.0}", expense.energy_j),
         format!("{:.1}", 1e3 * expense.sinkage_m),
     ];
-    cells.extend(Target::ALL.map(|target| percent(finding.bound.relative(target, &told.question.soil))));
+    cells.extend(Parameter::ALL.map(|target| percent(finding.bound.relative(target, &told.question.soil))));
     cells.push(slips(finding));
     cells.push(loads(finding));
     cells
