@@ -6,6 +6,7 @@
 use kapvik_firmware::soil::LEAST_SLIP;
 use kapvik_firmware::terramechanics::effects::Grousers;
 use kapvik_firmware::terramechanics::{Soil, Wheel};
+use kapvik_firmware::wheel_state::WheelNoise;
 
 /// A range, and how a number lies in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,14 +152,16 @@ pub const SPREAD_SLIP_HIGH: Range = Range::linear(0.45, 0.70);
 /// Deepest sinkage over radius that is kept; deeper wheels are stuck.
 pub const DEEPEST: f64 = 0.6;
 
-/// One standard deviation per instant over the mean load (DP, W), over load and radius (T), of slip, and over radius
-/// (z): 0.5 N, 1 N, 0.05 N·m, 0.01 and 2 mm on Kapvik's wheel.
+/// One standard deviation per instant on Kapvik's wheel.
+pub const KAPVIK_INSTANT_NOISE: WheelNoise<f64> =
+    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
+/// The same over the mean load (DP, W), over load and radius (T), of slip, and over radius (z).
 pub const INSTANT_NOISE: RelativeNoise = RelativeNoise {
-    drawbar_pull: 0.5 / KAPVIK_LOAD_N,
-    load: 1.0 / KAPVIK_LOAD_N,
-    torque: 0.05 / (KAPVIK_LOAD_N * 0.075),
-    slip: 0.01,
-    sinkage: 0.002 / 0.075,
+    drawbar_pull: KAPVIK_INSTANT_NOISE.drawbar_pull_n / KAPVIK_LOAD_N,
+    load: KAPVIK_INSTANT_NOISE.load_n / KAPVIK_LOAD_N,
+    torque: KAPVIK_INSTANT_NOISE.torque_nm / (KAPVIK_LOAD_N * KAPVIK_WHEEL.radius_m),
+    slip: KAPVIK_INSTANT_NOISE.slip,
+    sinkage: KAPVIK_INSTANT_NOISE.sinkage_m / KAPVIK_WHEEL.radius_m,
 };
 /// Factor on the noise of all channels: a mean of 400 instants … one instant.
 pub const AVERAGING: Range = Range::logarithmic(0.05, 1.0);
@@ -204,4 +207,17 @@ pub struct RelativeNoise {
     pub slip: f64,
     /// Of z/r.
     pub sinkage: f64,
+}
+
+impl RelativeNoise {
+    /// That of a wheel of some radius among wheels of some mean load.
+    pub fn on(&self, load_n: f64, radius_m: f64) -> WheelNoise<f64> {
+        WheelNoise {
+            drawbar_pull_n: self.drawbar_pull * load_n,
+            load_n: self.load * load_n,
+            torque_nm: self.torque * load_n * radius_m,
+            slip: self.slip,
+            sinkage_m: self.sinkage * radius_m,
+        }
+    }
 }

@@ -113,6 +113,5 @@ fn declared() -> Option<DeclaredEffect> {
 /// That of Kapvik's assumed sensors, averaged.
 fn noise(instants: u32) -> WheelNoise<f64> {
     let share = 1.0 / f64::from(instants).sqrt();
-    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 }
-        .map(|std| share * std)
+    prior::KAPVIK_INSTANT_NOISE.map(|std| share * std)
 }

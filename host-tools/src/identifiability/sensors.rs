@@ -3,7 +3,7 @@
 use kapvik_firmware::wheel_state::WheelNoise;
 use serde::Serialize;
 
-use crate::prior::{INSTANT_NOISE, KAPVIK_LOAD_N, KAPVIK_WHEEL};
+use crate::prior::KAPVIK_INSTANT_NOISE;
 
 /// Independent instants of [`instant_noise`] in a second.
 ///
@@ -57,11 +57,5 @@ impl Default for LastingErrors {
 
 /// Noise of one instant on Kapvik's wheel: 0.5 N, 1 N, 0.05 N·m, 0.01 and 2 mm.
 pub fn instant_noise() -> WheelNoise<f64> {
-    WheelNoise {
-        drawbar_pull_n: INSTANT_NOISE.drawbar_pull * KAPVIK_LOAD_N,
-        load_n: INSTANT_NOISE.load * KAPVIK_LOAD_N,
-        torque_nm: INSTANT_NOISE.torque * KAPVIK_LOAD_N * KAPVIK_WHEEL.radius_m,
-        slip: INSTANT_NOISE.slip,
-        sinkage_m: INSTANT_NOISE.sinkage * KAPVIK_WHEEL.radius_m,
-    }
+    KAPVIK_INSTANT_NOISE
 }

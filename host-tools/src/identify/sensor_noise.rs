@@ -57,7 +57,7 @@ impl SensorNoise {
     /// Slip is never taken from repeats: like rows are found by their slip.
     pub fn of(campaign: &Campaign) -> Self {
         let pairs = like_pairs(campaign);
-        let scale = Scale::new(mean_load(campaign), campaign.wheel.radius_m);
+        let scale = INSTANT_NOISE.on(mean_load(campaign), campaign.wheel.radius_m);
         let channel = |channel, flight_sensors| {
             let stated = campaign.noise.of(channel).map(|std| ChannelStd { std, source: NoiseSource::Campaign });
             let repeats =
@@ -98,7 +98,7 @@ pub fn noise_for_networks(noises: &[WheelNoise<f64>], mean_load_n: f64, radius_m
     let root_mean_square = |of: fn(&WheelNoise<f64>) -> f64| {
         (noises.iter().map(|noise| of(noise).powi(2)).sum::<f64>() / noises.len() as f64).sqrt()
     };
-    let least = Scale::new(mean_load_n, radius_m);
+    let least = INSTANT_NOISE.on(mean_load_n, radius_m);
     let told = |of, least: f64| root_mean_square(of).max(AVERAGING.low * least) as f32;
     WheelNoise {
         drawbar_pull_n: told(|noise| noise.drawbar_pull_n, least.drawbar_pull_n),
@@ -106,27 +106,6 @@ pub fn noise_for_networks(noises: &[WheelNoise<f64>], mean_load_n: f64, radius_m
         torque_nm: told(|noise| noise.torque_nm, least.torque_nm),
         slip: told(|noise| noise.slip, least.slip),
         sinkage_m: told(|noise| noise.sinkage_m, least.sinkage_m),
-    }
-}
-
-/// One standard deviation of the flight sensors on a wheel of some size and load.
-struct Scale {
-    drawbar_pull_n: f64,
-    load_n: f64,
-    torque_nm: f64,
-    slip: f64,
-    sinkage_m: f64,
-}
-
-impl Scale {
-    fn new(load_n: f64, radius_m: f64) -> Self {
-        Self {
-            drawbar_pull_n: INSTANT_NOISE.drawbar_pull * load_n,
-            load_n: INSTANT_NOISE.load * load_n,
-            torque_nm: INSTANT_NOISE.torque * load_n * radius_m,
-            slip: INSTANT_NOISE.slip,
-            sinkage_m: INSTANT_NOISE.sinkage * radius_m,
-        }
     }
 }
 

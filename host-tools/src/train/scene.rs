@@ -10,7 +10,7 @@ use crate::error::HostError;
 use super::drive::Drive;
 use super::patches::Patches;
 use super::world::World;
-use crate::prior;
+use crate::prior::{self, RelativeNoise};
 
 /// Wheels of one instant, true to the wheel–soil equations and the effects of a world, and how noisily they will be seen.
 #[derive(Debug, Clone)]
@@ -310,13 +310,14 @@ fn draw_noise(shares: &mut Shares, wheel: &Wheel<f64>, load_n: f64) -> WheelNois
 }
 
 fn noise(wheel: &Wheel<f64>, load_n: f64, factors: [f64; 5]) -> WheelNoise {
-    let relative = prior::INSTANT_NOISE;
+    let instant = prior::INSTANT_NOISE;
     let [drawbar_pull, load, torque, slip, sinkage] = factors;
-    WheelNoise {
-        drawbar_pull_n: (drawbar_pull * relative.drawbar_pull * load_n) as f32,
-        load_n: (load * relative.load * load_n) as f32,
-        torque_nm: (torque * relative.torque * load_n * wheel.radius_m) as f32,
-        slip: (slip * relative.slip) as f32,
-        sinkage_m: (sinkage * relative.sinkage * wheel.radius_m) as f32,
-    }
+    let relative = RelativeNoise {
+        drawbar_pull: drawbar_pull * instant.drawbar_pull,
+        load: load * instant.load,
+        torque: torque * instant.torque,
+        slip: slip * instant.slip,
+        sinkage: sinkage * instant.sinkage,
+    };
+    relative.on(load_n, wheel.radius_m).map(|std| std as f32)
 }
