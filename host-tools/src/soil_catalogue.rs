@@ -13,6 +13,19 @@ const PSI: f64 = 6_894.757_293_168;
 /// One inch, m.
 const INCH: f64 = 0.0254;
 
+/// The seed's Table 1, which the catalogue holds too.
+pub const TABLE_1: Soil<f64> = Soil {
+    sinkage_exponent: 1.1,
+    cohesive_modulus: 15_600.0,
+    frictional_modulus: 2_407_400.0,
+    cohesion_pa: 250.0,
+    friction_angle_rad: 0.556_760_031_386_191_1,
+    shear_modulus_m: 0.0114,
+    peak_stress_c1: 0.18,
+    peak_stress_c2: 0.32,
+    rebound_ratio: 0.0,
+};
+
 /// A soil as its source gives it, in the units of the literature; what the source does not give is absent.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -130,8 +143,12 @@ impl fmt::Display for Incomplete {
 
 impl Completion {
     /// The seed's Table 1: K = 11.4 mm, c₁ = 0.18, c₂ = 0.32; no rebound.
-    pub const SEED: Self =
-        Self { shear_modulus_m: 0.0114, peak_stress_c1: 0.18, peak_stress_c2: 0.32, rebound_ratio: 0.0 };
+    pub const SEED: Self = Self {
+        shear_modulus_m: TABLE_1.shear_modulus_m,
+        peak_stress_c1: TABLE_1.peak_stress_c1,
+        peak_stress_c2: TABLE_1.peak_stress_c2,
+        rebound_ratio: TABLE_1.rebound_ratio,
+    };
 }
 
 impl Figure {

@@ -8,27 +8,13 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use kapvik_firmware::terramechanics::{Soil, Wheel, WheelForces, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::{WheelForces, sinkage_for_load, wheel_forces};
 
-/// A wheel of Kapvik's assumed size.
-const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
-
-/// The seed's Table 1.
-const SOIL: Soil<f64> = Soil {
-    sinkage_exponent: 1.1,
-    cohesive_modulus: 15_600.0,
-    frictional_modulus: 2_407_400.0,
-    cohesion_pa: 250.0,
-    friction_angle_rad: 0.556_760_031_386_191_1,
-    shear_modulus_m: 0.0114,
-    peak_stress_c1: 0.18,
-    peak_stress_c2: 0.32,
-    rebound_ratio: 0.0,
-};
+use crate::prior::{KAPVIK_LOAD_N, KAPVIK_WHEEL};
+use crate::soil_catalogue::TABLE_1;
 
 const SLIPS: [f64; 6] = [0.05, 0.10, 0.20, 0.30, 0.40, 0.60];
 const SINKAGE_M: f64 = 0.018;
-const LOAD_N: f64 = 65.4;
 
 /// What the library states: error in parts of W (of rW for the torque).
 const ACCURACY: f64 = 1e-7;
@@ -81,9 +67,9 @@ pub fn print() {
     if let Some(reason) = note {
         println!("SciPy's quad: left out, {reason}");
     }
-    let solve = seconds_per_call(|slip| sinkage_for_load(&WHEEL, &SOIL, slip, LOAD_N));
+    let solve = seconds_per_call(|slip| sinkage_for_load(&KAPVIK_WHEEL, &TABLE_1, slip, KAPVIK_LOAD_N));
     println!(
-        "\nSinkage for a load of {LOAD_N} N: {:.2} µs, the time of {:.1} evaluations",
+        "\nSinkage for a load of {KAPVIK_LOAD_N} N: {:.2} µs, the time of {:.1} evaluations",
         1e6 * solve,
         solve / fastest
     );
@@ -95,27 +81,27 @@ pub fn print() {
 /// Equations 1–11 by the library; a refusal shows as an error that is not a number.
 fn library(slip: f64) -> WheelForces<f64> {
     let refused = WheelForces { drawbar_pull_n: f64::NAN, load_n: f64::NAN, torque_nm: f64::NAN };
-    wheel_forces(&WHEEL, &SOIL, slip, SINKAGE_M).unwrap_or(refused)
+    wheel_forces(&KAPVIK_WHEEL, &TABLE_1, slip, SINKAGE_M).unwrap_or(refused)
 }
 
 /// Equations 1–11 by Simpson's rule on each side of the peak stress.
 fn simpson(slip: f64, intervals: u32) -> WheelForces<f64> {
-    let r = WHEEL.radius_m;
+    let r = KAPVIK_WHEEL.radius_m;
     let entry = (1.0 - SINKAGE_M / r).acos();
-    let exit = -(1.0 - SOIL.rebound_ratio * SINKAGE_M / r).acos();
-    let peak = (SOIL.peak_stress_c1 + SOIL.peak_stress_c2 * slip) * entry;
-    let k = SOIL.stiffness(WHEEL.width_m) * r.powf(SOIL.sinkage_exponent);
-    let (sin_entry, cos_entry, tan_phi) = (entry.sin(), entry.cos(), SOIL.friction_angle_rad.tan());
+    let exit = -(1.0 - TABLE_1.rebound_ratio * SINKAGE_M / r).acos();
+    let peak = (TABLE_1.peak_stress_c1 + TABLE_1.peak_stress_c2 * slip) * entry;
+    let k = TABLE_1.stiffness(KAPVIK_WHEEL.width_m) * r.powf(TABLE_1.sinkage_exponent);
+    let (sin_entry, cos_entry, tan_phi) = (entry.sin(), entry.cos(), TABLE_1.friction_angle_rad.tan());
     let mut sum = [0.0; 3];
     for (from, to) in [(exit, peak), (peak, entry)] {
         let step = (to - from) / f64::from(intervals);
         for index in 0..=intervals {
             let theta = from + f64::from(index) * step;
             let front = if theta < peak { entry - (theta - exit) / (peak - exit) * (entry - peak) } else { theta };
-            let sigma = k * (front.cos() - cos_entry).max(0.0).powf(SOIL.sinkage_exponent);
+            let sigma = k * (front.cos() - cos_entry).max(0.0).powf(TABLE_1.sinkage_exponent);
             let j = r * ((entry - theta) - (1.0 - slip) * (sin_entry - theta.sin()));
-            let strength = SOIL.cohesion_pa + sigma * tan_phi;
-            let tau = strength * (1.0 - (-j / SOIL.shear_modulus_m).exp());
+            let strength = TABLE_1.cohesion_pa + sigma * tan_phi;
+            let tau = strength * (1.0 - (-j / TABLE_1.shear_modulus_m).exp());
             let weight =
                 step / 3.0 * if index == 0 || index == intervals { 1.0 } else { 2.0 + 2.0 * f64::from(index % 2) };
             sum[0] += weight * (tau * theta.cos() - sigma * theta.sin());
@@ -123,7 +109,7 @@ fn simpson(slip: f64, intervals: u32) -> WheelForces<f64> {
             sum[2] += weight * tau;
         }
     }
-    let area = r * WHEEL.width_m;
+    let area = r * KAPVIK_WHEEL.width_m;
     WheelForces { drawbar_pull_n: area * sum[0], load_n: area * sum[1], torque_nm: area * r * sum[2] }
 }
 
@@ -141,7 +127,7 @@ fn greatest_error(exact: &[WheelForces<f64>], found: &[WheelForces<f64>]) -> f64
     let error = |(exact, found): (&WheelForces<f64>, &WheelForces<f64>)| {
         let pull = (found.drawbar_pull_n - exact.drawbar_pull_n).abs();
         let load = (found.load_n - exact.load_n).abs();
-        let torque = (found.torque_nm - exact.torque_nm).abs() / WHEEL.radius_m;
+        let torque = (found.torque_nm - exact.torque_nm).abs() / KAPVIK_WHEEL.radius_m;
         pull.max(load).max(torque) / exact.load_n
     };
     exact.iter().zip(found).map(error).fold(0.0, |greatest, error| if error <= greatest { greatest } else { error })
@@ -168,16 +154,16 @@ fn seconds_per_call<T>(evaluate: impl Fn(f64) -> T) -> f64 {
 /// The same cases by SciPy's `quad`, or why it was left out.
 fn scipy(exact: &[WheelForces<f64>]) -> Result<Measured, String> {
     let soil = [
-        SOIL.sinkage_exponent,
-        SOIL.stiffness(WHEEL.width_m),
-        SOIL.cohesion_pa,
-        SOIL.friction_angle_rad,
-        SOIL.shear_modulus_m,
-        SOIL.peak_stress_c1,
-        SOIL.peak_stress_c2,
-        SOIL.rebound_ratio,
+        TABLE_1.sinkage_exponent,
+        TABLE_1.stiffness(KAPVIK_WHEEL.width_m),
+        TABLE_1.cohesion_pa,
+        TABLE_1.friction_angle_rad,
+        TABLE_1.shear_modulus_m,
+        TABLE_1.peak_stress_c1,
+        TABLE_1.peak_stress_c2,
+        TABLE_1.rebound_ratio,
     ];
-    let numbers = [WHEEL.radius_m, WHEEL.width_m, SINKAGE_M].into_iter().chain(soil).chain(SLIPS);
+    let numbers = [KAPVIK_WHEEL.radius_m, KAPVIK_WHEEL.width_m, SINKAGE_M].into_iter().chain(soil).chain(SLIPS);
     let mut python = Command::new("python3")
         .arg("-")
         .args(numbers.map(|number| format!("{number:?}")))

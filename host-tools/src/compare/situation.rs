@@ -2,7 +2,8 @@
 
 use kapvik_firmware::terramechanics::Soil;
 
-use crate::prior;
+use crate::prior::KAPVIK_WHEEL;
+use crate::soil_catalogue::TABLE_1;
 
 /// What is asked of every method, many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,22 +59,20 @@ pub const SLIPS: [f64; 2] = [0.05, 0.60];
 const NEAR: Truth = Truth::Off { from: 0.0, to: 1.0 };
 const FAR: Truth = Truth::Off { from: 1.0, to: 2.0 };
 /// The seed's Table 1, of which an independent implementation has figures.
-const FIXED: Truth = Truth::Fixed(TABLE_1);
+const FIXED: Truth = Truth::Fixed(TABLE_1_UNDER_KAPVIK);
 /// Far from what is usual, with figures of the same implementation.
-const FIXED_FAR: Truth =
-    Truth::Fixed(Soil { cohesion_pa: 1500.0, friction_angle_rad: 25.0 * DEGREE, shear_modulus_m: 0.022, ..TABLE_1 });
+const FIXED_FAR: Truth = Truth::Fixed(Soil {
+    cohesion_pa: 1500.0,
+    friction_angle_rad: 25.0 * DEGREE,
+    shear_modulus_m: 0.022,
+    ..TABLE_1_UNDER_KAPVIK
+});
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
-const TABLE_1: Soil<f64> = Soil {
-    sinkage_exponent: 1.1,
+/// With one modulus, k_c/b + k_φ on Kapvik's wheel.
+const TABLE_1_UNDER_KAPVIK: Soil<f64> = Soil {
     cohesive_modulus: 0.0,
-    // k_c/b + k_φ on Kapvik's wheel.
-    frictional_modulus: 15.6e3 / prior::KAPVIK_WHEEL.width_m + 2407.4e3,
-    cohesion_pa: 250.0,
-    friction_angle_rad: 31.9 * DEGREE,
-    shear_modulus_m: 0.0114,
-    peak_stress_c1: 0.18,
-    peak_stress_c2: 0.32,
-    rebound_ratio: 0.0,
+    frictional_modulus: TABLE_1.cohesive_modulus / KAPVIK_WHEEL.width_m + TABLE_1.frictional_modulus,
+    ..TABLE_1
 };
 
 const fn plain(id: &'static str, title: &'static str, truth: Truth, load_spread: f64, instants: u32) -> Situation {
