@@ -25,5 +25,6 @@ pub mod setup;
 pub mod simulate;
 pub mod soil_catalogue;
 pub mod statistics;
+mod terminal_table;
 pub mod train;
 pub mod trial;

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use clap::Args;
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 use kapvik_firmware::estimator::Sensor;
 use kapvik_firmware::rover::Rover;
 
 use crate::simulate::Scenario;
 use crate::simulate::faults::Failure;
+use crate::terminal_table::{align_right, plain_table};
 use crate::trial::faults::{
     ALLOWED_FRAMES, Case, Catalogue, Excess, FAULT_S, Outcome, SENSOR_FAILURES, WATCHED_FRAMES, catalogue,
 };
@@ -90,8 +90,8 @@ fn summary(catalogue: &Catalogue) -> String {
 }
 
 fn table(catalogue: &Catalogue) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(["", "NaN", "infinity", "outlier 1e6", "stuck", "absent"]);
+    let mut table = plain_table();
+    table.set_header(["", "NaN", "infinity", "outlier 1e6", "stuck", "absent"]);
     for kind in KINDS {
         let cell = |failure: Failure| {
             slowest(
@@ -109,7 +109,7 @@ fn table(catalogue: &Catalogue) -> Table {
     for (title, wanted) in of_frames {
         table.add_row([title.to_owned(), slowest(catalogue, |case| case == wanted)]);
     }
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    align_right(&mut table);
     table
 }
 

@@ -1,10 +1,10 @@
 //! `kapvik soils`: the catalogue of soils as a table.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::CellAlignment;
 
 use crate::error::HostError;
 use crate::soil_catalogue::{CatalogueSoil, catalogue};
+use crate::terminal_table::plain_table;
 
 const HEADER: [&str; 12] =
     ["soil", "n", "k_c\nkPa/m^(n-1)", "k_phi\nkPa/m^n", "c\nkPa", "phi\n°", "K\nmm", "c1", "c2", "eta", "source", "id"];
@@ -16,8 +16,8 @@ const HEADER: [&str; 12] =
 pub fn execute() -> Result<(), HostError> {
     let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
     let mut sources: Vec<&str> = Vec::new();
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(HEADER);
+    let mut table = plain_table();
+    table.set_header(HEADER);
     for soil in &soils {
         let known = sources.iter().position(|source| *source == soil.source);
         let source = known.unwrap_or_else(|| {

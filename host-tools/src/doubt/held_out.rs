@@ -1,13 +1,13 @@
 //! How honest standard deviations are before and after, on rows that took no part in training. Errors of sides that start or stop count here
 //! as they do in training: one and a half times.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 use kapvik_firmware::estimator::doubt::{DoubtNetwork, Memory, OUTPUTS, QUANTITIES, times_stated};
 
 use super::drives::{Driven, NOMINAL};
 use super::loss::loss;
 use super::rows::{Known, Row, SideRows};
+use crate::terminal_table::{align_right, plain_table};
 
 /// What is stated: of each wheel, and of each bogie.
 const STATED: [&str; QUANTITIES + 1] =
@@ -124,7 +124,8 @@ pub fn tables(driven: &[Driven; NOMINAL.len()], sets: &[BeforeAfter; NOMINAL.len
         let shares = percentages(total.before.shares(stated), total.after.shares(stated));
         quantities.add_row(std::iter::once((*name).to_owned()).chain(shares));
     }
-    let [scenarios, quantities] = [scenarios, quantities].map(aligned);
+    align_right(&mut scenarios);
+    align_right(&mut quantities);
     format!("{scenarios}\n\n{quantities}\n\nof normal errors 68.3 % and 95.4 % would be within")
 }
 
@@ -141,14 +142,9 @@ fn percentages([one, two]: [f64; 2], [one_after, two_after]: [f64; 2]) -> [Strin
 }
 
 fn headed(first: &[&str], last: &[&str]) -> Table {
-    let mut table = Table::new();
+    let mut table = plain_table();
     let shares = ["within 1σ/%", "after", "within 2σ/%", "after"];
-    table.load_style(NOTHING).set_header(first.iter().chain(&shares).chain(last).copied());
-    table
-}
-
-fn aligned(mut table: Table) -> Table {
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    table.set_header(first.iter().chain(&shares).chain(last).copied());
     table
 }
 

@@ -4,7 +4,8 @@ use crate::identify::{Document, ParameterDocument, RunDocument, SoilDocument};
 use crate::parameter::Parameter;
 
 use super::draw::number;
-use super::terminal::{align_right, plain_table, wrapped};
+use super::terminal::wrapped;
+use crate::terminal_table::{align_right, plain_table};
 
 /// What the marks mean.
 const LEGEND: &str = "value ± one standard deviation; ? = cannot be told from these data; ( ) = taken as given";

@@ -1,7 +1,6 @@
 //! The findings as a table for the terminal.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 use kapvik_firmware::soil::SoilEstimate;
 
 use super::caveats::caveats;
@@ -10,6 +9,7 @@ use super::findings::{EstimateRow, Findings};
 use super::residual::ModelCheck;
 use super::verdict::Verdict;
 use crate::parameter::Parameter;
+use crate::terminal_table::{align_right, plain_table};
 
 /// A table of the estimates beside the direct tests, a table of what the equations leave, and the caveats.
 pub fn terminal(findings: &Findings) -> String {
@@ -91,20 +91,6 @@ fn residuals(model: &ModelCheck) -> Table {
     ]);
     align_right(&mut table);
     table
-}
-
-/// A table without lines.
-pub(super) fn plain_table() -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING);
-    table
-}
-
-/// Sets all columns but the first to the right.
-pub(super) fn align_right(table: &mut Table) {
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
 }
 
 /// A paragraph with a mark before it, in lines that a terminal can show.

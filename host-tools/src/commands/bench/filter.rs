@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 
 use crate::error::HostError;
 use crate::qemu::{Binary, Survival, TargetBench};
 use crate::setup;
+use crate::terminal_table::{align_right, plain_table};
 
 /// How long the image may take: far longer than it does.
 const PATIENCE: Duration = Duration::from_secs(1200);
@@ -56,8 +56,8 @@ pub fn execute() -> Result<(), HostError> {
 }
 
 fn costs(bench: &TargetBench) -> Result<Table, HostError> {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(["", "6/6", "stack, B", "object, B", "12/18", "stack, B", "object, B"]);
+    let mut table = plain_table();
+    table.set_header(["", "6/6", "stack, B", "object, B", "12/18", "stack, B", "object, B"]);
     for (name, title) in FILTERS {
         let mut row = vec![title.to_owned()];
         for size in ["6_6", "12_18"] {
@@ -68,13 +68,13 @@ fn costs(bench: &TargetBench) -> Result<Table, HostError> {
         }
         table.add_row(row);
     }
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    align_right(&mut table);
     Ok(table)
 }
 
 fn survivals(bench: &TargetBench) -> Result<Table, HostError> {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header([""].into_iter().chain(FILTERS.map(|(_, title)| title)));
+    let mut table = plain_table();
+    table.set_header([""].into_iter().chain(FILTERS.map(|(_, title)| title)));
     for (fault, title) in FAULTS {
         let mut row = vec![title.to_owned()];
         for (name, _) in FILTERS {

@@ -6,7 +6,7 @@ use crate::compare::{CONTENDERS, Compared, Comparison, MeasuredRow, ParameterSco
 use crate::parameter::Parameter;
 use crate::report::draw::number;
 use crate::report::identified::{remark, soil_cells};
-use crate::report::terminal::{align_right, plain_table};
+use crate::terminal_table::{align_right, plain_table};
 
 use super::verdict::{is_best, to_limit, verdicts};
 

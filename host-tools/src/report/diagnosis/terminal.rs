@@ -7,7 +7,8 @@ use super::findings::DiagnosisFindings;
 use super::laws::parameters;
 use super::quantity::Quantity;
 use crate::diagnose::document::{Candidate, Diagnosis};
-use crate::report::terminal::{align_right, plain_table, wrapped};
+use crate::report::terminal::wrapped;
+use crate::terminal_table::{align_right, plain_table};
 
 /// So many candidates are listed.
 const LISTED: usize = 5;

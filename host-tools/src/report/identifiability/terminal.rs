@@ -6,7 +6,8 @@ use super::{Observability, assumptions};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
 use crate::parameter::Parameter;
-use crate::report::terminal::{align_right, plain_table, wrapped};
+use crate::report::terminal::wrapped;
+use crate::terminal_table::{align_right, plain_table};
 
 /// The sentence, the table of manoeuvres, and what it rests on.
 pub fn terminal(told: &Observability) -> String {

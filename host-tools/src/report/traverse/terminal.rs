@@ -3,7 +3,8 @@
 use super::errors;
 use super::findings::TraverseFindings;
 use crate::replay;
-use crate::report::terminal::{align_right, plain_table, wrapped};
+use crate::report::terminal::wrapped;
+use crate::terminal_table::{align_right, plain_table};
 
 use super::caveats::caveats;
 
