@@ -6,6 +6,7 @@ use kapvik_firmware::rover::{Axle, PerAxle};
 use serde::Serialize;
 
 use super::steady_drive::Drives;
+use crate::statistics::sorted;
 
 /// How the wheels of a leg are driven; those of one axle alike.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -62,10 +63,8 @@ impl Pattern {
     /// Whether the ratio that the others are compared with is one: the ratio that two axles share, else the middle one.
     pub fn is_canonical(&self) -> bool {
         let Self::Roll(ratios) = self else { return true };
-        let mut sorted = ratios.into_array();
-        sorted.sort_by(f64::total_cmp);
         // Of three sorted numbers, the middle one is also that which two share.
-        sorted[1] == 1.0
+        sorted(ratios.into_array())[1] == 1.0
     }
 }
 

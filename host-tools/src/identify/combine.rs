@@ -17,6 +17,7 @@ use kapvik_firmware::wheel_state::WheelState;
 use super::memory::RowsPerReading;
 use super::selection::{Bounds, mean_noise};
 use super::spread::Spread;
+use crate::statistics::sorted;
 
 /// Slips that differ by this belong together as much as loads that differ by [`ALIKE_LOAD`].
 pub const ALIKE_SLIP: f64 = 0.1;
@@ -195,8 +196,7 @@ impl Group {
 /// The cut along an axis that leaves the least scatter on its two sides.
 fn best_cut(samples: &[Sample], axes: &[Axis; 2], place_of_axis: usize) -> Option<Cut> {
     let axis = &axes[place_of_axis];
-    let mut values: Vec<f64> = samples.iter().map(axis.of).collect();
-    values.sort_by(f64::total_cmp);
+    let values = sorted(samples.iter().map(axis.of));
     let count = values.len() as f64;
     // About the mean, so that the sums of squares lose no digits.
     let centre = mean(values.iter().copied());

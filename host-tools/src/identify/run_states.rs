@@ -2,6 +2,7 @@
 
 use crate::data::campaign::{Campaign, Channel};
 use crate::error::HostError;
+use crate::statistics::sorted;
 
 use super::SensorNoise;
 use super::combine::{MeanState, Sample, combine};
@@ -45,8 +46,7 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> V
             rows_left_out.sort_by_key(|(line, _)| *line);
         }
         let samples: Vec<Sample> = samples.into_iter().map(|(_, sample)| sample).collect();
-        let mut times: Vec<f64> = samples.iter().map(|sample| sample.t_s).collect();
-        times.sort_by(f64::total_cmp);
+        let mut times = sorted(samples.iter().map(|sample| sample.t_s));
         times.dedup();
         RunStates {
             run: run.to_owned(),

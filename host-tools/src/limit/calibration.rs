@@ -3,9 +3,11 @@
 //! S. Talts, M. Betancourt, D. Simpson, A. Vehtari, A. Gelman, "Validating Bayesian inference algorithms with
 //! simulation-based calibration" (2018).
 
+use crate::statistics::sorted;
+
 /// Distance of the distribution of ranks (each 0 … 1) from the uniform one: Kolmogorov's statistic.
-pub fn distance_from_uniform(mut ranks: Vec<f64>) -> f64 {
-    ranks.sort_by(f64::total_cmp);
+pub fn distance_from_uniform(ranks: Vec<f64>) -> f64 {
+    let ranks = sorted(ranks);
     let count = ranks.len() as f64;
     let gap = |(place, rank): (usize, &f64)| (rank - place as f64 / count).max((place as f64 + 1.0) / count - rank);
     ranks.iter().enumerate().map(gap).fold(0.0, f64::max)

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use crate::compare::{Compared, ParameterScore, Score};
 use crate::parameter::Parameter;
 use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, px, text};
+use crate::statistics::sorted;
 
 use super::terminal::label;
 use super::verdict::is_best;
@@ -46,8 +47,7 @@ fn is_shown(score: &ParameterScore) -> bool {
 
 /// What lies beyond eight times the typical error is drawn at the edge: it would hide the others.
 fn limits(ends: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = ends.iter().map(|end| end.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
+    let sizes = sorted(ends.iter().map(|end| end.abs()));
     8.0 * sizes.get(sizes.len() / 3).copied().unwrap_or(1.0)
 }
 

@@ -7,6 +7,7 @@ use super::samples::{Sample, Samples};
 use super::time_axis::{self, LEFT, RIGHT, Spread, WIDTH, runs, spreads};
 use crate::data::truth_file::WheelTruth;
 use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, path, px, text};
+use crate::statistics::sorted;
 
 /// Height of a row of plots.
 pub const HEIGHT: f64 = 176.0;
@@ -121,8 +122,7 @@ impl Quantity {
         let estimated =
             places().filter_map(|(sample, place)| self.spread(sample, place)).flat_map(|spread| spread.inner);
         let truth = places().filter_map(|(sample, place)| self.true_value(sample, place));
-        let mut values: Vec<f64> = estimated.chain(truth).filter(|value| value.is_finite()).collect();
-        values.sort_by(f64::total_cmp);
+        let values = sorted(estimated.chain(truth).filter(|value| value.is_finite()));
         let cut = (LEFT_OUT * values.len() as f64) as usize;
         let kept = values.get(cut..values.len().saturating_sub(cut)).unwrap_or(&[]);
         Scale::around(kept.iter().copied(), (BOTTOM, TOP))
