@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use indicatif::{ParallelProgressIterator, ProgressBar};
-use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::{PerSide, Rover, SensorNoise};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -18,7 +17,7 @@ use crate::simulate::effects::RoverEffects;
 use crate::simulate::faults::{Failure, Fault};
 use crate::simulate::{Options, Scenario, Traverse};
 use crate::train::dataset::stream;
-use crate::trial::WARM_UP_S;
+use crate::trial::{WARM_UP_S, flight_pipeline};
 
 /// What the network has to be right on.
 pub const NOMINAL: [Scenario; 7] = [
@@ -209,8 +208,7 @@ impl Journey {
         let failed = |what: String| HostError::Failed(format!("{:?}, seed {}: {what}", self.scenario, self.seed));
         let (rover, options) = self.deviation.draw(&mut stream(self.seed, DEVIATION_STREAM)).map_err(failed)?;
         let traverse = Traverse::new(self.scenario, self.seed, &rover, &options);
-        let mut pipeline =
-            Pipeline::new(&rover.map(|value| value as f32)).map_err(|error| failed(format!("{error:?}")))?;
+        let mut pipeline = flight_pipeline(&rover).map_err(failed)?;
         let mut sides = PerSide::<SideRows>::default();
         for step in traverse.map_err(|error| failed(error.to_string()))? {
             let (frame, truth) = step.map_err(|error| failed(error.to_string()))?;

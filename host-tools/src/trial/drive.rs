@@ -8,6 +8,7 @@ use kapvik_firmware::rover::Rover;
 
 use super::consistency::{NormalisedSquares, normalised_square};
 use super::errors::Errors;
+use super::flight_pipeline::flight_pipeline;
 use super::pulls_seen::PullsSeen;
 use super::soil_seen::SoilSeen;
 use crate::data::truth_file::{Truth, WheelTruth};
@@ -98,8 +99,7 @@ impl Drive {
     pub fn run(scenario: Scenario, seed: u64, rover: &Rover<f64>, options: &Options) -> Result<Self, HostError> {
         let failed = |what: String| HostError::Failed(format!("{scenario:?}, seed {seed}: {what}"));
         let mut traverse = Traverse::new(scenario, seed, rover, options).map_err(|error| failed(error.to_string()))?;
-        let flight = rover.map(|value| value as f32);
-        let mut pipeline = Pipeline::new(&flight).map_err(|error| failed(format!("{error:?}")))?;
+        let mut pipeline = flight_pipeline(rover).map_err(failed)?;
         let (mut drive, mut trailing) = (Self::default(), TrailingMean::default());
         let mut seen = SoilSeen::default();
         for index in 0.. {

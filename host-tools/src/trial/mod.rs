@@ -5,6 +5,7 @@ pub mod consistency;
 mod drive;
 pub mod errors;
 pub mod faults;
+mod flight_pipeline;
 pub mod pulls_seen;
 mod report;
 pub mod soil_seen;
@@ -12,6 +13,7 @@ pub mod tally;
 pub mod whiteness;
 
 pub use drive::{Drive, Quantity, SOIL_LOOK_S, SoilPoint, WARM_UP_S};
+pub use flight_pipeline::flight_pipeline;
 pub use report::{Trial, errors_over, trial};
 
 /// A rover slower than this stands, m/s, and tells nothing of its contacts nor of the soil.

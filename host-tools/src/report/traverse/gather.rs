@@ -20,12 +20,13 @@ use crate::replay::naive::{TrailingMean, naive};
 use crate::replay::{Recording, replay};
 use crate::report::facts::FlightFacts;
 use crate::simulate::{Options, Scenario, Traverse};
+use crate::trial::WARM_UP_S;
 use crate::trial::errors::Errors;
 
 /// The traverse that the project carries: this drive of the simulator.
 const CARRIED: (Scenario, u64) = (Scenario::Traverse, 2);
-/// Errors of the first seconds are not counted: the estimators know nothing yet, and the rover stands.
-const WARM_UP_US: u64 = 5_000_000;
+/// [`WARM_UP_S`] as the truth has it.
+const WARM_UP_US: u64 = (1.0e6 * WARM_UP_S) as u64;
 
 type Step = Result<(SensorFrame, Option<Truth>), HostError>;
 

@@ -14,6 +14,7 @@ use crate::data::truth_file::Truth;
 use crate::error::HostError;
 use crate::replay::health::sensor_name;
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
+use crate::trial::flight_pipeline;
 
 /// When the sensors fail, s, both included.
 pub const FAULT_S: (f64, f64) = (30.0, 33.0);
@@ -66,8 +67,7 @@ impl FaultDrive {
         let start = before.partition_point(|(frame, _)| (frame.time_us as f64) < 1.0e6 * FAULT_S.0);
         let frames = before.split_off(start);
         let faulty_frames = frames.partition_point(|(frame, _)| frame.time_us as f64 <= 1.0e6 * FAULT_S.1);
-        let mut pipeline =
-            Pipeline::new(&rover.map(|value| value as f32)).map_err(|error| failed(format!("{error:?}")))?;
+        let mut pipeline = flight_pipeline(rover).map_err(failed)?;
         before.iter().for_each(|(frame, _)| {
             pipeline.tick(frame);
         });
