@@ -5,6 +5,7 @@ mod gravity_felt;
 pub mod health;
 pub mod naive;
 mod outcome;
+mod raw_sensors;
 mod recording;
 mod scatter;
 mod weighing;

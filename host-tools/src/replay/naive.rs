@@ -3,8 +3,10 @@
 use std::collections::VecDeque;
 
 use kapvik_firmware::estimator::slip_by_speeds::slip_by;
-use kapvik_firmware::rover::{PerAxle, PerSide, PerWheel, Rover};
+use kapvik_firmware::rover::{PerWheel, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
+
+use super::raw_sensors::{links, rockers, wide};
 
 /// What the raw sensors say of one wheel; none where one of the sensors that it takes gave nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,7 +25,6 @@ pub struct NaiveWheel {
 
 /// What the raw sensors of a frame say.
 pub fn naive(rover: &Rover<f64>, frame: &SensorFrame) -> PerWheel<NaiveWheel> {
-    let wide = |value: Option<f32>| value.map(f64::from).filter(|value| value.is_finite());
     let speed = wide(frame.velocity_m_s.x);
     let loads = frame.wheels.map_wheels(|wheel| wide(wheel.load_cell_n));
     let pull = wide(frame.accel_m_s2.x).map(|accel| rover.mass_kg * accel);
@@ -45,16 +46,9 @@ pub fn naive(rover: &Rover<f64>, frame: &SensorFrame) -> PerWheel<NaiveWheel> {
 
 /// Pitch of the rocker for the front wheels, of the bogies for the others, against the horizontal.
 fn link_pitch(frame: &SensorFrame) -> PerWheel<Option<f64>> {
-    let wide = |value: Option<f32>| value.map(f64::from).filter(|value| value.is_finite());
     let accel = frame.accel_m_s2.map(wide).all();
     let pitch = accel.map(|accel| accel.x.atan2(accel.y.hypot(accel.z)));
-    let left = wide(frame.rocker_angle_rad);
-    let rockers = PerSide { left, right: left.map(|angle| -angle) };
-    rockers.zip(frame.bogie_angle_rad).map(|(rocker, bogie)| {
-        let rocker = pitch.zip(rocker).map(|(pitch, angle)| pitch + angle);
-        let bogie = rocker.zip(wide(bogie)).map(|(pitch, angle)| pitch + angle);
-        PerAxle { front: rocker, middle: bogie, rear: bogie }
-    })
+    links(frame, rockers(frame).map(|rocker| pitch.zip(rocker).map(|(pitch, angle)| pitch + angle)))
 }
 
 /// The mean of what the raw sensors said in the second up to each frame.
@@ -99,7 +93,7 @@ fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kapvik_firmware::rover::Axes;
+    use kapvik_firmware::rover::{Axes, PerAxle, PerSide};
     use kapvik_firmware::sensor_frame::WheelSensors;
 
     /// Level ground, 0.1 m/s, rims at 0.125 m/s, 60 N on each wheel.

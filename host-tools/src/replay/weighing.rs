@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use kapvik_firmware::rover::{PerAxle, PerSide, Rover};
+use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
+
+use super::raw_sensors::{links, rockers, wide};
 
 /// Slower than this a rover does not drive, m/s: forces along the links of one that stands are whatever friction left there.
 const DRIVING_M_S: f64 = 0.005;
@@ -126,20 +128,11 @@ fn is_driving(frame: &SensorFrame) -> bool {
 
 /// What the cells bear together along the body's upright and towards its tail, N. Each is square to its link.
 fn cells_n(frame: &SensorFrame) -> Option<(f64, f64)> {
-    let rocker = wide(frame.rocker_angle_rad)?;
-    let links = PerSide { left: rocker, right: -rocker }.zip(frame.bogie_angle_rad).map(|(rocker, bogie)| {
-        let bogie = wide(bogie).map(|bogie| rocker + bogie);
-        PerAxle { front: Some(rocker), middle: bogie, rear: bogie }
-    });
+    let links = links(frame, rockers(frame));
     let mut sums = (0.0, 0.0);
     for (wheel, link) in frame.wheels.iter_wheels().zip(links.iter_wheels()) {
         let (cell_n, (sine, cosine)) = (wide(wheel.load_cell_n)?, (*link)?.sin_cos());
         sums = (sums.0 + cell_n * cosine, sums.1 + cell_n * sine);
     }
     Some(sums)
-}
-
-/// A reading that is a number.
-fn wide(value: Option<f32>) -> Option<f64> {
-    value.map(f64::from).filter(|value| value.is_finite())
 }

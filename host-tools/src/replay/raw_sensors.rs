@@ -1,0 +1,24 @@
+//! The raw sensors' readings as numbers, and where their angles put the links.
+
+use kapvik_firmware::rover::{PerAxle, PerSide, PerWheel};
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+/// A reading that is a number.
+pub fn wide(reading: Option<f32>) -> Option<f64> {
+    reading.map(f64::from).filter(|number| number.is_finite())
+}
+
+/// Angles of the rockers against the body, rad: what one goes up, the other goes down.
+pub fn rockers(frame: &SensorFrame) -> PerSide<Option<f64>> {
+    let left = wide(frame.rocker_angle_rad);
+    PerSide { left, right: left.map(|angle| -angle) }
+}
+
+/// Angle of the link that carries each wheel, rad: that of the rocker for the front wheels, of the bogie on it for the others;
+/// against whatever the rockers' angles are.
+pub fn links(frame: &SensorFrame, rockers: PerSide<Option<f64>>) -> PerWheel<Option<f64>> {
+    rockers.zip(frame.bogie_angle_rad).map(|(rocker, bogie)| {
+        let bogie = rocker.zip(wide(bogie)).map(|(rocker, bogie)| rocker + bogie);
+        PerAxle { front: rocker, middle: bogie, rear: bogie }
+    })
+}
