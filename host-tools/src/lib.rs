@@ -25,6 +25,7 @@ pub mod setup;
 pub mod simulate;
 pub mod soil_catalogue;
 pub mod statistics;
+mod target_folder;
 mod terminal_table;
 pub mod train;
 pub mod trial;

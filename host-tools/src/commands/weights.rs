@@ -13,7 +13,8 @@ use kapvik_table_file::{TableFile, checksum};
 
 use crate::error::HostError;
 use crate::flight_computer::Computer;
-use crate::process::{built_executable, command, run_with_spinner, workspace};
+use crate::process::{built_executable, command, run_with_spinner};
+use crate::target_folder::target_folder;
 use crate::train::emit::EFFECTS_NOTE;
 use crate::train::world::World;
 
@@ -101,7 +102,5 @@ fn build(table: &Path, folder: &Path) -> Result<PathBuf, HostError> {
 
 /// A folder of its own, so that what was built with the table of the source tree stays.
 fn build_folder() -> PathBuf {
-    let target = std::env::var_os("CARGO_TARGET_DIR")
-        .map_or_else(|| workspace().join("target"), |folder| workspace().join(folder));
-    target.join("weights")
+    target_folder().join("weights")
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::HostError;
 use crate::process::{built_executable, run_with_spinner, workspace};
 use crate::setup::Toolchain;
+use crate::target_folder::target_folder;
 
 /// A program for the board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,7 +59,7 @@ impl Image {
         cargo.args(["--profile", "flight"]);
         if binary == Binary::Contenders {
             cargo.arg("--manifest-path").arg(workspace().join("tests/contenders/Cargo.toml"));
-            cargo.env("CARGO_TARGET_DIR", workspace().join("target/contenders"));
+            cargo.env("CARGO_TARGET_DIR", target_folder().join("contenders"));
             // What suits the flight image would slow down what it is compared with.
             cargo.env("CARGO_ENCODED_RUSTFLAGS", "");
         } else {

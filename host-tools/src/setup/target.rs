@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::HostError;
-use crate::process::{command, find_on_path, output_of, run_with_spinner, workspace};
+use crate::process::{command, find_on_path, output_of, run_with_spinner};
+use crate::target_folder::target_folder;
 
 use super::{TargetFrom, apt};
 
@@ -55,10 +56,6 @@ impl TargetRoute {
         cargo.env("CARGO_ENCODED_RUSTFLAGS", IMAGE_FLAGS);
         cargo
     }
-}
-
-fn target_folder() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), |folder| workspace().join(folder))
 }
 
 /// The way to the target, and a line about where it came from.
