@@ -17,6 +17,7 @@ mod parameter;
 mod picture;
 mod residual;
 mod response;
+mod sentence;
 mod terminal;
 pub mod traverse;
 mod verdict;

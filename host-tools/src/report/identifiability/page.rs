@@ -2,12 +2,13 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::terminal::{capitalised, loads, named, slips};
+use super::terminal::{loads, named, slips};
 use super::{Observability, assumptions, picture};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
 use crate::parameter::Parameter;
 use crate::report::page::head;
+use crate::report::sentence::capitalised;
 
 /// Orders are sentences: they wrap.
 const STYLE: &str = "table.numbers td.manoeuvre { white-space: normal; min-width: 17rem; }";

@@ -6,6 +6,7 @@ use super::{Observability, assumptions};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
 use crate::parameter::Parameter;
+use crate::report::sentence::capitalised;
 use crate::report::terminal::wrapped;
 use crate::terminal_table::{align_right, plain_table};
 
@@ -85,10 +86,4 @@ fn of_wheels(finding: &Finding, shown: impl Fn(f64, f64) -> String) -> String {
     };
     let legs: Vec<String> = finding.legs.iter().map(|driven| leg(driven.drive.wheels.into_array())).collect();
     legs.join("; ")
-}
-
-/// With a capital letter and a full stop.
-pub(super) fn capitalised(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }

@@ -1,14 +1,10 @@
 //! Whether what the rover file states is what the sensors show: mass, gravity, noise.
 
 use super::findings::TraverseFindings;
+use crate::report::sentence::capitalised;
 
 /// What a reader must know where it is not.
 pub fn rover_file_doubts(findings: &TraverseFindings) -> Option<String> {
-    let sentences: Vec<String> = findings.outcome.doubts_of_rover_file().filter_map(|said| sentence(&said)).collect();
+    let sentences: Vec<String> = findings.outcome.doubts_of_rover_file().map(|said| capitalised(&said)).collect();
     (!sentences.is_empty()).then(|| sentences.join(" "))
-}
-
-fn sentence(said: &str) -> Option<String> {
-    let first = said.chars().next()?;
-    Some(format!("{}{}.", first.to_uppercase(), &said[first.len_utf8()..]))
 }
