@@ -88,10 +88,7 @@ impl Verdict {
 
 /// Whether the 95 % interval and that of the direct tests have nothing in common.
 fn excludes(estimate: &ParameterEstimate, known: Knowledge) -> bool {
-    let (low, high) = match known {
-        Knowledge::Value { value, std } => (value - 2.0 * std, value + 2.0 * std),
-        Knowledge::Between { min, max } => (min, max),
-    };
+    let (low, high) = known.within(2.0);
     let [least, greatest] = estimate.interval_95.map(f64::from);
     greatest < low || least > high
 }

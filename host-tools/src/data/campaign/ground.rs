@@ -40,8 +40,13 @@ impl Knowledge {
 
     /// From one standard deviation below to one above, or the bounds.
     pub fn range(self) -> (f64, f64) {
+        self.within(1.0)
+    }
+
+    /// From so many standard deviations below to as many above, or the bounds.
+    pub fn within(self, stds: f64) -> (f64, f64) {
         match self {
-            Self::Value { value, std } => (value - std, value + std),
+            Self::Value { value, std } => (value - stds * std, value + stds * std),
             Self::Between { min, max } => (min, max),
         }
     }

@@ -72,10 +72,7 @@ fn knowledge(known: Knowledge, factor: f64) -> String {
 
 /// Before above after, each over two standard deviations, on what was known.
 fn picture(row: &Row) -> Markup {
-    let band = row.known.map(|known| match known {
-        Knowledge::Value { value, std } => (value - 2.0 * std, value + 2.0 * std),
-        Knowledge::Between { min, max } => (min, max),
-    });
+    let band = row.known.map(|known| known.within(2.0));
     let ends = |estimate: Estimate| [estimate.value - 2.0 * estimate.std, estimate.value + 2.0 * estimate.std];
     let all = [row.before, row.after].into_iter().flatten().flat_map(ends);
     let Some((low, high)) = span(all.chain(band.into_iter().flat_map(|(low, high)| [low, high]))) else {
