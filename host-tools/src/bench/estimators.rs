@@ -5,6 +5,7 @@ use kapvik_firmware::rover::Rover;
 
 use super::estimators_soil;
 use crate::simulate::Scenario;
+use crate::trial::consistency::WILD;
 use crate::trial::pulls_seen::MeanSquare;
 use crate::trial::tally::Tally;
 use crate::trial::{Quantity, Trial, trial};
@@ -56,7 +57,7 @@ fn print(trial: &Trial) {
         print!("  {name:16} {mean:9.3} ±{error:5.3} of 1, inside 95 % bounds {inside:5.1} %");
         let (share, weight) = squares.wild();
         if name.starts_with("NEES") {
-            print!(", squares above 30: {:.2} % of all, {:.0} % of the sum", 100.0 * share, 100.0 * weight);
+            print!(", squares above {WILD}: {:.2} % of all, {:.0} % of the sum", 100.0 * share, 100.0 * weight);
         }
         println!();
     }

@@ -16,7 +16,8 @@ use super::diagnose::campaign;
 /// Options of `kapvik identify`.
 #[derive(Args)]
 pub struct Arguments {
-    /// The campaign NAME.csv, with NAME.toml beside it; or the name of one that the project carries (ding2011-smooth)
+    /// The campaign NAME.csv, with NAME.toml beside it; or the name of one that the project carries (ding2011-smooth,
+    /// cmu-smooth-straight, cmu-smooth-transients)
     campaign: PathBuf,
     /// How the soil is identified
     #[arg(long, value_enum)]

@@ -43,7 +43,8 @@ pub struct Arguments {
 /// Trains, prints both comparisons, writes the table.
 ///
 /// # Errors
-/// Where a file cannot be written.
+/// Where a file cannot be read or written, or does not declare effects as it should; and where these leave next to no scene in which
+/// the soil carries the wheels.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let Arguments { output, declared, picture, .. } = arguments;
     outputs::check(&[Some(output), picture.as_deref()], &[declared.as_deref()])?;

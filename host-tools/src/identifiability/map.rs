@@ -18,7 +18,7 @@ pub const DESIGNS: [WheelsInTurn; 5] = [
     WheelsInTurn { wheels: 6, stations_each: 6 },
 ];
 /// Slip about which slips are spread.
-const MIDDLE_SLIP: f64 = 0.325;
+pub const MIDDLE_SLIP: f64 = 0.325;
 /// Greatest spread of slip, from least to greatest: 0.05 … 0.60.
 pub const GREATEST_SLIP_SPREAD: f64 = 0.55;
 /// Greatest half spread of load over its mean.

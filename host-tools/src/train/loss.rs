@@ -23,7 +23,8 @@ pub fn mean_square(outputs: &[f32; OUTPUTS], target: &[f32; TARGETS]) -> (f32, [
     (loss, slope)
 }
 
-/// Negative log-likelihood of one example, and its slope against each output.
+/// Negative log-likelihood of one example, and its slope against each output. Beyond [`LOG_VARIANCE`] the loss does not follow a
+/// log-variance, and the slope against it stays that at the bound, so that an output can find back.
 pub fn gaussian(outputs: &[f32; OUTPUTS], target: &[f32; TARGETS]) -> (f32, [f32; OUTPUTS]) {
     let mut loss = 0.0;
     let mut slope = [0.0; OUTPUTS];

@@ -6,7 +6,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// Wheels of a rover, and so places at which one frame may have a square of its own.
 const PLACES: usize = 6;
 /// A square of two or three degrees of freedom is as large once in a million times, where errors are normal and the covariance is right.
-const WILD: f64 = 30.0;
+pub const WILD: f64 = 30.0;
 
 /// Normalised squares over several runs, of errors (NEES) or of innovations (NIS), summed for each frame and each wheel or side by
 /// itself: runs are independent of each other, wheels of one rover are not, since they share a camera and a body.
@@ -69,7 +69,7 @@ impl NormalisedSquares {
         })
     }
 
-    /// Shares that squares above thirty, of two or three degrees of freedom each, have of their number and of their sum: one in a million
+    /// Shares that squares above [`WILD`], of two or three degrees of freedom each, have of their number and of their sum: one in a million
     /// and as good as nothing where errors are normal.
     pub fn wild(&self) -> (f64, f64) {
         let total = self.total();

@@ -9,8 +9,9 @@ pub use picture::picture;
 pub use terminal::terminal;
 
 use crate::identifiability::advice::{Advice, Document};
-use crate::identifiability::map::{Cell, MapQuestion};
+use crate::identifiability::map::{Cell, MIDDLE_SLIP, MapQuestion};
 use crate::identifiability::search::{Question, SETTLING_S};
+use crate::identifiability::sensors::FRAMES_PER_SECOND;
 
 /// How the map looks.
 const MAP_CSS: &str = include_str!("map.css");
@@ -57,10 +58,10 @@ fn assumptions(told: &Observability) -> Vec<String> {
             beforehand.peak.in_words()
         ),
         format!(
-            "20 frames a second with the white noise of the rover's sensors, {sinkage}, and {:.1} N in each wheel's drawbar pull \
+            "{FRAMES_PER_SECOND:.0} frames a second with the white noise of the rover's sensors, {sinkage}, and {:.1} N in each wheel's drawbar pull \
              over one second from uneven ground. Drawbar pulls are not measured: they follow from the balances of bogie, \
              rocker and rover.",
-            measurement.ground_n / crate::identifiability::sensors::FRAMES_PER_SECOND.sqrt()
+            measurement.ground_n / FRAMES_PER_SECOND.sqrt()
         ),
         format!(
             "These errors last, however long the drive: velocimeter scale {:.1} %, each load cell {:.1} N, each drive torque \
@@ -88,7 +89,7 @@ fn assumptions(told: &Observability) -> Vec<String> {
         format!(
             "The map: {:.1} N, {:.1} N, {:.2} N·m and {:.3} of noise in drawbar pull, load, torque and slip of an instant, {} \
              independent instants a second (level ground; hills leave a tenth), no sinkage, the same lasting errors and \
-             {:.2} N in each wheel's drawbar pull. Six stations of slip (about 0.33) and load; a wheel that goes through \
+             {:.2} N in each wheel's drawbar pull. Six stations of slip (about {MIDDLE_SLIP:.2}) and load; a wheel that goes through \
              several in turn shows its own lasting errors.",
             told.map_question.measurement.noise.drawbar_pull_n,
             told.map_question.measurement.noise.load_n,
