@@ -38,7 +38,7 @@ pub fn page(comparison: &Comparison) -> String {
                 main {
                     @for parameter in [Parameter::FrictionAngle, Parameter::ShearModulus, Parameter::Cohesion] {
                         section {
-                            h2 { "Median error of " (parameter.symbol()) ", " (unit(parameter)) }
+                            h2 { "Median error of " (parameter.symbol()) ", " (parameter.unit()) }
                             (overview::table(comparison, parameter))
                         }
                     }
@@ -71,14 +71,6 @@ fn limit_section(comparison: &Comparison) -> Markup {
     }
 }
 
-fn unit(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Cohesion => "Pa",
-        Parameter::FrictionAngle => "degrees",
-        Parameter::ShearModulus => "mm",
-    }
-}
-
 fn situation(compared: &Compared) -> Markup {
     html! {
         section {
@@ -89,7 +81,7 @@ fn situation(compared: &Compared) -> Markup {
                 caption { "Medians [quartiles] of the estimates; share of the 68 % and 95 % intervals that hold the truth, in %." }
                 thead { tr {
                     th {}
-                    @for parameter in Parameter::ALL { th { (parameter.symbol()) ", " (unit(parameter)) } th { "68, 95" } th { "told" } }
+                    @for parameter in Parameter::ALL { th { (parameter.symbol()) ", " (parameter.unit()) } th { "68, 95" } th { "told" } }
                     th { "refused" } th { "time" }
                 } }
                 tbody { @for score in &compared.scores { (row(score)) } }
