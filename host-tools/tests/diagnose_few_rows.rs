@@ -1,6 +1,7 @@
 //! Diagnosis of nine rows, each a run of its own, whose noise nobody states, with many columns beside.
 
 mod described;
+mod diagnosis;
 mod slip_sinkage;
 
 use std::fmt::Write;
@@ -8,13 +9,13 @@ use std::path::Path;
 
 use kapvik_firmware::wheel_state::WheelNoise;
 use kapvik_host::data::campaign::Campaign;
-use kapvik_host::diagnose::document::{Diagnosis, Verdict};
-use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
+use kapvik_host::diagnose::document::Verdict;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use described::{COLUMNS, description, readings};
+use diagnosis::diagnosed;
 use slip_sinkage::Sinking;
 
 const SOIL: &str = "\
@@ -43,10 +44,6 @@ fn campaign(slip_sinkage: f64, random: &mut ChaCha8Rng) -> Campaign {
     }
     let toml = description("Nine points", SOIL, None);
     Campaign::parse(Path::new("nine.csv"), &csv, &toml).expect("a campaign")
-}
-
-fn diagnosed(campaign: &Campaign) -> Diagnosis {
-    diagnose(campaign, &DiagnoseOptions::default(), &|_| ()).expect("diagnosed").document
 }
 
 /// By chances of known noise eight are given something.

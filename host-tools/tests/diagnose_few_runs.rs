@@ -1,6 +1,7 @@
 //! Diagnosis of five runs of twelve rows each, with noise that is stated: what of them is left, and what is said of it.
 
 mod described;
+mod diagnosis;
 
 use std::fmt::Write;
 use std::path::Path;
@@ -9,8 +10,8 @@ use kapvik_firmware::pipeline;
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::{Campaign, Declared, Knowledge};
+use kapvik_host::diagnose::declared_file;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
-use kapvik_host::diagnose::{DiagnoseOptions, declared_file, diagnose};
 use kapvik_host::identify::{Document, identify_rehearsed};
 use kapvik_host::prior;
 use rand::{RngExt, SeedableRng};
@@ -61,7 +62,7 @@ fn as_declared(_: f64, _: f64) -> (f64, f64) {
 }
 
 fn diagnosed(campaign: &Campaign) -> Diagnosis {
-    let document = diagnose(campaign, &DiagnoseOptions::default(), &|_| ()).expect("diagnosed").document;
+    let document = diagnosis::diagnosed(campaign);
     println!("{}\n{:?}\n{:?}", document.sentence, document.unexplained, document.effects);
     document
 }

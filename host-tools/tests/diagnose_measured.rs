@@ -1,13 +1,14 @@
 //! What a diagnosis says of the measured figures that the project carries. Slip-sinkage is known to be the first effect that
 //! equations 1–11 lack on both rigs; the errors asked for are those of the project's aims, on runs that no fit knew.
 
+mod diagnosis;
+
+use diagnosis::diagnosed;
 use kapvik_host::data::campaign::Carried;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
-use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
 
 fn diagnosis(carried: Carried) -> Diagnosis {
-    let campaign = carried.campaign().expect("the project's own figures");
-    diagnose(&campaign, &DiagnoseOptions::default(), &|_| ()).expect("a diagnosis").document
+    diagnosed(&carried.campaign().expect("the project's own figures"))
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Diagnosis of few runs along which the slip rises, with noise of which a row keeps a share of the row before.
 
 mod described;
+mod diagnosis;
 
 use std::fmt::Write;
 use std::path::Path;
@@ -9,7 +10,6 @@ use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
-use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
 use kapvik_host::prior;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -57,9 +57,9 @@ fn campaign(kept: f64, law: Law) -> Campaign {
 }
 
 fn diagnosed(kept: f64, law: Law) -> Diagnosis {
-    let outcome = diagnose(&campaign(kept, law), &DiagnoseOptions::default(), &|_| ()).expect("diagnosed");
-    println!("{}\n{:?}\n{:?}", outcome.document.sentence, outcome.document.unexplained, outcome.document.caveats);
-    outcome.document
+    let document = diagnosis::diagnosed(&campaign(kept, law));
+    println!("{}\n{:?}\n{:?}", document.sentence, document.unexplained, document.caveats);
+    document
 }
 
 /// Some forty independent readings of 160 rows, in four runs.

@@ -1,6 +1,7 @@
 //! Diagnosis of wheels that sink over a way from half of their sinkage on, as their runs begin.
 
 mod described;
+mod diagnosis;
 mod slip_sinkage;
 
 use std::fmt::Write;
@@ -8,11 +9,11 @@ use std::path::Path;
 
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::Campaign;
-use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use described::{COLUMNS, description, readings};
+use diagnosis::diagnosed;
 use slip_sinkage::Sinking;
 
 const SOIL: &str = "\
@@ -54,7 +55,7 @@ fn campaign(length_m: f64, random: &mut ChaCha8Rng) -> Campaign {
 fn way_and_share_of_a_lag_are_found() {
     for (seed, length_m) in [0.03, 0.05, 0.075, 0.1, 0.15, 0.2].into_iter().enumerate() {
         let campaign = campaign(length_m, &mut ChaCha8Rng::seed_from_u64(seed as u64));
-        let document = diagnose(&campaign, &DiagnoseOptions::default(), &|_| ()).expect("diagnosed").document;
+        let document = diagnosed(&campaign);
         println!("L = {length_m} m: {}", document.sentence);
         assert_eq!(document.effects.first().map(|effect| effect.id.as_str()), Some("sinkage-lag"));
         let found = &document.effects[0].parameters;

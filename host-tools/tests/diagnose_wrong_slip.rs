@@ -1,6 +1,7 @@
 //! Diagnosis of campaigns in which one slip was noted wrongly.
 
 mod described;
+mod diagnosis;
 mod slip_sinkage;
 
 use std::fmt::Write;
@@ -9,7 +10,6 @@ use std::path::Path;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::diagnose::document::{Diagnosis, Verdict};
-use kapvik_host::diagnose::{DiagnoseOptions, diagnose};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -47,7 +47,7 @@ fn diagnosed(slip_sinkage: f64, count: usize) -> Vec<(usize, Diagnosis)> {
     let one = |place: usize| {
         let wrong = 7 * place % (SLIPS.len() * LOADS_N.len());
         let campaign = campaign(slip_sinkage, wrong, &mut random);
-        (wrong, diagnose(&campaign, &DiagnoseOptions::default(), &|_| ()).expect("diagnosed").document)
+        (wrong, diagnosis::diagnosed(&campaign))
     };
     (0..count).map(one).collect()
 }
