@@ -1,7 +1,8 @@
 //! What of a soil can be told: against published figures, and against estimates from simulated measurements.
 
+mod table_1;
+
 use kapvik_firmware::rover::Rover;
-use kapvik_firmware::terramechanics::{Soil, Wheel};
 use kapvik_firmware::wheel_state::WheelNoise;
 use kapvik_host::identifiability::advice::Advice;
 use kapvik_host::identifiability::beforehand::{Beforehand, Knowledge, middle_soil};
@@ -15,24 +16,10 @@ use kapvik_host::identifiability::sensors::{LastingErrors, instant_noise};
 use kapvik_host::identifiability::single_wheel::{Station, WheelMeasurement};
 use kapvik_host::identifiability::spread::{Spread, WheelsInTurn};
 use kapvik_host::identifiability::target::Target;
+use kapvik_host::prior::KAPVIK_WHEEL;
+use table_1::table_1;
 
-const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
 const LOAD_N: f64 = 65.4;
-
-/// Table 1 of the seed.
-fn table_1() -> Soil<f64> {
-    Soil {
-        sinkage_exponent: 1.10,
-        cohesive_modulus: 15.6e3,
-        frictional_modulus: 2407.4e3,
-        cohesion_pa: 250.0,
-        friction_angle_rad: 31.9_f64.to_radians(),
-        shear_modulus_m: 0.0114,
-        peak_stress_c1: 0.18,
-        peak_stress_c2: 0.32,
-        rebound_ratio: 0.0,
-    }
-}
 
 /// Drawbar pull, load and torque noisy, slip and sinkage known: what the published table turns out to rest on.
 fn of_the_table(pressure: Knowledge) -> WheelMeasurement {
@@ -67,7 +54,7 @@ fn computed<const N: usize>(found: [f64; N], expected: [f64; N]) {
 /// Six wheels with loads of ±8 %.
 fn six_wheels(measurement: &WheelMeasurement, (slip_low, slip_high): (f64, f64), instants: f64) -> Bound {
     let spread = Spread { slip_low, slip_high, load_n: LOAD_N, load_share: 0.08 };
-    let information = spread.information(measurement, &WHEEL, &table_1()).unwrap();
+    let information = spread.information(measurement, &KAPVIK_WHEEL, &table_1()).unwrap();
     information.bound(measurement, WheelsInTurn { wheels: 6, stations_each: 1 }, instants).unwrap()
 }
 
@@ -79,7 +66,7 @@ fn six_wheels(measurement: &WheelMeasurement, (slip_low, slip_high): (f64, f64),
 fn the_published_table() {
     let measurement = of_the_table(Knowledge::Known);
     let station = Station { slip: 0.2, load_n: LOAD_N };
-    let one = measurement.information(&WHEEL, &table_1(), &station).unwrap();
+    let one = measurement.information(&KAPVIK_WHEEL, &table_1(), &station).unwrap();
     let single = |instants: f64| percent(&Bound::new(&measurement.beforehand, &[(one * instants, 1.0)]).unwrap());
     published(single(1.0), [36_000.0, 315.0, 761.0], 0.01);
     published(single(100.0), [3600.0, 32.0, 76.0], 0.01);
@@ -102,7 +89,7 @@ fn the_published_table_with_unknown_stiffness() {
     let [.., n, k, _, _] = found.stds().map(|std| 100.0 * std);
     published(percent(&found), [102.0, 2.0, 1.0], 0.005);
     let soil = table_1();
-    let k_phi = k * soil.stiffness(WHEEL.width_m) / soil.frictional_modulus;
+    let k_phi = k * soil.stiffness(KAPVIK_WHEEL.width_m) / soil.frictional_modulus;
     assert_eq!([k_phi.round(), (n / soil.sinkage_exponent).round()], [5.0, 1.0]);
     computed([n, k], [0.993_953, 4.422_529]);
 }
@@ -129,7 +116,7 @@ fn what_lasts_does_not_average_away() {
     };
     let spread = Spread { slip_low: 0.05, slip_high: 0.60, load_n: LOAD_N, load_share: 0.3 };
     let phi = |measurement: &WheelMeasurement, instants: f64| {
-        let information = spread.information(measurement, &WHEEL, &table_1()).unwrap();
+        let information = spread.information(measurement, &KAPVIK_WHEEL, &table_1()).unwrap();
         let design = WheelsInTurn { wheels: 6, stations_each: 1 };
         information.bound(measurement, design, instants).unwrap().stds()[1]
     };

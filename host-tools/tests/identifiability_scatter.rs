@@ -3,6 +3,8 @@
 //! The estimator knows nothing of the bound's code: forces from the f64 equations at a sinkage that is solved for, balances
 //! written out for level ground, all slopes by differences, and a plain Gauss–Newton iteration.
 
+mod table_1;
+
 use kapvik_firmware::rover::{PerAxle, Rover};
 use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
 use kapvik_host::identifiability::beforehand::{Beforehand, prior_stds};
@@ -12,10 +14,12 @@ use kapvik_host::identifiability::rover_side::RoverMeasurement;
 use kapvik_host::identifiability::search::{DrivenLeg, Manoeuvre, Question, SETTLING_S};
 use kapvik_host::identifiability::sensors::{FRAMES_PER_SECOND, LastingErrors};
 use kapvik_host::identifiability::target::Target;
+use kapvik_host::prior::KAPVIK_WHEEL;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use table_1::table_1;
 
 const TIME_S: f64 = 20.0;
 const DRAWS: usize = 120;
@@ -57,9 +61,16 @@ fn soil_of(x: &[f64]) -> Soil<f64> {
 /// Table 1 of the seed, without lasting errors.
 fn truth() -> Unknowns {
     let mut x = [0.0; UNKNOWNS];
-    let stiffness: f64 = 15.6e3 / 0.070 + 2407.4e3;
-    let soil = [250_f64.ln(), 31.9_f64.to_radians(), 0.0114_f64.ln(), 1.10, stiffness.ln(), 0.18, 0.32];
-    x[..SOIL].copy_from_slice(&soil);
+    let soil = table_1();
+    x[..SOIL].copy_from_slice(&[
+        soil.cohesion_pa.ln(),
+        soil.friction_angle_rad,
+        soil.shear_modulus_m.ln(),
+        soil.sinkage_exponent,
+        soil.stiffness(KAPVIK_WHEEL.width_m).ln(),
+        soil.peak_stress_c1,
+        soil.peak_stress_c2,
+    ]);
     x
 }
 

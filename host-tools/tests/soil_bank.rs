@@ -2,11 +2,10 @@
 
 use kapvik_firmware::identification::Observation;
 use kapvik_firmware::identification::ray::{BANK, MultipleModel, ray};
-use kapvik_firmware::terramechanics::{Soil, Wheel};
+use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::identify::soil_bank::soil_bank;
-
-const WHEEL: Wheel<f64> = Wheel { radius_m: 0.075, width_m: 0.070 };
+use kapvik_host::prior::KAPVIK_WHEEL;
 
 /// Six wheels under 65.4 N at slips of 0.05 … 0.60, as the mean of 100 instants has them; none where the soil does not
 /// carry them.
@@ -14,7 +13,7 @@ fn six_wheels(soil: &Soil<f64>) -> Option<Vec<Observation<f64>>> {
     let noise = WheelNoise { drawbar_pull_n: 0.05, load_n: 0.1, torque_nm: 0.005, slip: 0.001, sinkage_m: 0.0002 };
     let slips = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
     let observe = |slip: f64| {
-        let state = WheelState::under_load(&WHEEL, soil, slip, 65.4).ok()?;
+        let state = WheelState::under_load(&KAPVIK_WHEEL, soil, slip, 65.4).ok()?;
         let state = WheelState { sinkage_m: None, ..state };
         Some(Observation { state, noise })
     };
@@ -41,7 +40,7 @@ fn each_soil_is_found_in_the_bank() {
         let Some(observed) = six_wheels(&truth.soil) else { continue };
         carrying += 1;
         let mut model = MultipleModel::<_, BANK>::new(&soils).expect("room");
-        let found = model.update(&WHEEL, &observed).expect("an answer");
+        let found = model.update(&KAPVIK_WHEEL, &observed).expect("an answer");
         let own: f64 = bank
             .iter()
             .zip(model.probabilities())
@@ -59,6 +58,6 @@ fn the_seed_s_sand_is_missed_where_it_is_not_in_the_bank() {
     let bank = soil_bank().expect("the data file that is built in reads");
     let (with, without): (Vec<_>, Vec<_>) = bank.iter().partition(|soil| soil.id == "seed-table-1");
     let others: Vec<_> = without.iter().map(|soil| soil.soil).collect();
-    let found = ray(&WHEEL, &six_wheels(&with[0].soil).expect("carried"), &others).expect("an answer");
+    let found = ray(&KAPVIK_WHEEL, &six_wheels(&with[0].soil).expect("carried"), &others).expect("an answer");
     assert!(!found.friction_angle_rad.identifiable && !found.shear_modulus_m.identifiable);
 }

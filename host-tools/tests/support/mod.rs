@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
+use kapvik_host::prior::KAPVIK_WHEEL;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -56,7 +57,6 @@ impl Default for Made {
 impl Made {
     /// The table.
     pub fn csv(&self) -> String {
-        let wheel = Wheel { radius_m: 0.075, width_m: 0.070 };
         let mut random = ChaCha8Rng::seed_from_u64(11);
         let mut blur = |value: f64, std: f64| {
             let normal: f64 = StandardNormal.sample(&mut random);
@@ -66,8 +66,8 @@ impl Made {
         for (run, instants) in &self.runs {
             for (instant, place) in (0..*instants).flat_map(|instant| (0..6).map(move |place| (instant, place))) {
                 let (slip, load) = (0.05 + 0.11 * f64::from(place), 60.0 + 2.0 * f64::from(place));
-                let sinkage = sinkage_for_load(&wheel, &self.soil, slip, load).expect("the soil carries it");
-                let forces = wheel_forces(&wheel, &self.soil, slip, sinkage).expect("forces");
+                let sinkage = sinkage_for_load(&KAPVIK_WHEEL, &self.soil, slip, load).expect("the soil carries it");
+                let forces = wheel_forces(&KAPVIK_WHEEL, &self.soil, slip, sinkage).expect("forces");
                 let (slip, load) = (blur(slip, 0.01), blur(load, 1.0));
                 let (pull, torque) = (blur(forces.drawbar_pull_n, 0.5), blur(forces.torque_nm, 0.05));
                 let sinkage = blur(sinkage, 0.002);
