@@ -179,10 +179,7 @@ mod tests {
     use super::*;
     use crate::doubt::rows::Known;
     use crate::doubt::rows::tests::correlated;
-
-    fn wave(seed: usize) -> f32 {
-        libm::sinf(2.399 * seed as f32)
-    }
+    use crate::train::rounding::tests::wave;
 
     /// More than fill a block, of different lengths; of some frames nothing is known.
     fn sides() -> Vec<SideRows> {

@@ -62,12 +62,8 @@ mod tests {
     use super::*;
     use crate::doubt::pass::outputs_of;
     use crate::doubt::rows::Row;
+    use crate::train::rounding::tests::wave;
     use kapvik_firmware::estimator::doubt::Memory;
-
-    /// Numbers without a pattern, −1 … 1.
-    fn wave(seed: usize) -> f32 {
-        libm::sinf(2.399 * seed as f32)
-    }
 
     /// Also where one weight is so great that it leaves the others few fraction bits, and inputs are far from zero.
     #[test]

@@ -132,7 +132,7 @@ impl<G: Fn(usize) -> f32> Scales<G> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use kapvik_firmware::network::OUTPUTS;
     use kapvik_firmware::network::fixed_point::{ACTIVATION_BITS, rounded};
 
@@ -161,8 +161,8 @@ pub(super) mod tests {
     }
 
     /// Numbers without a pattern, −1 … 1.
-    fn wave(seed: usize) -> f32 {
-        (seed as f32 * 2.399).sin()
+    pub fn wave(seed: usize) -> f32 {
+        libm::sinf(2.399 * seed as f32)
     }
 
     fn layer(scale: f32) -> Layer<5, 6> {

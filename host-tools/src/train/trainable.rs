@@ -210,13 +210,9 @@ mod tests {
 
     use super::*;
     use crate::train::loss::gaussian;
+    use crate::train::rounding::tests::wave;
     use crate::train::rover_weights::RoverWeights;
     use crate::train::wheel_weights::WheelWeights;
-
-    /// Numbers without a pattern, −1 … 1.
-    fn wave(seed: usize) -> f32 {
-        (seed as f32 * 2.399).sin()
-    }
 
     fn target(seed: usize) -> [f32; TARGETS] {
         std::array::from_fn(|k| wave(seed * 5 + k))
