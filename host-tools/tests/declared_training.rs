@@ -1,8 +1,11 @@
 //! Training with declared effects: scenes in which they act, and the table that says so.
 
+mod kapvik;
+
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use kapvik::kapvik;
 use kapvik_firmware::terramechanics::{sinkage_for_load, wheel_forces};
 use kapvik_host::data::campaign::Declared;
 use kapvik_host::train::scene::{Design, Scene, scenes, scenes_in};
@@ -66,9 +69,7 @@ fn an_effect_that_no_rover_can_drive_with_is_an_error() {
 }
 
 fn train(arguments: &[&str], table: &Path) -> Output {
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_kapvik"));
-    command.args(["train", "--quick", "--seed", "5", "-o"]).arg(table).args(arguments);
-    command.output().unwrap()
+    kapvik().args(["train", "--quick", "--seed", "5", "-o"]).arg(table).args(arguments).output().unwrap()
 }
 
 fn write(folder: &Path, text: &str) -> PathBuf {

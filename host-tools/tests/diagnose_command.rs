@@ -1,15 +1,21 @@
 //! `kapvik diagnose` on campaigns that are broken, or that say little: one line that names the place and nothing left behind;
 //! or a diagnosis that states its limits, and finds no effect where none is.
 
+mod kapvik;
+mod refused;
+
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 
-use assert_cmd::Command;
+use assert_cmd::assert::OutputAssertExt;
+use kapvik::kapvik;
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use refused::refused;
 use serde_json::Value;
 
 const TOML: &str = "\
@@ -102,7 +108,7 @@ impl Case {
     }
 
     fn command(&self) -> Command {
-        let mut command = Command::cargo_bin("kapvik").expect("the binary");
+        let mut command = kapvik();
         let outputs = ["--json", "out.json", "--html", "out.html", "--declared", "out.toml"];
         command.current_dir(self.folder.path()).args(["diagnose", "made.csv"]).args(outputs);
         command
@@ -110,15 +116,7 @@ impl Case {
 
     /// Fails with one line that has all of these words, and leaves no file.
     fn is_refused(&self, words: &[&str]) {
-        let assert = self.command().assert().failure();
-        let error = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-        assert_eq!(error.trim_end().lines().count(), 1, "{error}");
-        for word in words {
-            assert!(error.contains(word), "{word} in {error}");
-        }
-        let mut files: Vec<_> = fs::read_dir(self.folder.path()).expect("readable").collect();
-        files.retain(|entry| entry.as_ref().is_ok_and(|entry| entry.file_name().to_string_lossy().starts_with("out")));
-        assert!(files.is_empty(), "{files:?}");
+        refused(&mut self.command(), words);
     }
 
     /// Ends well, with what was written.

@@ -1,13 +1,17 @@
 //! `identify` on campaigns made by the equations, and on campaigns that are broken.
 
+mod kapvik;
+mod refused;
 mod support;
 
-use assert_cmd::Command;
+use assert_cmd::assert::OutputAssertExt;
+use kapvik::kapvik;
 use kapvik_firmware::pipeline;
 use kapvik_firmware::wheel_state::WheelNoise;
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::{Document, identify};
 use proptest::prelude::*;
+use refused::refused;
 use serde_json::Value;
 use std::path::Path;
 use support::{Made, TOML};
@@ -142,22 +146,19 @@ fn noise_comes_from_the_file_else_from_repeats_else_from_the_flight_sensors() {
 #[test]
 fn the_command_writes_json_and_refuses_in_one_line() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (csv, json) = (folder.path().join("made.csv"), folder.path().join("out.json"));
-    std::fs::write(&csv, Made::default().csv()).expect("written");
-    let run = |method: &str| {
-        let mut command = Command::cargo_bin("kapvik").expect("the binary");
-        command.arg("identify").arg(&csv).args(["--method", method, "--json"]).arg(&json).assert()
+    std::fs::write(folder.path().join("made.csv"), Made::default().csv()).expect("written");
+    let command = |method: &str| {
+        let mut command = kapvik();
+        command.current_dir(folder.path()).args(["identify", "made.csv", "--method", method, "--json", "out.json"]);
+        command
     };
-    let refusal = run("network").failure();
-    let said = String::from_utf8_lossy(&refusal.get_output().stderr).into_owned();
-    assert!(said.trim_end().lines().count() == 1 && said.contains("made.toml: no such file"), "{said}");
-    assert!(!json.exists(), "nothing is half written");
+    refused(&mut command("network"), &["made.toml: no such file"]);
     std::fs::write(folder.path().join("made.toml"), TOML).expect("written");
-    run("network").success();
-    let text = std::fs::read_to_string(&json).expect("written");
+    command("network").assert().success();
+    let text = std::fs::read_to_string(folder.path().join("out.json")).expect("written");
     let document: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(document["runs"].as_array().expect("runs").len(), 2);
-    run("guess").failure();
+    command("guess").assert().failure();
 }
 
 proptest! {

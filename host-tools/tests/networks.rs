@@ -1,5 +1,8 @@
 //! The frozen networks on cases that they have not seen, and the training that makes them.
 
+mod kapvik;
+
+use kapvik::kapvik;
 use kapvik_host::bench::network::{score_rover, score_rover_on_patches};
 use kapvik_host::train::scene::Design;
 
@@ -54,7 +57,7 @@ fn the_same_seed_gives_the_same_bytes() {
     let train = |seed: &str| {
         let folder = tempfile::tempdir().expect("a folder for the table");
         let path = folder.path().join("quick.table");
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_kapvik"));
+        let mut command = kapvik();
         command.args(["train", "--quick", "--seed", seed, "-o"]).arg(&path);
         let output = command.output().expect("kapvik runs");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

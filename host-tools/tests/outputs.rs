@@ -1,10 +1,13 @@
 //! Outputs that could not be written, or would replace what is read, are refused before any work begins.
 
+mod kapvik;
+mod refused;
 mod support;
 
 use std::fs;
 
-use assert_cmd::Command;
+use kapvik::kapvik;
+use refused::refused;
 use support::{Made, TOML};
 
 /// What a command says that is refused in a folder with a campaign, which stays as it was.
@@ -13,14 +16,11 @@ fn refusal(arguments: &[&str]) -> String {
     let csv = Made::default().csv();
     fs::write(folder.path().join("made.csv"), &csv).expect("written");
     fs::write(folder.path().join("made.toml"), TOML).expect("written");
-    let mut command = Command::cargo_bin("kapvik").expect("the binary");
-    let assert = command.current_dir(folder.path()).args(arguments).assert().failure();
-    let said = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-    assert_eq!(said.lines().count(), 1, "{said}");
-    assert!(assert.get_output().stdout.is_empty(), "{arguments:?} began");
+    let output = refused(kapvik().current_dir(folder.path()).args(arguments), &[]);
+    assert!(output.stdout.is_empty(), "{arguments:?} began");
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).expect("readable");
     assert!(read("made.csv") == csv && read("made.toml") == TOML, "{arguments:?}");
-    said
+    String::from_utf8(output.stderr).expect("text")
 }
 
 #[test]

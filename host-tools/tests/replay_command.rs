@@ -1,16 +1,22 @@
 //! `kapvik replay` with the flight library in this process: bad input ends it with one line that names the place, and
 //! leaves nothing behind; the rest is written whole.
 
+mod kapvik;
+mod refused;
+
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 
-use assert_cmd::Command;
+use assert_cmd::assert::OutputAssertExt;
+use kapvik::kapvik;
 use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::data::frame_file::{FrameReader, write_frame, write_header};
 use kapvik_host::data::sensor_channels::names;
 use kapvik_host::replay::EstimateWriter;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
+use refused::refused;
 
 /// A folder with a file of frames of a level drive.
 struct Case {
@@ -47,7 +53,7 @@ impl Case {
     }
 
     fn command(&self, subcommand: &str) -> Command {
-        let mut command = Command::cargo_bin("kapvik").expect("the binary");
+        let mut command = kapvik();
         command.current_dir(self.folder.path()).args([subcommand, "--on", "host"]);
         command
     }
@@ -62,15 +68,8 @@ impl Case {
 
     /// `replay` and `run` with these arguments fail with one line that has all of these words, and leave no file.
     fn is_refused(&self, arguments: &[&str], words: &[&str]) {
-        let before = self.files();
         for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
-            let assert = self.command(subcommand).args(arguments).args([output, "out"]).assert().failure();
-            let error = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-            assert_eq!(error.trim_end().lines().count(), 1, "{error}");
-            for word in words {
-                assert!(error.contains(word), "{word} in {error}");
-            }
-            assert_eq!(self.files(), before);
+            refused(self.command(subcommand).args(arguments).args([output, "out"]), words);
         }
     }
 }
@@ -130,15 +129,8 @@ fn a_column_that_is_nearly_one_of_a_sensor_is_refused() {
     let case = Case::with(None);
     let text = fs::read_to_string(case.path("frames.csv")).expect("readable");
     fs::write(case.path("frames.csv"), text.replacen("wheel_rate_fl_rad_s", "wheel_rate_fl", 1)).expect("written");
-    for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
-        let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().failure();
-        let told = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-        assert!(
-            told.contains("frames.csv:1:2: `wheel_rate_fl` is no sensor: is `wheel_rate_fl_rad_s` meant?"),
-            "{told}"
-        );
-        assert_eq!((told.lines().count(), case.files()), (1, vec!["frames.csv".to_owned()]));
-    }
+    let words = "frames.csv:1:2: `wheel_rate_fl` is no sensor: is `wheel_rate_fl_rad_s` meant?";
+    case.is_refused(&["frames.csv"], &[words]);
 }
 
 #[test]
@@ -221,11 +213,7 @@ fn a_recording_is_not_replaced_by_its_estimates() {
 fn a_bad_truth_is_refused_at_its_place() {
     let case = Case::with(None);
     fs::write(case.path("frames.truth.csv"), "t_s,slip_fl\n0,0.1\n0.1,x\n").expect("written");
-    let before = case.files();
-    let assert = case.command("run").args(["frames.csv", "--report", "out"]).assert().failure();
-    let error = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-    assert!(error.contains("frames.truth.csv:3:2:"), "{error}");
-    assert_eq!(case.files(), before);
+    refused(case.command("run").args(["frames.csv", "--report", "out"]), &["frames.truth.csv:3:2:"]);
 }
 
 #[test]

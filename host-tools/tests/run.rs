@@ -1,6 +1,9 @@
 //! `run --measured`, on the figures that the project carries, with the flight library in this process.
 
-use assert_cmd::Command;
+mod kapvik;
+
+use assert_cmd::assert::OutputAssertExt;
+use kapvik::kapvik;
 use kapvik_host::data::campaign::{Campaign, Provenance};
 use kapvik_host::flight_computer::Computer;
 use kapvik_host::report::{Findings, ModelCheck, RowKind, page, picture};
@@ -22,7 +25,7 @@ fn a_run_on_the_host_repeats_itself_to_the_bit() {
     let run = || {
         let folder = tempfile::tempdir().expect("a folder");
         let (report, picture) = (folder.path().join("report.html"), folder.path().join("picture.svg"));
-        let mut command = Command::cargo_bin("kapvik").expect("the binary");
+        let mut command = kapvik();
         command.args(["run", "--measured", "--on", "host", "--report"]).arg(&report).arg("--picture").arg(&picture);
         let output = command.assert().success().get_output().stdout.clone();
         let text = String::from_utf8(output).expect("text");

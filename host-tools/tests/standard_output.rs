@@ -2,14 +2,17 @@
 
 #![cfg(target_os = "linux")]
 
+mod kapvik;
+
 use std::fs::File;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
+
+use kapvik::kapvik;
 
 #[test]
 fn a_full_disk_is_one_line_and_no_panic() {
     let full = File::options().write(true).open("/dev/full").expect("the device that is always full");
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin("kapvik"));
-    let output = command.arg("soils").stdout(Stdio::from(full)).output().expect("started");
+    let output = kapvik().arg("soils").stdout(Stdio::from(full)).output().expect("started");
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8(output.stderr).expect("text");
     assert_eq!(said.lines().count(), 1, "{said}");

@@ -1,15 +1,18 @@
 //! `kapvik train-doubt` with a drive of each kind: the source is written whole, and the same command writes the same bytes.
 
+mod kapvik;
+
 use std::fs;
 
-use assert_cmd::Command;
+use assert_cmd::assert::OutputAssertExt;
+use kapvik::kapvik;
 
 #[test]
 fn the_same_command_writes_the_same_source() {
     let folder = tempfile::tempdir().expect("a folder");
     let sources = ["one.rs", "other.rs"].map(|name| {
         let path = folder.path().join(name);
-        let mut command = Command::cargo_bin("kapvik").expect("the command");
+        let mut command = kapvik();
         let command = command.args(["train-doubt", "--seed", "31", "--drives", "1", "--output"]).arg(&path);
         let printed = String::from_utf8(command.assert().success().get_output().stdout.clone()).expect("text");
         assert!(["Dropout", "bogie's pull", "within 2σ"].iter().all(|words| printed.contains(words)), "{printed}");

@@ -6,6 +6,10 @@ mod digging;
 mod drives;
 mod faults;
 mod files;
+#[path = "../kapvik/mod.rs"]
+mod kapvik;
+#[path = "../refused/mod.rs"]
+mod refused;
 mod sensors;
 
 use kapvik_firmware::rover::{Rover, SensorNoise};
