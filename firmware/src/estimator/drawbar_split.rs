@@ -93,16 +93,16 @@ impl<S: Scalar> DrawbarSplit<S> {
     /// rule tells counts as well, as far as it is surer.
     pub fn while_digging(self, (middle, rear): (&BogieWheel<S>, &BogieWheel<S>), sum_n: S, sinking: S) -> Self {
         let loads_n = middle.load_n + rear.load_n;
-        let digging_std = S::constant(OF_DIGGING) * loads_n;
-        let digging = digging_std * digging_std * sinking;
         let by_load_n = Self::by_load_n(middle.load_n, rear.load_n, sum_n);
+        // Variances as shares of the squared loads, which may be none.
+        let digging = S::constant(OF_DIGGING * OF_DIGGING) * sinking;
         let of_slip = S::constant(BY_LOAD_SPREAD_OF_SLIP) * (middle.slip - rear.slip).abs();
-        let by_load_std = (S::constant(BY_LOAD_SPREAD) + of_slip) * loads_n;
+        let by_load_std = S::constant(BY_LOAD_SPREAD) + of_slip;
         let of_load = by_load_std * by_load_std;
         let by_torque = of_load / (of_load + digging);
         Self {
             difference_n: by_load_n + by_torque * (self.difference_n - by_load_n),
-            std_n: (self.std_n * self.std_n + by_torque * digging).sqrt(),
+            std_n: (self.std_n * self.std_n + by_torque * digging * loads_n * loads_n).sqrt(),
         }
     }
 
