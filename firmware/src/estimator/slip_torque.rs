@@ -310,7 +310,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         );
     }
 
-    /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds.
+    /// Learns how fast torque and slip wander, from the drive's torque and the quotient of the speeds: 1 − v/(r ω), which below slip 0 is
+    /// steeper than the slip of the state and wanders more. With that in its place estimates are the same, and it takes more of the tick.
     fn learn_rates(&mut self, step_s: S, travel_m: S, readings: &WheelReadings<S>) {
         let [of_torque, of_slip] = self.nominal_variances(travel_m);
         let noise = Noise::white(readings.motor_torque_std_nm);
