@@ -1,5 +1,6 @@
 //! The three parameters of the soil, in the units that people read.
 
+use kapvik_firmware::terramechanics::Soil;
 use serde::Serialize;
 
 /// Cohesion, friction angle or shear modulus.
@@ -51,6 +52,14 @@ impl Parameter {
             Self::Cohesion => si,
             Self::FrictionAngle => si.to_degrees(),
             Self::ShearModulus => 1e3 * si,
+        }
+    }
+
+    /// A standard deviation of ln c, φ (rad) or ln K as a share of the parameter's value.
+    pub fn relative(self, std: f64, soil: &Soil<f64>) -> f64 {
+        match self {
+            Self::Cohesion | Self::ShearModulus => std,
+            Self::FrictionAngle => std / soil.friction_angle_rad,
         }
     }
 }

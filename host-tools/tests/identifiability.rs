@@ -12,11 +12,11 @@ use kapvik_host::identifiability::information::Information;
 use kapvik_host::identifiability::manoeuvre::RimSpeeds;
 use kapvik_host::identifiability::rover_side::RoverMeasurement;
 use kapvik_host::identifiability::search::{Question, manoeuvres};
-use kapvik_host::identifiability::sensors::{LastingErrors, instant_noise};
+use kapvik_host::identifiability::sensors::LastingErrors;
 use kapvik_host::identifiability::single_wheel::{Station, WheelMeasurement};
 use kapvik_host::identifiability::spread::{Spread, WheelsInTurn};
-use kapvik_host::identifiability::target::Target;
-use kapvik_host::prior::KAPVIK_WHEEL;
+use kapvik_host::parameter::Parameter;
+use kapvik_host::prior::{KAPVIK_INSTANT_NOISE, KAPVIK_WHEEL};
 use table_1::table_1;
 
 const LOAD_N: f64 = 65.4;
@@ -24,7 +24,7 @@ const LOAD_N: f64 = 65.4;
 /// Drawbar pull, load and torque noisy, slip and sinkage known: what the published table turns out to rest on.
 fn of_the_table(pressure: Knowledge) -> WheelMeasurement {
     WheelMeasurement {
-        noise: WheelNoise { slip: 0.0, sinkage_m: 0.0, ..instant_noise() },
+        noise: WheelNoise { slip: 0.0, sinkage_m: 0.0, ..KAPVIK_INSTANT_NOISE },
         sinkage_seen: true,
         lasting: LastingErrors::NONE,
         beforehand: Beforehand { targets: Knowledge::Free, pressure, peak: Knowledge::Known },
@@ -98,7 +98,7 @@ fn the_published_table_with_unknown_stiffness() {
 /// load.
 #[test]
 fn errors_in_slip_and_sinkage() {
-    let measurement = WheelMeasurement { noise: instant_noise(), ..of_the_table(Knowledge::Free) };
+    let measurement = WheelMeasurement { noise: KAPVIK_INSTANT_NOISE, ..of_the_table(Knowledge::Free) };
     let found = six_wheels(&measurement, (0.05, 0.60), 100.0);
     let [.., n, k, _, _] = found.stds().map(|std| 100.0 * std);
     computed(percent(&found), [128.5534, 2.808_71, 1.778_95]);
@@ -109,7 +109,7 @@ fn errors_in_slip_and_sinkage() {
 fn what_lasts_does_not_average_away() {
     let lasting = LastingErrors::default();
     let measurement = |lasting: LastingErrors| WheelMeasurement {
-        noise: instant_noise(),
+        noise: KAPVIK_INSTANT_NOISE,
         sinkage_seen: false,
         lasting,
         beforehand: Beforehand::default(),
@@ -128,7 +128,7 @@ fn what_lasts_does_not_average_away() {
     assert!((before.stds()[1] - 6.0_f64.to_radians()).abs() < 1e-12);
 }
 
-fn question(targets: &[Target]) -> Question {
+fn question(targets: &[Parameter]) -> Question {
     Question {
         rover: Rover::assumed(),
         soil: middle_soil(),
@@ -149,14 +149,14 @@ fn question(targets: &[Target]) -> Question {
 
 #[test]
 fn the_advice_keeps_its_word_and_nothing_on_the_grid_is_cheaper() {
-    let question = question(&Target::ALL);
+    let question = question(&Parameter::ALL);
     let advice = Advice::new(&question, || ()).unwrap();
     println!("{}", advice.sentence(&question));
-    assert_eq!(advice.reached, [Target::FrictionAngle, Target::ShearModulus]);
+    assert_eq!(advice.reached, [Parameter::FrictionAngle, Parameter::ShearModulus]);
     let best = &advice.best;
     assert!(question.is_met(&best.bound, &advice.reached));
-    assert!(!question.is_met(&advice.usual.as_ref().unwrap().bound, &[Target::ShearModulus]));
-    assert!(best.bound.std(Target::Cohesion) > question.accuracy);
+    assert!(!question.is_met(&advice.usual.as_ref().unwrap().bound, &[Parameter::ShearModulus]));
+    assert!(best.bound.std(Parameter::Cohesion) > question.accuracy);
     let legs = question.legs(|| ());
     // A shorter time is not enough, for any manoeuvre that costs nothing but time.
     for manoeuvre in manoeuvres(&legs) {
@@ -168,7 +168,7 @@ fn the_advice_keeps_its_word_and_nothing_on_the_grid_is_cheaper() {
 #[test]
 fn no_advice_takes_longer_than_what_was_asked_for() {
     for longest_s in [5.0, 33.5, 119.5] {
-        let question = Question { longest_s, accuracy: 0.3, ..question(&Target::ALL) };
+        let question = Question { longest_s, accuracy: 0.3, ..question(&Parameter::ALL) };
         let advice = Advice::new(&question, || ()).unwrap();
         let times_s = [&advice.best].into_iter().chain(&advice.others).map(|finding| finding.expense.time_s);
         assert!(times_s.clone().all(|time_s| time_s <= longest_s), "{longest_s}: {:?}", times_s.collect::<Vec<_>>());
@@ -177,7 +177,7 @@ fn no_advice_takes_longer_than_what_was_asked_for() {
 
 #[test]
 fn what_is_out_of_reach_is_said() {
-    let question = question(&[Target::Cohesion]);
+    let question = question(&[Parameter::Cohesion]);
     let advice = Advice::new(&question, || ()).unwrap();
     assert!(advice.reached.is_empty());
     assert!(advice.sentence(&question).contains("c not within reach"));

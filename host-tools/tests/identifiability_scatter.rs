@@ -13,7 +13,7 @@ use kapvik_host::identifiability::manoeuvre::{Leg, Pattern, RimSpeeds};
 use kapvik_host::identifiability::rover_side::RoverMeasurement;
 use kapvik_host::identifiability::search::{DrivenLeg, Manoeuvre, Question, SETTLING_S};
 use kapvik_host::identifiability::sensors::{FRAMES_PER_SECOND, LastingErrors};
-use kapvik_host::identifiability::target::Target;
+use kapvik_host::parameter::Parameter;
 use kapvik_host::prior::KAPVIK_WHEEL;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use rand::{RngExt, SeedableRng};
@@ -187,7 +187,7 @@ fn question() -> Question {
     Question {
         rover: Rover::assumed(),
         soil: soil_of(&truth()),
-        targets: Target::ALL.to_vec(),
+        targets: Parameter::ALL.to_vec(),
         accuracy: 0.1,
         longest_s: 120.0,
         steepest_rad: 0.0,

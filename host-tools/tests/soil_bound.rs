@@ -3,7 +3,7 @@
 use kapvik_firmware::rover::Rover;
 use kapvik_host::bench::estimators_soil::SoilErrors;
 use kapvik_host::identifiability::bound::Bound;
-use kapvik_host::identifiability::target::Target;
+use kapvik_host::parameter::Parameter;
 use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::{Drive, trial};
 
@@ -13,7 +13,7 @@ fn bound(scenario: Scenario, seconds: f64) -> Bound {
 }
 
 fn degrees(bound: &Bound) -> f64 {
-    bound.std(Target::FrictionAngle).to_degrees()
+    bound.std(Parameter::FrictionAngle).to_degrees()
 }
 
 /// A number from anywhere in a range is its width over √12 from the middle, in the mean square: φ in 22–42°, K in 5–35 mm.
@@ -21,7 +21,7 @@ fn degrees(bound: &Bound) -> f64 {
 fn before_the_wheels_roll_it_is_what_the_networks_are_told_beforehand() {
     let standing = bound(Scenario::Level, 0.9);
     assert!((degrees(&standing) - 20.0 / 12.0_f64.sqrt()).abs() < 1e-6, "{}", degrees(&standing));
-    let modulus = standing.std(Target::ShearModulus);
+    let modulus = standing.std(Parameter::ShearModulus);
     assert!((modulus - 7.0_f64.ln() / 12.0_f64.sqrt()).abs() < 1e-12, "{modulus}");
 }
 
@@ -29,7 +29,7 @@ fn before_the_wheels_roll_it_is_what_the_networks_are_told_beforehand() {
 #[test]
 fn it_falls_with_the_frames_that_were_seen_and_with_the_spread_of_slips() {
     let [short, long] = [11.0, 31.0].map(|seconds| bound(Scenario::Spread, seconds));
-    for target in Target::ALL {
+    for target in Parameter::ALL {
         let ratio = long.std(target) / short.std(target);
         assert!((0.5..1.0).contains(&ratio), "{target:?}: {ratio}");
     }

@@ -18,11 +18,10 @@ use crate::identifiability::manoeuvre::RimSpeeds;
 use crate::identifiability::map::{self, LOAD_CELLS, MapQuestion, SLIP_CELLS};
 use crate::identifiability::rover_side::RoverMeasurement;
 use crate::identifiability::search::Question;
-use crate::identifiability::sensors::{
-    FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LASTING_PITCH_DEG, LastingErrors, instant_noise,
-};
+use crate::identifiability::sensors::{FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LASTING_PITCH_DEG, LastingErrors};
 use crate::identifiability::single_wheel::WheelMeasurement;
-use crate::identifiability::target::Target;
+use crate::parameter::Parameter;
+use crate::prior::KAPVIK_INSTANT_NOISE;
 use crate::progress::bar;
 use crate::report::identifiability::{Observability, page, picture, terminal};
 
@@ -164,10 +163,10 @@ fn observability(arguments: &Arguments) -> Result<Observability, HostError> {
 impl Arguments {
     fn question(&self, rover: kapvik_firmware::rover::Rover<f64>, soil: Soil<f64>) -> Question {
         let targets = match self.target {
-            Wanted::C => vec![Target::Cohesion],
-            Wanted::Phi => vec![Target::FrictionAngle],
-            Wanted::K => vec![Target::ShearModulus],
-            Wanted::All => Target::ALL.to_vec(),
+            Wanted::C => vec![Parameter::Cohesion],
+            Wanted::Phi => vec![Parameter::FrictionAngle],
+            Wanted::K => vec![Parameter::ShearModulus],
+            Wanted::All => Parameter::ALL.to_vec(),
         };
         let lasting = LastingErrors {
             speed_scale: self.speed_bias,
@@ -202,7 +201,7 @@ impl Arguments {
     fn map_question(&self, question: &Question) -> MapQuestion {
         let RoverMeasurement { lasting, beforehand, .. } = question.measurement;
         let rover = &question.rover;
-        let measurement = WheelMeasurement { noise: instant_noise(), sinkage_seen: false, lasting, beforehand };
+        let measurement = WheelMeasurement { noise: KAPVIK_INSTANT_NOISE, sinkage_seen: false, lasting, beforehand };
         MapQuestion {
             wheel: rover.wheel,
             load_n: rover.mass_kg * rover.gravity_m_s2 / 6.0,

@@ -25,4 +25,3 @@ pub mod sensors;
 pub mod single_wheel;
 pub mod spread;
 pub mod steady_drive;
-pub mod target;

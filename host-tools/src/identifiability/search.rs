@@ -16,7 +16,7 @@ use super::map::shortest;
 use super::rover_side::RoverMeasurement;
 use super::sensors::FRAMES_PER_SECOND;
 use super::steady_drive::{SideBalance, SteadyDrive, steady_drive};
-use super::target::Target;
+use crate::parameter::Parameter;
 
 /// What is asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Question {
     /// The soil.
     pub soil: Soil<f64>,
     /// What is to be known.
-    pub targets: Vec<Target>,
+    pub targets: Vec<Parameter>,
     /// How well, as a share of the value.
     pub accuracy: f64,
     /// The longest manoeuvre, s.
@@ -148,7 +148,7 @@ impl Question {
     }
 
     /// Whether a bound meets what is asked of some targets.
-    pub fn is_met(&self, bound: &Bound, targets: &[Target]) -> bool {
+    pub fn is_met(&self, bound: &Bound, targets: &[Parameter]) -> bool {
         targets.iter().all(|target| bound.relative(*target, &self.soil) <= self.accuracy)
     }
 
@@ -161,7 +161,7 @@ impl Question {
     }
 
     /// A manoeuvre just long enough, in whole seconds, for some targets; none where the longest is not enough.
-    fn shortest(&self, manoeuvre: &Manoeuvre<'_>, usual: &DrivenLeg, targets: &[Target]) -> Option<Finding> {
+    fn shortest(&self, manoeuvre: &Manoeuvre<'_>, usual: &DrivenLeg, targets: &[Parameter]) -> Option<Finding> {
         let known_after = |time_s: f64| self.bound(manoeuvre, time_s).is_some_and(|bound| self.is_met(&bound, targets));
         let (least_s, longest_s) = self.times_s(manoeuvre)?;
         let legs = manoeuvre.count() as f64;
@@ -177,7 +177,7 @@ impl Question {
     }
 
     /// The cheapest manoeuvre of each kind for some targets, cheapest first.
-    pub fn cheapest(&self, manoeuvres: &[Manoeuvre<'_>], usual: &DrivenLeg, targets: &[Target]) -> Vec<Finding> {
+    pub fn cheapest(&self, manoeuvres: &[Manoeuvre<'_>], usual: &DrivenLeg, targets: &[Parameter]) -> Vec<Finding> {
         let findings: Vec<Finding> =
             manoeuvres.par_iter().filter_map(|manoeuvre| self.shortest(manoeuvre, usual, targets)).collect();
         let mut best: Vec<Finding> = Vec::new();
@@ -207,17 +207,17 @@ impl Question {
     }
 
     /// The largest set of the targets asked for that a manoeuvre of the longest time makes known.
-    pub fn within_reach(&self, manoeuvres: &[Manoeuvre<'_>]) -> Vec<Target> {
-        let known = |manoeuvre: &Manoeuvre<'_>| -> Vec<Target> {
+    pub fn within_reach(&self, manoeuvres: &[Manoeuvre<'_>]) -> Vec<Parameter> {
+        let known = |manoeuvre: &Manoeuvre<'_>| -> Vec<Parameter> {
             let bound = self.times_s(manoeuvre).and_then(|(_, longest_s)| self.bound(manoeuvre, longest_s));
-            let met = |target: &&Target| bound.is_some_and(|bound| self.is_met(&bound, &[**target]));
+            let met = |target: &&Parameter| bound.is_some_and(|bound| self.is_met(&bound, &[**target]));
             self.targets.iter().filter(met).copied().collect()
         };
         manoeuvres.par_iter().map(known).max_by_key(Vec::len).unwrap_or_default()
     }
 
     /// A finding made cheaper by small changes of its rim speeds.
-    fn refined(&self, mut best: Finding, usual: &DrivenLeg, targets: &[Target]) -> Finding {
+    fn refined(&self, mut best: Finding, usual: &DrivenLeg, targets: &[Parameter]) -> Finding {
         for step in REFINEMENTS {
             for _ in 0..REFINING_STEPS {
                 let cheaper = best.neighbours(step).into_iter().filter_map(|legs| {

@@ -1,17 +1,14 @@
 //! How noisy the sensors are, and what of their errors no averaging removes.
 
-use kapvik_firmware::wheel_state::WheelNoise;
 use serde::Serialize;
 
-use crate::prior::KAPVIK_INSTANT_NOISE;
-
-/// Independent instants of [`instant_noise`] in a second.
+/// Independent instants of [`KAPVIK_INSTANT_NOISE`](crate::prior::KAPVIK_INSTANT_NOISE) in a second.
 ///
 /// Measured on simulated drives (eight of 150 s at 20 frames a second for each kind of ground, through the flight filters):
 /// on level ground the errors of slip, torque, load and drawbar pull are 0.0034, 0.007 N·m, 0.066 N and 0.16 N, and an
 /// independent one comes every 4.5, 3.7, 3.3 and 4.9 s (integral of their autocorrelation). A second's worth is 0.0075,
 /// 0.014 N·m, 0.13 N and 0.37 N: what the sensors' white noise leaves of 20 frames. Slip, the least known in units of
-/// [`instant_noise`], gives 1.8 instants a second and drawbar pull 1.8; one is what is counted on. On hilly ground it is
+/// such an instant, gives 1.8 instants a second and drawbar pull 1.8; one is what is counted on. On hilly ground it is
 /// 0.1 and 0.05.
 pub const INSTANTS_PER_SECOND: f64 = 1.0;
 
@@ -53,9 +50,4 @@ impl Default for LastingErrors {
             pitch_rad: LASTING_PITCH_DEG.to_radians(),
         }
     }
-}
-
-/// Noise of one instant on Kapvik's wheel: 0.5 N, 1 N, 0.05 N·m, 0.01 and 2 mm.
-pub fn instant_noise() -> WheelNoise<f64> {
-    KAPVIK_INSTANT_NOISE
 }
