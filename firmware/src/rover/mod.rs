@@ -20,4 +20,4 @@ pub use planar::Planar;
 pub use rolling::{RollingMotion, RollingSide, RollingState, hub_speed_slopes};
 pub use sensor_noise::SensorNoise;
 pub use sides::{Axle, PerAxle, PerSide, PerWheel, Side};
-pub use statics::{Contact, body_moment_nm, bogie_moment_nm, rocker_moment_nm};
+pub use statics::{HubContact, body_moment_nm, bogie_moment_nm, rocker_moment_nm};

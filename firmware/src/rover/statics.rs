@@ -5,14 +5,14 @@ use crate::scalar::Scalar;
 
 /// Where and how a wheel bears on the soil: the terrain's slope under its hub.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact<S> {
+pub struct HubContact<S> {
     /// Along the terrain, forward.
     pub tangent: Planar<S>,
     /// Out of the terrain, upward.
     pub normal: Planar<S>,
 }
 
-impl<S: Scalar> Contact<S> {
+impl<S: Scalar> HubContact<S> {
     /// A contact at an angle, in the coordinates that the angle is measured in, rad, positive uphill.
     pub fn at(angle_rad: S) -> Self {
         let tangent = Planar::direction(angle_rad.sin_cos());
@@ -56,7 +56,7 @@ pub fn body_moment_nm<S: Scalar>(rover: &Rover<S>, specific_force_m_s2: &Axes<S>
 
 #[cfg(test)]
 mod tests {
-    use super::{Contact, bogie_moment_nm, rocker_moment_nm};
+    use super::{HubContact, bogie_moment_nm, rocker_moment_nm};
     use crate::rover::{LinkAngles, PerAxle, Rover, Side, SideLayout};
 
     /// The closed form for level ground: DP2 + DP3 = (x3' W3 − x2 W2 − τ2 − τ3) / h_B.
@@ -66,7 +66,7 @@ mod tests {
         let layout = SideLayout::new(&rover, Side::Left, &LinkAngles::default());
         let (loads, torques) = ([66.0, 60.0, 75.0], [1.5, 1.3, 1.7]);
         let sum = (0.175 * loads[2] - 0.175 * loads[1] - torques[1] - torques[2]) / 0.10;
-        let level = Contact::at(0.0);
+        let level = HubContact::at(0.0);
         let forces = PerAxle {
             front: level.hub_force_n(loads[0], 1.0),
             middle: level.hub_force_n(loads[1], 0.25 * sum),

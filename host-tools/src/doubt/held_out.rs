@@ -2,7 +2,7 @@
 //! as they do in training: one and a half times.
 
 use comfy_table::Table;
-use kapvik_firmware::estimator::doubt::{DoubtNetwork, Memory, OUTPUTS, QUANTITIES, times_stated};
+use kapvik_firmware::estimator::doubt::{DoubtMemory, DoubtNetwork, OUTPUTS, QUANTITIES, times_stated};
 
 use super::drives::{Driven, NOMINAL};
 use super::loss::loss;
@@ -106,7 +106,7 @@ pub fn believed(rows: &[Row]) -> Vec<[f32; OUTPUTS]> {
 
 /// The outputs of a network for the rows of a side, as it flies.
 pub fn flown(network: &DoubtNetwork, rows: &[Row]) -> Vec<[f32; OUTPUTS]> {
-    let mut memory = Memory::EMPTY;
+    let mut memory = DoubtMemory::EMPTY;
     rows.iter().map(|row| network.run(&mut memory, &row.inputs)).collect()
 }
 

@@ -63,7 +63,7 @@ mod tests {
     use crate::doubt::pass::outputs_of;
     use crate::doubt::rows::Row;
     use crate::train::rounding::tests::wave;
-    use kapvik_firmware::estimator::doubt::Memory;
+    use kapvik_firmware::estimator::doubt::DoubtMemory;
 
     /// Also where one weight is so great that it leaves the others few fraction bits, and inputs are far from zero.
     #[test]
@@ -82,7 +82,7 @@ mod tests {
             })
         };
         let rows: Vec<Row> = (0..400).map(|seed| Row::new(&inputs(seed))).collect();
-        let mut memory = Memory::EMPTY;
+        let mut memory = DoubtMemory::EMPTY;
         for (row, exact) in rows.iter().zip(outputs_of(&weights, &rows)) {
             for (exact, rounded) in exact.into_iter().zip(flown.run(&mut memory, &row.inputs)) {
                 assert!((exact - rounded).abs() < 0.02, "{exact}, {rounded}");

@@ -5,7 +5,7 @@
 //! of the bogie, moment of the rocker with its half of the body's.
 
 use kapvik_firmware::rover::{
-    Axes, Axle, Contact, LinkAngles, PerAxle, Rover, Side, SideLayout, body_moment_nm, bogie_moment_nm,
+    Axes, Axle, HubContact, LinkAngles, PerAxle, Rover, Side, SideLayout, body_moment_nm, bogie_moment_nm,
     rocker_moment_nm,
 };
 use kapvik_firmware::terramechanics::Soil;
@@ -73,11 +73,16 @@ impl SideBalance {
     /// On a slope, rad, uphill: the rover lies along the ground.
     pub fn new(rover: &Rover<f64>, slope_rad: f64) -> Self {
         let layout = SideLayout::new(rover, Side::Left, &LinkAngles::default());
-        Self::at(rover, &layout, &PerAxle::all(Contact::at(0.0)), slope_rad)
+        Self::at(rover, &layout, &PerAxle::all(HubContact::at(0.0)), slope_rad)
     }
 
     /// Of a side with its hubs where the layout has them, on these contacts in the body's axes, and the body at a pitch, rad.
-    pub fn at(rover: &Rover<f64>, layout: &SideLayout<f64>, contacts: &PerAxle<Contact<f64>>, pitch_rad: f64) -> Self {
+    pub fn at(
+        rover: &Rover<f64>,
+        layout: &SideLayout<f64>,
+        contacts: &PerAxle<HubContact<f64>>,
+        pitch_rad: f64,
+    ) -> Self {
         let weight = |along: f64, across: f64| {
             let specific_force = Axes { x: rover.gravity_m_s2 * along, y: 0.0, z: rover.gravity_m_s2 * across };
             let half_n = -0.5 * rover.mass_kg;
@@ -104,7 +109,7 @@ impl SideBalance {
 /// What pulls, loads and torques put into the balances.
 fn balances(
     layout: &SideLayout<f64>,
-    contacts: &PerAxle<Contact<f64>>,
+    contacts: &PerAxle<HubContact<f64>>,
     pulls_n: &PerAxle<f64>,
     loads_n: &PerAxle<f64>,
     torques_nm: &PerAxle<f64>,

@@ -1,8 +1,8 @@
 //! The forces on the rover at one instant, and what they leave unbalanced.
 
 use kapvik_firmware::rover::{
-    Axes, Axle, Contact, PerAxle, PerSide, PerWheel, Planar, Rover, Side, SideLayout, body_moment_nm, bogie_moment_nm,
-    rocker_moment_nm,
+    Axes, Axle, HubContact, PerAxle, PerSide, PerWheel, Planar, Rover, Side, SideLayout, body_moment_nm,
+    bogie_moment_nm, rocker_moment_nm,
 };
 use kapvik_firmware::terramechanics::effects::{Conditions, Effects, Grousers};
 use kapvik_firmware::terramechanics::{ForceError, Quadrature, Soil, WheelForces, WheelOnSoil};
@@ -56,7 +56,7 @@ pub struct WheelInstant {
     /// The hub in the body's axes, m.
     pub hub_m: Axes<f64>,
     /// The contact in the wheel's plane: x and z of the body.
-    pub contact: Contact<f64>,
+    pub contact: HubContact<f64>,
     /// Slope of the terrain along the wheel's plane against the horizontal, rad, uphill.
     pub contact_angle_rad: f64,
     /// How it moves on the soil.
@@ -267,9 +267,9 @@ impl WheelInstant {
 
 /// Tangent and normal of the ground in the plane of the wheels (x and z of the body). The ground rises along the world's x
 /// and is level across; the tangent is where that surface cuts the wheel's plane.
-fn contact_in_wheel_plane(pose: &Pose, ground: &Ground) -> Contact<f64> {
+fn contact_in_wheel_plane(pose: &Pose, ground: &Ground) -> HubContact<f64> {
     let (sine, cosine) = libm::sincos(pose.pitch);
     let along = Planar { x: libm::cos(pose.roll) * (cosine + ground.slope * sine), z: ground.slope * cosine - sine };
     let tangent = along.scaled(1.0 / along.length());
-    Contact { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
+    HubContact { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
 }

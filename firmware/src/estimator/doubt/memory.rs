@@ -21,9 +21,9 @@ const FINER: u32 = 14;
 
 /// The running means of the neurons that remember.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Memory([[i32; 4]; SLOW_QUADS]);
+pub struct DoubtMemory([[i32; 4]; SLOW_QUADS]);
 
-impl Memory {
+impl DoubtMemory {
     /// Nothing was seen.
     pub const EMPTY: Self = Self([[0; 4]; SLOW_QUADS]);
 
@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn the_last_neurons_follow_at_their_own_pace_and_the_others_at_once() {
-        let mut memory = Memory::EMPTY;
+        let mut memory = DoubtMemory::EMPTY;
         for step in 1..=40 {
             let mut hidden = layer(-20_000);
             memory.follow(&mut hidden);
@@ -75,7 +75,7 @@ mod tests {
     /// What does not change any more is reached to the last digit, and no change of the greatest activations overflows.
     #[test]
     fn means_reach_what_stays_and_stay_within_it() {
-        let mut memory = Memory::EMPTY;
+        let mut memory = DoubtMemory::EMPTY;
         for activation in [i16::MAX, i16::MIN, i16::MAX, 1, 0] {
             let mut hidden = layer(activation);
             for _ in 0..4_000 {

@@ -17,7 +17,7 @@ use crate::rover::PerAxle;
 use crate::scalar::Scalar;
 
 pub use inputs::INPUTS;
-pub use memory::{Memory, SHARE_BITS, SLOW};
+pub use memory::{DoubtMemory, SHARE_BITS, SLOW};
 
 /// Neurons of the hidden layer, of which the last [`SLOW`] remember.
 pub const HIDDEN: usize = 32;
@@ -54,7 +54,7 @@ impl DoubtNetwork {
     pub const ZERO: Self = Self { first: FixedLayer::ZERO, output: FixedLayer::ZERO };
 
     /// The outputs for inputs, which are taken to 1/4096 and saturate at ±8, after what is remembered, which takes them in.
-    pub fn run(&self, memory: &mut Memory, inputs: &[f32; INPUTS]) -> [f32; OUTPUTS] {
+    pub fn run(&self, memory: &mut DoubtMemory, inputs: &[f32; INPUTS]) -> [f32; OUTPUTS] {
         let mut hidden: [Quad; HIDDEN / 4] = self.first.run(&rounded(inputs, SUM_BITS));
         memory.follow(&mut hidden);
         self.output.outputs(&hidden)
@@ -69,7 +69,7 @@ impl DoubtNetwork {
 /// How far a side's filters are believed.
 #[derive(Debug, Clone)]
 pub(super) struct Doubt {
-    memory: Memory,
+    memory: DoubtMemory,
     times: [f32; OUTPUTS],
     /// Whether this side has the turn, and whether it got it in this frame.
     has_turn: bool,
@@ -87,7 +87,7 @@ impl Doubt {
     /// Of filters that have seen nothing, which are believed. The sides take turns, by `phase`: it is odd on one of them.
     pub fn new(phase: usize) -> Self {
         let has_turn = phase.is_multiple_of(2);
-        Self { memory: Memory::EMPTY, times: [1.0; OUTPUTS], has_turn, its_turn: false, since_s: 0.0 }
+        Self { memory: DoubtMemory::EMPTY, times: [1.0; OUTPUTS], has_turn, its_turn: false, since_s: 0.0 }
     }
 
     /// To be called once a frame, before anything else, with the time since the one before, s.
@@ -138,7 +138,7 @@ pub(super) fn of_wheels<S: Scalar>(outputs: &[S; OUTPUTS]) -> PerAxle<[S; QUANTI
 
 #[cfg(test)]
 mod tests {
-    use super::{Doubt, DoubtNetwork, GREATEST_OUTPUT, INPUTS, Memory, OUTPUTS, frozen, of_wheels, times_stated};
+    use super::{Doubt, DoubtMemory, DoubtNetwork, GREATEST_OUTPUT, INPUTS, OUTPUTS, frozen, of_wheels, times_stated};
     use crate::rover::PerAxle;
 
     /// Flight relies on it: no input whatever may bring a sum past 32 bits.
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn whatever_a_side_seems_to_know_doubt_is_bounded() {
-        let mut memory = Memory::EMPTY;
+        let mut memory = DoubtMemory::EMPTY;
         assert_eq!(DoubtNetwork::ZERO.run(&mut memory, &[3.0; INPUTS]).map(times_stated), [1.0; OUTPUTS]);
         for input in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 8.0, -8.0] {
             let doubt = frozen::NETWORK.run(&mut memory, &[input; INPUTS]).map(times_stated);
