@@ -67,6 +67,7 @@ mod trend;
 mod turn;
 mod walk_rate;
 mod watch;
+mod wheel_frame;
 mod whole_balance;
 
 pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};

@@ -12,6 +12,13 @@ const MOST_STUCK_FRAMES: u8 = 12;
 const DROPPED_AFTER: u8 = 10;
 /// Good readings in a row that bring it back.
 const PROBATION: u8 = 5;
+/// The most that a rover does. Rims and the body move at so much, m/s; links lie at so much, rad, and the body turns at so much, rad/s.
+const FASTEST_M_S: f32 = 2.0;
+const STEEPEST_RAD: f32 = 1.6;
+const FASTEST_TURN_RAD_S: f32 = 5.0;
+/// A wheel bears so many times the rover's weight, and its drive so many times its torque at the rim; accelerometers feel so many g.
+const MOST_WEIGHTS: f32 = 3.0;
+const MOST_GRAVITIES: f32 = 5.0;
 
 /// The gate of one sensor.
 #[derive(Debug, Clone, Copy)]
@@ -125,21 +132,20 @@ pub(super) struct SensorGates {
 }
 
 impl SensorGates {
-    /// Gates for what this rover can do at most: rims at 2 m/s, cells
-    /// and drives that hold its whole weight several times over.
+    /// Gates for what this rover can do at most.
     pub fn new(rover: &Rover<f32>) -> Self {
-        let weight_n = rover.mass_kg * rover.gravity_m_s2;
-        let angle = SensorGate::new(1.6);
+        let most_n = MOST_WEIGHTS * (rover.mass_kg * rover.gravity_m_s2);
+        let angle = SensorGate::new(STEEPEST_RAD);
         Self {
             gates: PerSensor {
-                wheel_rate: SensorGate::of_wheels(2.0 / rover.wheel.radius_m, true),
-                motor_torque: SensorGate::of_wheels(3.0 * weight_n * rover.wheel.radius_m, false),
-                load_cell: SensorGate::of_wheels(3.0 * weight_n, false),
+                wheel_rate: SensorGate::of_wheels(FASTEST_M_S / rover.wheel.radius_m, true),
+                motor_torque: SensorGate::of_wheels(most_n * rover.wheel.radius_m, false),
+                load_cell: SensorGate::of_wheels(most_n, false),
                 bogie_angle: PerSide::both(angle),
                 rocker_angle: angle,
-                accel: SensorGate::of_axes(5.0 * rover.gravity_m_s2),
-                gyro: SensorGate::of_axes(5.0),
-                velocity: SensorGate::of_axes(2.0),
+                accel: SensorGate::of_axes(MOST_GRAVITIES * rover.gravity_m_s2),
+                gyro: SensorGate::of_axes(FASTEST_TURN_RAD_S),
+                velocity: SensorGate::of_axes(FASTEST_M_S),
             },
         }
     }

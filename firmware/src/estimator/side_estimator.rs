@@ -12,7 +12,6 @@ use super::estimate::WheelActivity;
 use super::hub_force::{self, ForceReadings, HubForceFilter};
 use super::hub_on_ground::HubOnGround;
 use super::joints::Joints;
-use super::load_shift::HubShift;
 use super::rim_speed::RimSpeed;
 use super::scale::Scale;
 use super::sensor_gate::Repeats;
@@ -24,6 +23,7 @@ use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use super::track::{Met, Track};
 use super::turn::Turn;
+use super::wheel_frame::WheelFrame;
 use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
@@ -86,14 +86,6 @@ pub struct SideInnovations<S> {
     pub angles: Innovation<S, { contact_angle::MEASUREMENTS }>,
     /// Filter 2, forces: the cells, the moments on bogie and rocker.
     pub forces: Innovation<S, { hub_force::MEASUREMENTS }>,
-}
-
-/// What a wheel's filters are told in a frame.
-struct WheelFrame<S> {
-    link_rate_rad_s: S,
-    hub_speed_m_s: S,
-    measured_hub_speed_m_s: Option<S>,
-    hub_speed_std_m_s: S,
 }
 
 impl<S: Scalar> SideEstimator<S> {
@@ -225,35 +217,6 @@ impl<S: Scalar> SideEstimator<S> {
         let speeds_m_s =
             rates.zip(links).map(|(rate, link)| rate.map(|rate| (rate - link) * self.rover.wheel.radius_m));
         self.rims.follow(step_s, &speeds_m_s, velocity_m_s);
-    }
-
-    /// Speeds of the hubs along their contacts: the measured velocity of the axis, and what the joints add to it.
-    fn wheel_frames(&self, readings: &SideReadings<S>, body_pitch: (S, S)) -> PerAxle<WheelFrame<S>> {
-        let motion = &self.motion;
-        // Where the velocimeter does not say how fast it rises, what the links tell of that.
-        let Planar { x, z } = readings.axis_velocity_m_s;
-        let z = z.unwrap_or(motion.axis_velocity_m_s.turned_back(body_pitch).z);
-        let measured = x.map(|x| Planar { x, z }.turned(body_pitch));
-        let velocity_variance = readings.velocity_std_m_s.x * readings.velocity_std_m_s.x;
-        let variances = self.angles.hub_speed_variances(self.speed_m_s());
-        let shifts = self.angles.load_shift().hubs(&self.rover.suspension);
-        let frame = |hub: Planar<S>, tangent: Planar<S>, link_rate_rad_s: S, variance: S, shift: HubShift<S>| {
-            let hub_speed_m_s = hub.dot(tangent) + shift.faster_m_s;
-            let correction = measured.map(|axis| (axis - motion.axis_velocity_m_s).dot(tangent));
-            WheelFrame {
-                link_rate_rad_s,
-                hub_speed_m_s,
-                measured_hub_speed_m_s: correction.map(|correction| hub_speed_m_s + correction),
-                hub_speed_std_m_s: (velocity_variance + variance + shift.std_m_s * shift.std_m_s).sqrt(),
-            }
-        };
-        let (hubs, tangents) = (&motion.hub_velocities_m_s, &motion.tangents);
-        let (of_rocker, of_bogie) = (motion.rocker_rate_rad_s, motion.bogie_rate_rad_s);
-        PerAxle {
-            front: frame(hubs.front, tangents.front, of_rocker, variances.front, shifts.front),
-            middle: frame(hubs.middle, tangents.middle, of_bogie, variances.middle, shifts.middle),
-            rear: frame(hubs.rear, tangents.rear, of_bogie, variances.rear, shifts.rear),
-        }
     }
 
     fn tick_wheels(

@@ -9,7 +9,7 @@ const UNSEEN: f64 = 0.03;
 /// A gyro that has been silent for so long is not awaited any more, s: between two frames of ten a second, so that rounding decides nothing.
 /// For a shorter while the velocimeter is rather not asked: a noise that is another in each frame would hide how fast slips wander, and be
 /// followed as their trend.
-const AWAITED_S: f64 = 0.95;
+const GYRO_AWAITED_S: f64 = 0.95;
 
 /// The turning about one axis.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +21,7 @@ pub(super) struct Turn<S> {
 impl<S: Scalar> Turn<S> {
     /// Nothing was heard of it.
     pub fn new() -> Self {
-        Self { silence: Silence::of(AWAITED_S) }
+        Self { silence: Silence::of(GYRO_AWAITED_S) }
     }
 
     /// The velocity, m/s, at an end that is `arm_m` from the midpoint, of which the velocimeter says `velocity_m_s` and the gyro this rate,
@@ -37,7 +37,7 @@ impl<S: Scalar> Turn<S> {
         noise: &SensorNoise<S>,
     ) -> (Option<S>, S) {
         self.silence.follow(rate_rad_s.is_some(), step_s);
-        let is_told = rate_rad_s.is_some() || self.silence.lasts(AWAITED_S);
+        let is_told = rate_rad_s.is_some() || self.silence.lasts(GYRO_AWAITED_S);
         let turn_std = arm_m * if rate_rad_s.is_some() { noise.gyro_rad_s } else { S::constant(UNSEEN) };
         let by_turning = rate_rad_s.unwrap_or(S::zero()) * arm_m;
         let at_end = velocity_m_s.filter(|_| is_told).map(|velocity| velocity + by_turning);

@@ -7,10 +7,11 @@
 use super::scalar_filter::ScalarFilter;
 use crate::scalar::Scalar;
 
-/// Rates that are tried, as variances over the nominal one: each sixteen times the one before.
+/// Rates that are tried, as variances over the nominal one: each sixteen times the one before; and the logarithm of that.
 const CANDIDATES: usize = 5;
 const LEAST: f64 = 1.0e-4;
 const STEP: f64 = 16.0;
+const LN_STEP: f64 = 2.772_588_722_239_781;
 
 /// Of what the candidates explained badly, the share that is forgotten in a second: remembered over a tenth of a metre at two centimetres
 /// a second. And the most that is forgotten in a frame, however long.
@@ -21,7 +22,7 @@ const MOST_FORGOTTEN: f64 = 0.5;
 const HELD_AGAINST_FASTER: f64 = 10.0;
 /// Of the way from the rate that was learned to the nominal one, what goes by in a second without a measurement.
 const UNSEEN: f64 = 1.0;
-/// The geometric mean of the candidates: the rate of which nothing is known.
+/// The geometric mean of the candidates, the third of five: the rate of which nothing is known.
 const UNKNOWN: f64 = LEAST * STEP * STEP;
 
 /// The rate of one quantity.
@@ -162,7 +163,7 @@ impl<S: Scalar> WalkRate<S> {
             sum += weight * rank;
             rank += S::one();
         }
-        S::constant(LEAST) * (S::constant(2.772_588_722_239_781) * (sum / weights)).exp()
+        S::constant(LEAST) * (S::constant(LN_STEP) * (sum / weights)).exp()
     }
 }
 
