@@ -46,7 +46,6 @@ fn campaign(slip_sinkage: f64, random: &mut ChaCha8Rng) -> Campaign {
     Campaign::parse(Path::new("nine.csv"), &csv, &toml).expect("a campaign")
 }
 
-/// By chances of known noise eight are given something.
 #[test]
 fn of_clean_campaigns_few_are_given_something() {
     const CAMPAIGNS: usize = 80;

@@ -52,7 +52,7 @@ fn diagnosed(slip_sinkage: f64, count: usize) -> Vec<(usize, Diagnosis)> {
     (0..count).map(one).collect()
 }
 
-/// With the row left in, 21 of them are. Where the slip truly was 0.55, its forces differ less from those at 0.95 than an effect may make them.
+/// Where the slip truly was 0.55, its forces differ less from those at 0.95 than an effect may make them.
 #[test]
 fn a_clean_campaign_is_given_nothing_and_the_row_is_named() {
     let documents = diagnosed(0.0, 24);

@@ -40,3 +40,15 @@ fn the_split_by_torque_is_as_good_as_it_states_and_far_better_than_the_split_by_
     assert!(by_torque < 0.2 * by_load, "{by_torque} {by_load}");
     assert!((0.7..=1.3).contains(&normalised), "{normalised}");
 }
+
+/// Errors of filter 2 may make a load negative.
+#[test]
+fn wheels_whose_loads_sum_to_nothing_have_a_split() {
+    let wheel = |load_n: f32| BogieWheel { load_n, rim_force_n: 3.0, slip: 0.2, direction: 1.0 };
+    for sinking in [0.0, 0.04] {
+        for pair @ (middle, rear) in [(&wheel(0.0), &wheel(0.0)), (&wheel(5.0), &wheel(-5.0))] {
+            let split = DrawbarSplit::by_torque(middle, rear, 1.0).while_digging(pair, 1.0, sinking);
+            assert!(split.difference_n.is_finite() && split.std_n.is_finite(), "{sinking}: {split:?}");
+        }
+    }
+}

@@ -56,7 +56,7 @@ fn log_noticed(noticed: &Noticed) {
         defmt::info!("the soil changed, {=u16} so far", count);
     }
     if noticed.gaps > 0 {
-        defmt::warn!("a long gap between frames, filters started anew");
+        defmt::warn!("a long gap between frames or a clock set back, filters started anew");
     }
     if noticed.filter_resets > 0 {
         defmt::warn!("{=u32} filters reset to their floor", noticed.filter_resets);

@@ -64,7 +64,7 @@ fn filter_lines(outcome: &Outcome) -> impl Iterator<Item = String> {
     let counters = [
         ("frames repeated", health.repeated_frames),
         ("frames out of time", health.backward_frames),
-        ("gaps after which the filters started anew", health.gaps),
+        ("gaps, or clocks set back, after which the filters started anew", health.gaps),
         ("filters reset to their floor", health.filter_resets),
         ("filters that gave up what they believed", health.relearned),
     ];
