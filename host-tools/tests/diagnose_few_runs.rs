@@ -39,6 +39,11 @@ type Ground = fn(f64, f64) -> (f64, f64);
 
 /// Five runs whose noise is so many times what is stated, and tables of TOML besides.
 fn campaign(ground: Ground, reads: Reads, times_noise: f64, tables: &str) -> Campaign {
+    campaign_of(&NOISE, ground, reads, times_noise, tables)
+}
+
+/// The same with another noise that is stated.
+fn campaign_of(stated: &WheelNoise<f64>, ground: Ground, reads: Reads, times_noise: f64, tables: &str) -> Campaign {
     let mut random = ChaCha8Rng::seed_from_u64(23);
     let mut csv = format!("{COLUMNS},temperature_c\n");
     for (run, row) in (0..RUNS).flat_map(|run| (0..ROWS).map(move |row| (run, row))) {
@@ -49,11 +54,11 @@ fn campaign(ground: Ground, reads: Reads, times_noise: f64, tables: &str) -> Cam
         let soil: Soil<f64> = prior::soil([400.0, 0.55, 0.012, exponent, stiffness, 0.3, 0.15]);
         let mut truth = WheelState::under_load(&prior::KAPVIK_WHEEL, &soil, slip, load_n).expect("a soil that carries");
         truth.torque_nm += reads(temperature_c);
-        let noise = NOISE.map(|std| times_noise * std);
+        let noise = stated.map(|std| times_noise * std);
         let seen = truth.blurred(&noise, || StandardNormal.sample(&mut random));
         writeln!(csv, "r{run},{},{},{temperature_c:.3}", 5 * row, readings(&seen)).expect("text");
     }
-    let toml = description("Five runs", &format!("{SOIL}{tables}"), Some(&NOISE));
+    let toml = description("Five runs", &format!("{SOIL}{tables}"), Some(stated));
     Campaign::parse(Path::new("five.csv"), &csv, &toml).expect("a campaign")
 }
 
@@ -84,6 +89,16 @@ fn noise_that_is_stated_too_small_is_told() {
     assert!(document.sentence.contains("times its stated noise"), "{}", document.sentence);
     let clean = diagnosed(&campaign(as_declared, |_| 0.0, 1.0, ""));
     assert!(clean.verdict == Verdict::None && clean.sentence.contains("as well as their noise allows"));
+}
+
+/// It moves the drawbar pull by three times the pull's own noise.
+#[test]
+fn a_slip_that_is_as_noisy_as_it_is_stated_is_no_misfit() {
+    let noisy = WheelNoise { slip: 0.03, ..NOISE };
+    let document = diagnosed(&campaign_of(&noisy, as_declared, |_| 0.0, 1.0, ""));
+    let pull = document.channels["drawbar_pull_n"];
+    assert!(pull.rmse_after > 2.0 * pull.noise, "{pull:?}");
+    assert!(document.sentence.contains("as well as their noise allows"), "{}", document.sentence);
 }
 
 /// A soil that is stiffer under more load: how much by means nothing without the load at which it is what `soil_after` says.

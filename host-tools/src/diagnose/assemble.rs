@@ -64,7 +64,7 @@ pub fn assemble(
     document.caveats.extend(by_themselves.caveats.iter().cloned());
     document.caveats.extend(without_answer(measurements, &document.held_out_runs));
     document.caveats.extend(no_error_falls(&document));
-    super::sentence::tell(&mut document, campaign);
+    super::sentence::tell(&mut document, campaign, errors);
     document
 }
 

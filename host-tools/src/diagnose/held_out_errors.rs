@@ -16,12 +16,15 @@ pub struct HeldOutErrors {
     pub before: Vec<[Option<f64>; CHANNELS]>,
     /// The same with the effects that were chosen without the run.
     pub after: Vec<[Option<f64>; CHANNELS]>,
+    /// One standard deviation of that as parameters, slip, load and noise have it, of a run that is off by nothing of its own.
+    pub expected: Vec<[Option<f64>; CHANNELS]>,
 }
 
 impl HeldOutErrors {
     /// Those of rows of which none is predicted yet.
     pub fn none_yet(rows: usize) -> Self {
-        Self { before: vec![[None; CHANNELS]; rows], after: vec![[None; CHANNELS]; rows] }
+        let none = vec![[None; CHANNELS]; rows];
+        Self { before: none.clone(), after: none.clone(), expected: none }
     }
 
     /// Whether both models predicted a channel in a row.
@@ -37,6 +40,15 @@ impl HeldOutErrors {
             (!squares.is_empty()).then(|| f64::sqrt(squares.iter().sum::<f64>() / squares.len() as f64))
         };
         Some(ErrorPair { rmse_before: rmse(&self.before)?, rmse_after: rmse(&self.after)? })
+    }
+
+    /// By how many times the errors of a channel with the effects exceed what is expected of them, both root mean square; none of a channel of
+    /// which nothing is.
+    pub fn times_expected(&self, channel: usize) -> Option<f64> {
+        let both = self.after.iter().zip(&self.expected).filter_map(|(error, std)| error[channel].zip(std[channel]));
+        let (errors, expected) =
+            both.fold((0.0, 0.0), |(errors, expected), (error, std)| (errors + error * error, expected + std * std));
+        (expected > 0.0).then(|| f64::sqrt(errors / expected))
     }
 }
 
@@ -68,6 +80,9 @@ pub fn held_out_errors<'a>(
     for (before, after) in &predictions {
         note(before, &mut errors.before);
         note(after, &mut errors.after);
+        for row in after.runs.iter().flat_map(|run| &run.rows) {
+            errors.expected[row.row] = row.std_within_run;
+        }
     }
     errors
 }

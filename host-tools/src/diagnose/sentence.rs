@@ -5,13 +5,16 @@ use kapvik_firmware::terramechanics::effects::effect_info;
 use crate::data::campaign::{Campaign, Channel};
 
 use super::document::{Diagnosis, Verdict};
+use super::fit::Reading;
+use super::held_out_errors::HeldOutErrors;
+use super::measurements::column_name;
 
-/// Times the stated noise from which errors on held-out runs are not that noise.
+/// Times what the stated noise allows from which errors on held-out runs are not that noise.
 const BEYOND_NOISE: f64 = 2.0;
 
 /// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document.
-pub fn tell(document: &mut Diagnosis, campaign: &Campaign) {
-    document.sentence = sentence(document, campaign);
+pub fn tell(document: &mut Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) {
+    document.sentence = sentence(document, campaign, errors);
     if document.verdict == Verdict::Ambiguous {
         let ids = document.effects.iter().take(1).map(|effect| &effect.id).chain(&document.ambiguous_with);
         let tests: Vec<_> = ids.filter_map(|id| effect_info(id).map(|info| format!("{id}: {}", info.test))).collect();
@@ -19,7 +22,7 @@ pub fn tell(document: &mut Diagnosis, campaign: &Campaign) {
     }
 }
 
-fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
+fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) -> String {
     let model = if document.declared.is_empty() {
         "the seed's equations".to_owned()
     } else {
@@ -34,9 +37,9 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
         Verdict::None if document.channels.is_empty() => {
             format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
         }
-        Verdict::None if let Some((channel, times)) = beyond_noise(document, campaign) => format!(
-            "{of}: {model} miss {channel} by {times:.1} times its stated noise, and no candidate and no column explains that: the noise is \
-             larger, or a law is missing that follows nothing measured."
+        Verdict::None if let Some((channel, times)) = beyond_noise(document, campaign, errors) => format!(
+            "{of}: {model} miss {channel} by {times:.1} times its stated noise and that of slip and load, and no candidate and no column \
+             explains that: the noise is larger, or a law is missing that follows nothing measured."
         ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
@@ -58,12 +61,14 @@ fn sentence(document: &Diagnosis, campaign: &Campaign) -> String {
     }
 }
 
-/// The channel that is missed by most of its stated noise on held-out runs, and by how much, where that is far from one. None where no load
-/// is measured: what stands in for it has a noise of its own.
-fn beyond_noise<'a>(document: &'a Diagnosis, campaign: &Campaign) -> Option<(&'a str, f64)> {
+/// The channel of stated noise that is missed by most of what noise allows on held-out runs, and by how much, where that is far from one. None
+/// where no load is measured: what stands in for it has a noise of its own.
+fn beyond_noise(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) -> Option<(&'static str, f64)> {
     campaign.column(Channel::Load.name())?;
-    let stated = document.channels.iter().filter(|(_, errors)| errors.noise_stated);
-    let missed = stated.map(|(channel, errors)| (channel.as_str(), errors.rmse_after / errors.noise));
+    let is_stated = |channel| document.channels.get(channel).is_some_and(|errors| errors.noise_stated);
+    let channels = Reading::JUDGED.into_iter().map(|reading| (reading, column_name(reading)));
+    let stated = channels.filter(|(_, channel)| is_stated(*channel));
+    let missed = stated.filter_map(|(reading, channel)| Some((channel, errors.times_expected(reading.index())?)));
     missed.filter(|(_, times)| *times > BEYOND_NOISE).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 

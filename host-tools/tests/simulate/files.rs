@@ -122,9 +122,10 @@ fn frames_are_read_as_they_are_written() {
 
 #[test]
 fn frames_that_are_wrong_are_refused_by_line_and_column() {
-    let cases: [(&[u8], &str); 17] = [
+    let cases: [(&[u8], &str); 18] = [
         (b"", "f.csv:1:1: the file is empty"),
         (b"load_cell_fl_n\n1\n", "f.csv:1:1: no column `t_s`"),
+        (b"t_s;load_cell_fl_n\n0;1\n", "f.csv:1:1: columns are parted by semicolons: expected commas"),
         (b"t_s,load_cell_xx_n\n0,1\n", "f.csv:1:1: no sensor: expected columns such as"),
         (b"t_s,gyro_x_rad_s,gyro_x_rad_s\n0,1,1\n", "f.csv:1:3: a second column is named `gyro_x_rad_s`"),
         (b"t_s,,gyro_x_rad_s\n0,1,1\n", "f.csv:1:2: this column has no name"),

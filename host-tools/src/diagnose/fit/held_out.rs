@@ -50,4 +50,6 @@ pub struct HeldOutRow {
     pub residual: [Option<f64>; CHANNELS],
     /// Standard deviation that the prediction gives this residual: parameters, slip and load, offset and noise.
     pub std: [Option<f64>; CHANNELS],
+    /// The same where the run's offsets are known.
+    pub std_within_run: [Option<f64>; CHANNELS],
 }

@@ -36,7 +36,8 @@ pub(super) fn judge(
     for (place, &index) in run.rows.iter().enumerate() {
         let row = &problem.rows[index];
         let prediction = &measured.predictions[place];
-        let mut seen = HeldOutRow { row: index, residual: [None; CHANNELS], std: [None; CHANNELS] };
+        let none = [None; CHANNELS];
+        let mut seen = HeldOutRow { row: index, residual: none, std: none, std_within_run: none };
         let inverse =
             measured.sources[place].and_then(|sources| Some((sources, by_readings(&prediction.slopes, sources)?)));
         if let Some((sources, inverse)) = inverse {
@@ -50,7 +51,9 @@ pub(super) fn judge(
                 let direction = fresh.direction(&prediction.slopes, c, sources, gain);
                 let score = filter.take(&direction, residual, noise, problem.huber);
                 seen.residual[c] = Some(residual);
-                seen.std[c] = Some(fresh.variance(&direction, noise).sqrt());
+                let variance = fresh.variance(&direction, noise);
+                seen.std[c] = Some(variance.sqrt());
+                seen.std_within_run[c] = Some((variance - fresh.of_offsets(&direction, &offset)).max(0.0).sqrt());
                 judged.log_score_by_channel[c] += score;
                 judged.judged[c] += 1;
                 total += score;
@@ -136,6 +139,11 @@ impl Knowledge {
 
     fn variance(&self, direction: &DVector<f64>, noise: f64) -> f64 {
         direction.dot(&(&self.covariance * direction)) + noise * noise
+    }
+
+    /// The part of that variance which the offsets of a run have of which nothing is known yet.
+    fn of_offsets(&self, direction: &DVector<f64>, offset: &[f64; CHANNELS]) -> f64 {
+        direction.iter().skip(self.parameters).zip(offset).map(|(by, std)| (by * std).powi(2)).sum()
     }
 
     /// ln density of a residual, which is then known.
