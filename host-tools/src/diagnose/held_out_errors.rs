@@ -8,6 +8,12 @@ use super::fit::{CHANNELS, HeldOut};
 use super::folds::{Fold, choose};
 use super::trial::Trial;
 use super::unseen_runs::groups;
+use crate::statistics::sorted;
+
+/// Share of the readings of a channel that may be gross errors; and a standard deviation over the root mean square of all the nearer ones, of a
+/// normal distribution.
+const GROSS_SHARE: f64 = 0.1;
+const PER_NEAR: f64 = 1.267;
 
 /// Predictions of each row by models that did not know its run.
 #[derive(Debug, Clone)]
@@ -42,13 +48,14 @@ impl HeldOutErrors {
         Some(ErrorPair { rmse_before: rmse(&self.before)?, rmse_after: rmse(&self.after)? })
     }
 
-    /// By how many times the errors of a channel with the effects exceed what is expected of them, both root mean square; none of a channel of
-    /// which nothing is.
+    /// By how many times the errors of a channel with the effects exceed what is expected of them, by all readings but the farthest tenth, which
+    /// may be gross errors; none of a channel of which nothing is expected.
     pub fn times_expected(&self, channel: usize) -> Option<f64> {
         let both = self.after.iter().zip(&self.expected).filter_map(|(error, std)| error[channel].zip(std[channel]));
-        let (errors, expected) =
-            both.fold((0.0, 0.0), |(errors, expected), (error, std)| (errors + error * error, expected + std * std));
-        (expected > 0.0).then(|| f64::sqrt(errors / expected))
+        let times = sorted(both.filter(|(_, std)| *std > 0.0).map(|(error, std)| (error / std).abs()));
+        let near = &times[..times.len() - (GROSS_SHARE * times.len() as f64).ceil() as usize];
+        let squares: f64 = near.iter().map(|times| times * times).sum();
+        (!near.is_empty()).then(|| PER_NEAR * f64::sqrt(squares / near.len() as f64))
     }
 }
 
