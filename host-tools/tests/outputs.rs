@@ -42,6 +42,12 @@ fn an_output_that_is_an_input_is_refused() {
 }
 
 #[test]
+fn no_folder_is_made_for_what_is_refused() {
+    let said = refusal(&["close-loop", "made.csv", "--quick", "-o", "new", "--diagnosis", "nowhere.json"]);
+    assert!(said.starts_with("kapvik: nowhere.json: No such file"), "{said}");
+}
+
+#[test]
 fn outputs_that_are_one_file_are_refused() {
     for arguments in [
         ["diagnose", "made.csv", "--json", "same", "--html", "same"],

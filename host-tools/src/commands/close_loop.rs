@@ -54,10 +54,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let campaign = diagnose::campaign(&arguments.campaign)?;
     let truth = truth(arguments)?;
     let folder = arguments.output.clone().unwrap_or_else(|| workspace().join("target/kapvik-close-loop"));
+    // One that is yet to be made holds nothing that is read.
+    if folder.is_dir() {
+        check_outputs(arguments, &folder)?;
+    }
     let known = arguments.diagnosis.as_deref().map(|path| read(path, &campaign)).transpose()?;
-    // A folder that is not there yet holds nothing that is read.
     std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
-    check_outputs(arguments, &folder)?;
     let diagnosis = match known {
         Some(diagnosis) => diagnosis,
         None => {
