@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 use kapvik_firmware::terramechanics::Soil;
 
 use crate::diagnose::document::{Diagnosis, Estimate};
 use crate::report::diagnosis::Quantity;
+use crate::terminal_table::{align_right, plain_table};
 use crate::train::score::Score;
 
 use super::on_campaign::{CampaignSoil, SoilColumn};
@@ -159,14 +159,14 @@ impl Shown {
 }
 
 fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(header.iter().copied());
+    let mut table = plain_table();
+    table.set_header(header.iter().copied());
     table
 }
 
 /// Words to the left, numbers to the right.
 fn aligned(mut table: Table) -> String {
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
+    align_right(&mut table);
     table.trim_fmt()
 }
 

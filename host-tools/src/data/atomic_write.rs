@@ -36,13 +36,12 @@ pub fn write_atomically(
         builder.permissions(permissions);
     }
     let mut file = builder.tempfile_in(folder).map_err(failed)?;
-    let unfinished = Unfinished::new(file.path());
+    let _unfinished = Unfinished::new(file.path());
     let mut out = BufWriter::new(file.as_file_mut());
     write(&mut out)?;
     out.flush().map_err(failed)?;
     drop(out);
     file.persist(&target).map_err(|error| failed(error.error))?;
-    drop(unfinished);
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! Formulas of a small grammar: a scale of the channel times shapes of dimensionless groups.
 
 use super::measurements::median;
+use crate::statistics::sorted;
 
 /// Values that a group must take for its shapes to differ: with two, every shape is a line.
 const FEW_VALUES: usize = 2;
@@ -118,8 +119,7 @@ pub fn terms(groups: &[Group]) -> Vec<Term> {
 }
 
 fn shapes(group: &Group) -> Vec<Shape> {
-    let mut distinct = group.values.clone();
-    distinct.sort_by(f64::total_cmp);
+    let mut distinct = sorted(group.values.iter().copied());
     distinct.dedup();
     let mut shapes = vec![Shape::Line];
     if !group.has_shapes || distinct.len() <= FEW_VALUES {

@@ -6,13 +6,12 @@ use super::bench::Bench;
 use super::document::ErrorPair;
 use super::fit::{CHANNELS, HeldOut};
 use super::folds::{Fold, choose};
+use super::lone_rows::FEW;
 use super::trial::Trial;
 use super::unseen_runs::groups;
 use crate::statistics::sorted;
 
-/// Share of the readings of a channel that may be gross errors; and a standard deviation over the root mean square of all the nearer ones, of a
-/// normal distribution.
-const GROSS_SHARE: f64 = 0.1;
+/// A standard deviation over the root mean square of all errors but the farthest tenth, of a normal distribution.
 const PER_NEAR: f64 = 1.267;
 
 /// Predictions of each row by models that did not know its run.
@@ -53,7 +52,7 @@ impl HeldOutErrors {
     pub fn times_expected(&self, channel: usize) -> Option<f64> {
         let both = self.after.iter().zip(&self.expected).filter_map(|(error, std)| error[channel].zip(std[channel]));
         let times = sorted(both.filter(|(_, std)| *std > 0.0).map(|(error, std)| (error / std).abs()));
-        let near = &times[..times.len() - (GROSS_SHARE * times.len() as f64).ceil() as usize];
+        let near = &times[..times.len() - (FEW * times.len() as f64).ceil() as usize];
         let squares: f64 = near.iter().map(|times| times * times).sum();
         (!near.is_empty()).then(|| PER_NEAR * f64::sqrt(squares / near.len() as f64))
     }

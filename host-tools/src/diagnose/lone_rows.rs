@@ -15,7 +15,7 @@ use crate::statistics::robust_std;
 /// Times what is usual in its channel from which a reading is far out.
 const FAR_OUT: f64 = 6.0;
 /// Share of all rows that may stand alone for one of the two models; more of them do not, together.
-const FEW: f64 = 0.1;
+pub const FEW: f64 = 0.1;
 /// Fewer rows do not tell which of them is wrong.
 const LEAST_ROWS: usize = 12;
 /// Rows that are named one by one.

@@ -4,6 +4,7 @@ use crate::data::campaign::Campaign;
 
 use super::fit::{CHANNELS, Reading};
 use super::measurements::{COLUMNS, median};
+use crate::statistics::sorted;
 
 /// Noise of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +50,8 @@ fn guess(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CH
 }
 
 /// Half of the range that holds the middle four fifths.
-fn spread(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
+fn spread(values: Vec<f64>) -> f64 {
+    let values = sorted(values);
     let at = |share: f64| values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0);
     0.5 * (at(0.9) - at(0.1)).abs()
 }

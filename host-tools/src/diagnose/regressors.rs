@@ -10,6 +10,7 @@ use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
 use super::measurements::column_name;
 use super::rates::speed_ratio;
+use crate::statistics::sorted;
 
 /// A column, or a product of two, about zero and one in size. What is made of slip, load, sinkage or speed is a function of
 /// the true slip and load as they were fitted, not of their readings.
@@ -191,8 +192,7 @@ pub(super) fn is_scatter(name: &str) -> bool {
 fn standardised(name: String, parts: Vec<String>, column: &Column, at: &Arc<[[f64; 2]]>) -> Option<Regressor> {
     let values = &column.values;
     let known: Vec<f64> = values.iter().flatten().copied().filter(|value| value.is_finite()).collect();
-    let mut distinct = known.clone();
-    distinct.sort_by(f64::total_cmp);
+    let mut distinct = sorted(known.iter().copied());
     distinct.dedup();
     if (known.len() as f64) < KNOWN_SHARE * values.len() as f64 || distinct.len() < LEAST_VALUES {
         return None;

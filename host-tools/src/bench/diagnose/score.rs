@@ -1,7 +1,6 @@
 //! The score of a benchmark, as a person reads it.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::CellAlignment;
 
 use super::answer::Answer;
 use super::campaign_draw::Subject;
@@ -10,6 +9,7 @@ use super::trial::Trial;
 use super::undeclared::effect_ids;
 use crate::diagnose::document::Verdict;
 use crate::statistics::median;
+use crate::terminal_table::plain_table;
 
 /// Prints all of it.
 pub fn print(trials: &[Trial]) {
@@ -60,10 +60,10 @@ fn print_confusion(trials: &[Trial]) {
     }
     let ids = effect_ids();
     let columns = ids.len() + 3;
-    let mut table = Table::new();
+    let mut table = plain_table();
     let header = ["", "right", "alone"].map(str::to_owned).into_iter();
     let header = header.chain((1..=ids.len()).map(|number| number.to_string()));
-    table.load_style(NOTHING).set_header(header.chain(["none", "unexp.", "error"].map(str::to_owned)));
+    table.set_header(header.chain(["none", "unexp.", "error"].map(str::to_owned)));
     for (number, id) in ids.iter().enumerate() {
         let own: Vec<&Trial> = singles.iter().filter(|(of, _)| of == id).map(|(_, trial)| *trial).collect();
         if own.is_empty() {
