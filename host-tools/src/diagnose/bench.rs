@@ -159,6 +159,13 @@ impl<'a> Bench<'a> {
         Some(Trial { specification, model, fit })
     }
 
+    /// The model of a trial, fitted to this bench's rows from its parameters: those may be of other rows.
+    pub fn fitted_like(&self, other: &Trial<'_>) -> Option<Trial<'a>> {
+        let model = CampaignModel::new(self.campaign, self.measurements, &other.specification);
+        let start = Start::at(other.fit.parameters.clone(), &self.measurements.rows);
+        self.fitted(&(other.specification.clone(), model), &start, &self.measurements.rows, &self.options)
+    }
+
     /// The rows and options with the scales of a fit's noise and offsets held.
     pub fn held(&self, fit: &Fit) -> Held {
         let mut rows = self.measurements.rows.clone();

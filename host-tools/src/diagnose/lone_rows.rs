@@ -2,11 +2,10 @@
 //!
 //! One slip that was noted wrongly is many standard deviations off in every channel, and an effect that bends just there gains by it. Loss
 //! that grows linearly does not help against that: the row is alone where it seems to be. So where a few rows are far out, the search is done
-//! again without them. What still is found is found by the others. Where far rows have their place in common, as the first of every run, a
-//! law is missing that shows there, and none of them stands alone.
+//! without them. What is found is found by the others; where it explains these rows, too, they count. Where far rows have their place in
+//! common, as the first of every run, a law is missing that shows there, and none of them stands alone.
 
 use super::fit::{Fit, Reading};
-use super::forward::Selected;
 use super::measurements::{COLUMNS, Measurements, column_name};
 use super::shared_place::share_a_place;
 use crate::data::campaign::Campaign;
@@ -14,7 +13,7 @@ use crate::statistics::robust_std;
 
 /// Times what is usual in its channel from which a reading is far out.
 const FAR_OUT: f64 = 6.0;
-/// Share of all rows that may stand alone for one of the two models; more of them do not, together.
+/// Share of all rows that may stand alone for a model; more of them do not, together.
 pub const FEW: f64 = 0.1;
 /// Fewer rows do not tell which of them is wrong.
 const LEAST_ROWS: usize = 12;
@@ -32,27 +31,8 @@ pub struct LoneRow {
     pub times: f64,
 }
 
-/// Rows that may alone bear what was found.
-#[derive(Debug, Clone)]
-pub struct Bearing {
-    /// The rows.
-    pub rows: Vec<LoneRow>,
-    /// Whether the model with what was found leaves none far out.
-    pub are_explained: bool,
-}
-
-/// Those that the declared model leaves far out, and those that the model with what was found does; none where there are none.
-pub fn bearing(measurements: &Measurements, selected: &Selected<'_>) -> Option<Bearing> {
-    let after = lone_rows(measurements, &selected.model().fit);
-    let are_explained = after.is_empty();
-    let mut rows = lone_rows(measurements, &selected.base.fit);
-    let known: Vec<usize> = rows.iter().map(|lone| lone.place).collect();
-    rows.extend(after.into_iter().filter(|lone| !known.contains(&lone.place)));
-    (!rows.is_empty()).then_some(Bearing { rows, are_explained })
-}
-
 /// Rows that a fit leaves far out, if they are few; the farthest first.
-fn lone_rows(measurements: &Measurements, fit: &Fit) -> Vec<LoneRow> {
+pub fn lone_rows(measurements: &Measurements, fit: &Fit) -> Vec<LoneRow> {
     let rows = fit.standardised.len();
     if rows < LEAST_ROWS {
         return Vec::new();

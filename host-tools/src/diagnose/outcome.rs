@@ -10,7 +10,7 @@ use super::formula_search::law;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
-use super::lone_rows::{Bearing, LoneRow, bearing, in_words};
+use super::lone_rows::{LoneRow, in_words, lone_rows};
 use super::measurements::Measurements;
 use super::specification::Specification;
 use super::trial::Trial;
@@ -58,13 +58,15 @@ pub fn diagnose(
     // Of the runs that can be used: another may only brake.
     let single = Measurements::without(campaign, options.braking, &[])?.runs.len() == 1;
     let apart = single.then(|| campaign.clone().with_a_run_for_each_row());
-    let whole = Whole { as_given: campaign, in_runs: apart.as_ref().unwrap_or(campaign), is_single: single };
+    let in_runs = apart.as_ref().unwrap_or(campaign);
+    let whole = Whole { as_given: campaign, in_runs, is_single: single, options, progress };
     progress("declared model");
-    let measurements = measured(whole.in_runs, options, &[])?;
-    let bench = Bench::new(whole.in_runs, &measurements);
-    let selected = select(&bench, declared_model(&bench)?, progress);
-    let without = bearing(&measurements, &selected).and_then(|lone| whole.without(&lone, options, &selected, progress));
-    Ok(without.unwrap_or_else(|| whole.concluded(&bench, &selected, &[], progress)))
+    let measurements = measured(in_runs, options, &[])?;
+    let all = Bench::new(in_runs, &measurements);
+    let declared = declared_model(&all)?;
+    let lone = lone_rows(&measurements, &declared.fit);
+    let without = if lone.is_empty() { None } else { whole.without(&lone, &all, &declared) };
+    Ok(without.unwrap_or_else(|| whole.concluded_by_many(&all, &select(&all, declared, progress), &[])))
 }
 
 fn ids(selected: &Selected<'_>) -> Vec<&'static str> {
@@ -76,43 +78,64 @@ struct Whole<'a> {
     as_given: &'a Campaign,
     in_runs: &'a Campaign,
     is_single: bool,
+    options: &'a DiagnoseOptions,
+    progress: &'a (dyn Fn(&str) + Sync),
 }
 
 impl Whole<'_> {
-    /// What comes of a selection without rows that alone bear another; none where no model has a fit without them, or the other finds the
-    /// same effects and they explain these rows, too.
-    fn without(
-        &self,
-        lone: &Bearing,
-        options: &DiagnoseOptions,
-        selected: &Selected<'_>,
-        progress: &(dyn Fn(&str) + Sync),
-    ) -> Option<Outcome> {
-        progress("without rows that stand alone");
-        let fewer = measured(self.in_runs, options, &lone.rows).ok()?;
+    /// What comes of a selection without rows that the declared model leaves far out; or of one with `all`, where what is found without
+    /// these rows explains them, too. None where no model has a fit without them.
+    fn without(&self, lone: &[LoneRow], all: &Bench<'_>, declared: &Trial<'_>) -> Option<Outcome> {
+        (self.progress)("without rows that stand alone");
+        self.selected_without(lone, |bench, selected| {
+            let with_all = self.explaining_all(all, declared, selected);
+            with_all.unwrap_or_else(|| self.concluded_by_many(bench, selected, lone))
+        })
+    }
+
+    /// What is made of a selection without some rows; none where no model has a fit without them.
+    fn selected_without<R>(&self, lone: &[LoneRow], of: impl FnOnce(&Bench<'_>, &Selected<'_>) -> R) -> Option<R> {
+        let fewer = measured(self.in_runs, self.options, lone).ok()?;
         let bench = Bench::new(self.in_runs, &fewer);
-        let again = select(&bench, declared_model(&bench).ok()?, progress);
-        let are_same = lone.are_explained && !selected.found.is_empty() && ids(&again) == ids(selected);
-        (!are_same).then(|| self.concluded(&bench, &again, &lone.rows, progress))
+        Some(of(&bench, &select(&bench, declared_model(&bench).ok()?, self.progress)))
+    }
+
+    /// What comes of a selection with all rows, where it finds what was found without some, and these are no farther out then.
+    fn explaining_all(&self, all: &Bench<'_>, declared: &Trial<'_>, without: &Selected<'_>) -> Option<Outcome> {
+        let leaves_none = |trial: &Trial<'_>| lone_rows(all.measurements, &trial.fit).is_empty();
+        if without.found.is_empty() || !leaves_none(&all.fitted_like(without.model())?) {
+            return None;
+        }
+        (self.progress)("with rows that are explained");
+        let selected = select(all, declared.clone(), self.progress);
+        let are_same = ids(&selected) == ids(without) && leaves_none(selected.model());
+        are_same.then(|| self.concluded(all, &selected, &[]))
+    }
+
+    /// What came of a selection, or of another without the rows that its model leaves far out: these may alone bear what was found. Where
+    /// some were set aside and nothing was found, nothing is borne by others.
+    fn concluded_by_many(&self, bench: &Bench<'_>, selected: &Selected<'_>, set_aside: &[LoneRow]) -> Outcome {
+        let is_settled = selected.found.is_empty() && !set_aside.is_empty();
+        let further = if is_settled { Vec::new() } else { lone_rows(bench.measurements, &selected.model().fit) };
+        let without_these = || {
+            let lone = [set_aside, &further].concat();
+            self.selected_without(&lone, |bench, again| self.concluded(bench, again, &lone))
+        };
+        let by_many = if further.is_empty() { None } else { without_these() };
+        by_many.unwrap_or_else(|| self.concluded(bench, selected, set_aside))
     }
 
     /// What came of a selection.
-    fn concluded(
-        &self,
-        bench: &Bench<'_>,
-        selected: &Selected<'_>,
-        set_aside: &[LoneRow],
-        progress: &(dyn Fn(&str) + Sync),
-    ) -> Outcome {
+    fn concluded(&self, bench: &Bench<'_>, selected: &Selected<'_>, set_aside: &[LoneRow]) -> Outcome {
         // Rows of one run may share what the force channels would take for an effect: these judge by runs as they are.
         let by_themselves = force_channels::examine(self.as_given);
         let measurements = bench.measurements;
-        let errors = held_out_errors(bench, &selected.base, &shortlists(selected), progress);
+        let errors = held_out_errors(bench, &selected.base, &shortlists(selected), self.progress);
         let levels = levels_left_out(measurements, selected);
         let mut document = assemble(self.in_runs, measurements, selected, &errors, levels, &by_themselves);
         document.data = Some(Fingerprint::of(self.as_given));
         if let Some(structure) = selected.left.first() {
-            progress("a law of no list");
+            (self.progress)("a law of no list");
             let dispersion = selected.last.as_ref().map_or(selected.dispersion(), |step| step.dispersion);
             document.found_law = law(bench, selected.model(), structure, dispersion);
         }
