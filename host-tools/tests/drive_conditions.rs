@@ -7,9 +7,12 @@ use kapvik_host::data::truth_file::Truth;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 
 fn drive(scenario: Scenario, seed: u64) -> Vec<(FrameEstimate, Truth)> {
+    drive_with(scenario, seed, &Options::default())
+}
+
+fn drive_with(scenario: Scenario, seed: u64, options: &Options) -> Vec<(FrameEstimate, Truth)> {
     let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-    let traverse =
-        Traverse::new(scenario, seed, &Rover::assumed(), &Options::default()).expect("there is such a drive");
+    let traverse = Traverse::new(scenario, seed, &Rover::assumed(), options).expect("there is such a drive");
     traverse
         .map(|step| {
             let (frame, truth) = step.expect("the rover drives on");
@@ -39,6 +42,26 @@ fn a_wheel_that_stands_has_no_slip_and_one_that_turns_back_has() {
             }
         }
         assert!(standing > 20 && back > 20, "seed {seed}: {standing} standing, {back} backing up");
+    }
+}
+
+/// In the first frame in which wheels turn the filter knows only that they stood; their encoders say better, however seldom they speak.
+#[test]
+fn a_wheel_that_starts_is_not_taken_for_blocked() {
+    for (seed, rate_hz) in (1000..1004).flat_map(|seed| [1.0, 2.0, 5.0, 10.0].map(|rate_hz| (seed, rate_hz))) {
+        let options = Options { rate_hz: Some(rate_hz), ..Options::default() };
+        let mut starts = 0;
+        for pair in drive_with(Scenario::StartStop, seed, &options).windows(2) {
+            let [(_, before), (estimate, now)] = pair else { continue };
+            let wheels = before.wheels.iter_wheels().zip(now.wheels.iter_wheels()).zip(estimate.wheels.iter_wheels());
+            for ((before, now), said) in wheels {
+                let has_started = before.slip.is_none() && now.slip.is_some_and(|slip| slip > -0.5);
+                starts += u32::from(has_started);
+                let is_blocked = has_started && said.activity == WheelActivity::Blocked;
+                assert!(!is_blocked, "seed {seed}, {rate_hz} frames a second, {} µs", estimate.time_us);
+            }
+        }
+        assert!(starts >= 6, "seed {seed}, {rate_hz} frames a second: {starts} starts");
     }
 }
 

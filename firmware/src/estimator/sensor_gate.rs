@@ -99,8 +99,8 @@ impl SensorGate {
         if same {
             self.repeats = self.repeats.saturating_add(1);
         } else {
-            if self.repeats > self.allowed && self.repeats < self.allowed.saturating_mul(3) {
-                self.allowed = self.repeats.min(MOST_STUCK_FRAMES);
+            if self.repeats >= self.allowed && self.repeats < self.allowed.saturating_mul(3) {
+                self.allowed = (self.repeats + 1).min(MOST_STUCK_FRAMES);
             }
             self.repeats = 0;
         }
@@ -213,10 +213,27 @@ mod tests {
             health.stuck - before
         };
         assert_eq!(stuck(&mut gate, &mut health, 1.0, 6), 3);
-        assert_eq!(stuck(&mut gate, &mut health, 1.1, 6), 1, "five repetitions are allowed, not a sixth reading's");
-        assert_eq!(stuck(&mut gate, &mut health, 1.2, 5), 0);
-        assert_eq!(stuck(&mut gate, &mut health, 1.3, 40), 35, "for so long it is stuck");
-        assert_eq!(stuck(&mut gate, &mut health, 1.4, 6), 1, "and that does not make it a coarse one");
+        assert_eq!(stuck(&mut gate, &mut health, 1.1, 6), 0, "six readings alike are allowed");
+        assert_eq!(stuck(&mut gate, &mut health, 1.2, 7), 1, "not a seventh");
+        assert_eq!(stuck(&mut gate, &mut health, 1.3, 40), 33, "for so long it is stuck");
+        assert_eq!(stuck(&mut gate, &mut health, 1.4, 8), 1, "and that does not make it a coarse one");
+    }
+
+    /// One that is read several times for each of its own readings comes back after a failure, however often it is read.
+    #[test]
+    fn a_sensor_that_is_held_comes_back_after_a_failure() {
+        for held in 1..=usize::from(3 * STUCK_FRAMES) {
+            let (mut gate, mut health) = (SensorGate::new(100.0), SensorHealth::default());
+            let mut used = |value: f32| (0..held).filter(|_| gate.admit(Some(value), &mut health).is_some()).count();
+            (1..=20_u8).for_each(|value| {
+                used(value.into());
+            });
+            (0..20).for_each(|_| {
+                used(f32::NAN);
+            });
+            let again = (21..=40_u8).map(|value| used(value.into())).last();
+            assert_eq!(again, Some(held), "held for {held} frames");
+        }
     }
 
     /// An encoder that says the same is used, and counted; not one that says NaN or absurd numbers over and over.

@@ -161,9 +161,9 @@ impl<S: Scalar> SideEstimator<S> {
         gained.into_iter().fold([S::zero(); 2], |[holds, share], [one, other]| [holds + one, share + other])
     }
 
-    /// Whether its rims turn back.
+    /// Whether its rims turn back, by more than encoders say of rims that stand.
     pub fn rolls_back(&self) -> bool {
-        self.rims.speed_m_s() < S::zero()
+        self.rims.speed_m_s() < S::constant(-STANDING)
     }
 
     /// What is known of its joints and of how the axis rises.
@@ -243,7 +243,9 @@ impl<S: Scalar> SideEstimator<S> {
             if rate.is_none() && (others_stand || since_start.starts()) {
                 filter.suppose_rate(others_rad_s);
             }
-            let rim = self.rover.wheel.radius_m * filter.rate_before(rate);
+            // Of one that starts with the others the filter knows only that it stood, and would take it for blocked.
+            let turns = since_start.starts() && !others_stand;
+            let rim = self.rover.wheel.radius_m * filter.rate_before(rate, turns);
             let now = what_it_does(rim, wheel.hub_speed_m_s, *activity);
             let speeds = SpeedReadings {
                 rate_rad_s: rate,

@@ -142,11 +142,11 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.filter.estimate()
     }
 
-    /// The rate before a frame whose encoder says `measured`, rad/s: where nothing is known of it yet, that.
-    pub fn rate_before(&self, measured: Option<S>) -> S {
+    /// The rate before a frame whose encoder says `measured`, rad/s: where nothing is known of it yet, or it has just begun to turn, that.
+    pub fn rate_before(&self, measured: Option<S>, begins: bool) -> S {
         let ([rate, ..], [variance, ..]) = (*self.filter.estimate().mean(), self.filter.estimate().variances());
         let [unknown, ..] = UNKNOWN;
-        if variance > S::constant(0.25 * unknown * unknown) { measured.unwrap_or(rate) } else { rate }
+        if begins || variance > S::constant(0.25 * unknown * unknown) { measured.unwrap_or(rate) } else { rate }
     }
 
     /// The wheel stands or starts, and its encoder is silent: its rate is about that of the other wheels of its side, rad/s.

@@ -7,7 +7,7 @@ use super::health::{LinkHealth, increment};
 use super::message::{Reply, Request};
 use super::receiver::FrameReceiver;
 
-/// The most bytes taken from the port in one call: a frame and a half.
+/// The most bytes taken from the port in one call: somewhat more than the longest frame.
 const RECEIVE_BUDGET: usize = 1024;
 
 /// A frame that arrived: its sequence number, and the request or why there is none.

@@ -103,6 +103,22 @@ mod tests {
         }
     }
 
+    /// Encoders of wheels that stand say by their noise that these turn back as often as that they turn on.
+    #[test]
+    fn noise_of_encoders_is_no_turning_back() {
+        let mut pipeline = Pipeline::new(&Rover::assumed()).expect("a rover");
+        let mut rolls_back = |index: u16, rate_rad_s: f32| {
+            let mut frame = frame(index);
+            frame.wheels = frame.wheels.map_wheels(|wheel| WheelSensors { rate_rad_s: Some(rate_rad_s), ..wheel });
+            pipeline.tick(&frame);
+            let PerSide { left, right } = pipeline.estimator().rolls_back();
+            left || right
+        };
+        assert!((0..50).all(|index| !rolls_back(index, 0.3 + 1.0e-4 * f32::from(index))));
+        assert!((50..60).all(|index| !rolls_back(index, -4.0e-3 - 1.0e-4 * f32::from(index % 3))));
+        assert!(rolls_back(60, -0.3));
+    }
+
     /// A pipeline that starts anew for a rover must be, to the bit, one that was made for it; and one that is asked for a rover that
     /// cannot be stays as it is.
     #[test]
