@@ -89,7 +89,8 @@ impl Bends {
     }
 }
 
-fn moved(state: &WheelState<f64>, [drawbar_pull_n, torque_nm, sinkage_m]: Forces) -> WheelState<f64> {
+/// A state, its forces and sinkage moved.
+pub fn moved(state: &WheelState<f64>, [drawbar_pull_n, torque_nm, sinkage_m]: Forces) -> WheelState<f64> {
     WheelState {
         drawbar_pull_n: state.drawbar_pull_n + drawbar_pull_n,
         torque_nm: state.torque_nm + torque_nm,

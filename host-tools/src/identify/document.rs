@@ -160,7 +160,7 @@ impl Document {
             Some((states.run.clone(), found.as_ref().ok()?.fit?))
         };
         let misfits = match method {
-            Method::Map => misfits_of(noise, runs.iter().filter_map(fit)),
+            Method::Map => misfits_of(campaign, noise, runs.iter().filter_map(fit)),
             _ => misfits(&method.sees(campaign), noise),
         };
         let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use crate::data::campaign::Campaign;
 use crate::error::HostError;
 
-use super::method::{Evidence, Finding, Method, answer, rehearse};
+use super::method::{Finding, Method, answer, rehearse};
+use super::on_curve::evidence;
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Document, SensorNoise};
 
@@ -31,7 +32,7 @@ fn of_run(
     let found = if states.states.is_empty() {
         Err(format!("no row can be used: {}", states.reasons_in_words()))
     } else {
-        let evidence = Evidence::of_run(campaign, noise, &states.states);
+        let evidence = evidence(method, campaign, noise, &states.states);
         answer(method, &evidence).map(|mut finding| {
             // The soils that are drawn know no effects.
             if campaign.declared.ids().is_empty() {

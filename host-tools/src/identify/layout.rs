@@ -61,6 +61,11 @@ impl Layout {
         seeds.into_par_iter().filter_map(run).collect()
     }
 
+    /// How far the means lie beside the curve of a soil, state by state; none where it does not carry all of the wheels.
+    pub fn bends(&self, soil: &Soil<f64>) -> Option<Vec<Forces>> {
+        self.states.iter().map(|state| Some(self.mean(state, soil)?.1)).collect()
+    }
+
     fn on(&self, soil: &Soil<f64>, random: &mut ChaCha8Rng) -> Option<Rehearsed> {
         let mut run = Rehearsed { states: Vec::new(), bends: Vec::new() };
         for (state, noise) in self.states.iter().zip(&self.noises) {

@@ -59,14 +59,19 @@ fn of_logarithm(parameter: &ParameterEstimate) -> Target {
     Target { value: value.ln(), std: growth.ln().sqrt(), intervals: intervals.map(|interval| interval.map(f64::ln)) }
 }
 
+/// The standard deviation of a log-normal, of the mean and the standard deviation of its logarithm.
+pub fn log_normal_std(ln_mean: f64, ln_std: f64) -> f64 {
+    let growth = (ln_std * ln_std).exp();
+    ln_mean.exp() * (growth * (growth - 1.0)).sqrt()
+}
+
 fn to_number(parameter: &ParameterEstimate, target: &Target, identifiable: bool) -> ParameterEstimate {
     let [interval_68, interval_95] = target.intervals.map(|interval| interval.map(|end| end as f32));
     ParameterEstimate { value: parameter.value, std: target.std as f32, interval_68, interval_95, identifiable }
 }
 
 fn to_logarithm(parameter: &ParameterEstimate, target: &Target, identifiable: bool) -> ParameterEstimate {
-    let growth = target.std.powi(2).exp();
-    let std = target.value.exp() * (growth * (growth - 1.0)).sqrt();
+    let std = log_normal_std(target.value, target.std);
     let intervals = target.intervals.map(|interval| interval.map(f64::exp));
     to_number(parameter, &Target { std, intervals, ..*target }, identifiable)
 }

@@ -8,9 +8,10 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::data::campaign::Campaign;
+use crate::data::campaign::{Campaign, Channel};
 
-use super::method::{Evidence, Fit, Method, answer};
+use super::method::{Fit, Method, answer};
+use super::on_curve::evidence;
 use super::run_states::run_states;
 use super::sensor_noise::{NoiseSource, SensorNoise};
 
@@ -19,24 +20,31 @@ const SIGNIFICANT: f64 = 1e-4;
 
 /// Why runs are explained by no soil, by their names. Nothing is said where a noise was only guessed, for a misfit then may be the guess's.
 pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, String> {
-    if !is_stated(noise) {
+    if !is_stated(campaign, noise) {
         return BTreeMap::new();
     }
     let runs = run_states(campaign, noise, Method::Map);
     let fit = |run: super::RunStates| {
-        let found = answer(Method::Map, &Evidence::of_run(campaign, noise, &run.states)).ok()?;
+        let found = answer(Method::Map, &evidence(Method::Map, campaign, noise, &run.states)).ok()?;
         Some((run.run, in_words(&found.fit?)?))
     };
     runs.into_par_iter().filter_map(fit).collect()
 }
 
 /// The same of fits that are there already.
-pub fn misfits_of(noise: &SensorNoise, fits: impl Iterator<Item = (String, Fit)>) -> BTreeMap<String, String> {
-    fits.filter(|_| is_stated(noise)).filter_map(|(run, fit)| Some((run, in_words(&fit)?))).collect()
+pub fn misfits_of(
+    campaign: &Campaign,
+    noise: &SensorNoise,
+    fits: impl Iterator<Item = (String, Fit)>,
+) -> BTreeMap<String, String> {
+    fits.filter(|_| is_stated(campaign, noise)).filter_map(|(run, fit)| Some((run, in_words(&fit)?))).collect()
 }
 
-fn is_stated(noise: &SensorNoise) -> bool {
-    [noise.drawbar_pull, noise.load, noise.torque].iter().all(|channel| channel.source == NoiseSource::Campaign)
+/// Whether the noise of all that is weighed is stated: each guess may be wrong by so much that no soil fits.
+fn is_stated(campaign: &Campaign, noise: &SensorNoise) -> bool {
+    let sinkage = campaign.column(Channel::Sinkage.name()).is_some().then_some(noise.sinkage);
+    let always = [noise.drawbar_pull, noise.load, noise.torque, noise.slip];
+    always.into_iter().chain(sinkage).all(|channel| channel.source == NoiseSource::Campaign)
 }
 
 fn in_words(fit: &Fit) -> Option<String> {

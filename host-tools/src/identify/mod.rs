@@ -15,6 +15,7 @@ mod memory;
 pub mod method;
 mod misfit;
 mod network;
+mod on_curve;
 mod rehearsal;
 mod run_states;
 mod selection;

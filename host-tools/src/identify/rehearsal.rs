@@ -55,22 +55,26 @@ pub struct OfTraining;
 pub struct Missing {
     /// Error to be added to the 68 % and the 95 % interval, as a standard deviation; zero where nothing is missing.
     pub errors: [[f64; 2]; TARGETS],
-    /// Share of the rehearsed answers with the truth in the 95 % interval as it is stated.
-    pub held_95: [f64; TARGETS],
+    /// Share of the rehearsed answers with the truth in the 68 % and the 95 % interval as they are stated.
+    pub held: [[f64; 2]; TARGETS],
 }
 
 impl Missing {
     /// What is widened and why, in words, the intervals being of such; none where nothing is.
     pub fn in_words(&self, of: &str) -> Option<String> {
-        let widened = || (0..TARGETS).filter(|target| self.errors[*target] != [0.0; 2]);
-        let names: Vec<&str> = widened().map(|target| ["c", "φ", "K"][target]).collect();
-        let held: Vec<String> = widened().map(|target| format!("{:.0}", 100.0 * self.held_95[target])).collect();
-        (!names.is_empty()).then(|| {
+        let of_interval = |interval: usize| {
+            let widened = || (0..TARGETS).filter(move |target| self.errors[*target][interval] != 0.0);
+            let names: Vec<&str> = widened().map(|target| ["c", "φ", "K"][target]).collect();
+            let held: Vec<String> =
+                widened().map(|target| format!("{:.0}", 100.0 * self.held[target][interval])).collect();
+            let [names, held] = [names.join(", "), held.join(", ")];
+            (!names.is_empty()).then(|| format!("{} % intervals in {held} % ({names})", ["68", "95"][interval]))
+        };
+        let lacking: Vec<String> = [1, 0].into_iter().filter_map(of_interval).collect();
+        (!lacking.is_empty()).then(|| {
             format!(
-                "{} widened: on simulated soils, runs laid out as this one have the truth in the {of} own 95 % \
-                 intervals in {} %",
-                names.join(", "),
-                held.join(", ")
+                "widened: on simulated soils, runs laid out as this one have the truth in the {of} own {}",
+                lacking.join(", ")
             )
         })
     }
@@ -97,8 +101,10 @@ pub fn missing(
             let of_target: Vec<(f64, Target)> =
                 answers.iter().map(|(truth, answer)| (truth[target], answer[target])).collect();
             missing.errors[target] = lacking(&of_target);
-            let held = of_target.iter().filter(|(truth, answer)| answer.excess(*truth, 1) <= 0.0);
-            missing.held_95[target] = held.count() as f64 / of_target.len() as f64;
+            missing.held[target] = [0, 1].map(|interval| {
+                let held = of_target.iter().filter(|(truth, answer)| answer.excess(*truth, interval) <= 0.0);
+                held.count() as f64 / of_target.len() as f64
+            });
         }
         let found: [f64; TARGETS] = std::array::from_fn(|target| {
             stated[target].std.hypot(missing.errors[target][1].max(missing.errors[target][0]))

@@ -45,7 +45,8 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> V
             rows_left_out.extend(unknown.into_iter().map(|(line, _)| (line, UNKNOWN_SLIP.to_owned())));
             rows_left_out.sort_by_key(|(line, _)| *line);
         }
-        let samples: Vec<Sample> = samples.into_iter().map(|(_, sample)| sample).collect();
+        let mut samples: Vec<Sample> = samples.into_iter().map(|(_, sample)| sample).collect();
+        samples.sort_by(|one, other| one.t_s.total_cmp(&other.t_s));
         let mut times = sorted(samples.iter().map(|sample| sample.t_s));
         times.dedup();
         RunStates {

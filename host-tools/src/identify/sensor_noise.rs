@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel};
 use crate::prior::{AVERAGING, INSTANT_NOISE};
+use crate::statistics::robust_std;
 
 use super::combine::MeanState;
 
@@ -50,6 +51,8 @@ const LEAST_PAIRS: usize = 12;
 const LIKE_SLIP: f64 = 0.01;
 /// Loads of like rows differ by no more than this share.
 const LIKE_LOAD: f64 = 0.1;
+/// Times what is usual from which a difference between like rows is a gross error's.
+const FAR_OUT: f64 = 6.0;
 
 impl SensorNoise {
     /// The noise of a campaign's rows: stated, else from repeats, else that of the flight sensors.
@@ -110,39 +113,42 @@ pub fn noise_for_networks(noises: &[WheelNoise<f64>], mean_load_n: f64, radius_m
 }
 
 fn mean_load(campaign: &Campaign) -> f64 {
-    let loads = campaign.column(Channel::Load.name()).unwrap_or(&[]);
-    let (sum, count) = loads.iter().flatten().fold((0.0, 0.0), |(sum, count), load| (sum + load.abs(), count + 1.0));
+    let loads = campaign.sound_rows().filter_map(|row| campaign.value(row, Channel::Load));
+    let (sum, count) = loads.fold((0.0, 0.0), |(sum, count), load| (sum + load.abs(), count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// Pairs of rows of one run that are alike in slip and load; no row is in two pairs.
+/// Pairs of rows of one run that are alike in slip and load; no row is in two pairs. Of several mates the one of the nearest slip is taken,
+/// whatever its load: the nearest load would make that seem better known than it is.
 fn like_pairs(campaign: &Campaign) -> Vec<(usize, usize)> {
     let state = |row| Some((campaign.value(row, Channel::Slip)?, campaign.value(row, Channel::Load)?));
     let mut pairs = Vec::new();
     for (_, rows) in campaign.runs() {
-        let mut states: Vec<_> = rows.into_iter().filter_map(|row| Some((row, state(row)?))).collect();
-        states.sort_by(|(_, a), (_, b)| a.0.total_cmp(&b.0));
-        let mut last: Option<(usize, (f64, f64))> = None;
+        let sound = rows.into_iter().filter(|row| campaign.gross_error(*row).is_none());
+        let mut states: Vec<_> = sound.filter_map(|row| Some((row, state(row)?))).collect();
+        let time = |row: usize| campaign.rows()[row].t_s;
+        states.sort_by(|(one, a), (other, b)| a.0.total_cmp(&b.0).then(time(*one).total_cmp(&time(*other))));
+        let mut single: Vec<(usize, (f64, f64))> = Vec::new();
         for (row, (slip, load)) in states {
-            last = match last {
-                Some((mate, (its_slip, its_load)))
-                    if slip - its_slip <= LIKE_SLIP && (load - its_load).abs() <= LIKE_LOAD * its_load.abs() =>
-                {
-                    pairs.push((mate, row));
-                    None
-                }
-                _ => Some((row, (slip, load))),
-            };
+            single.retain(|(_, (its_slip, _))| slip - its_slip <= LIKE_SLIP);
+            match single.iter().rposition(|(_, (_, its_load))| (load - its_load).abs() <= LIKE_LOAD * its_load.abs()) {
+                Some(place) => pairs.push((single.remove(place).0, row)),
+                None => single.push((row, (slip, load))),
+            }
         }
     }
     pairs
 }
 
-/// Half the mean square of the differences is the variance.
+/// Half the mean square of the differences is the variance, but for those of gross errors.
 fn from_pairs(campaign: &Campaign, pairs: &[(usize, usize)], channel: Channel) -> Option<f64> {
     let difference =
         |&(one, other): &(usize, usize)| Some(campaign.value(one, channel)? - campaign.value(other, channel)?);
-    let squares: Vec<f64> = pairs.iter().filter_map(difference).map(|difference| difference * difference).collect();
+    let differences: Vec<f64> = pairs.iter().filter_map(difference).collect();
+    // More than half of them are nothing where a logger rounds: then what is usual tells nothing.
+    let usual = Some(robust_std(differences.iter().copied())).filter(|usual| *usual > 0.0).unwrap_or(f64::INFINITY);
+    let near = differences.iter().filter(|difference| difference.abs() <= FAR_OUT * usual);
+    let squares: Vec<f64> = near.map(|difference| difference * difference).collect();
     let count = squares.len();
     let std = (count >= LEAST_PAIRS).then(|| (0.5 * squares.iter().sum::<f64>() / count as f64).sqrt());
     // Where all are alike, a logger rounds: that tells nothing of the noise.

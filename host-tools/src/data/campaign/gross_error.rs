@@ -62,6 +62,11 @@ impl Campaign {
         })
     }
 
+    /// The rows without one.
+    pub fn sound_rows(&self) -> impl Iterator<Item = usize> {
+        (0..self.rows().len()).filter(|row| self.gross_error(*row).is_none())
+    }
+
     /// Checks that not most of a channel cannot be what a wheel felt: then it is in other units than the format's.
     pub(super) fn check_units(&self) -> Result<(), HostError> {
         for channel in JUDGED {

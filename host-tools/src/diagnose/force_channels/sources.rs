@@ -31,19 +31,18 @@ pub fn available(campaign: &Campaign, sources: &'static [Source]) -> Vec<&'stati
     sources.iter().filter(usable).collect()
 }
 
-/// Whether most rows have a channel, and it is not the same in all.
+/// Whether most rows have a channel, and it is not the same in all; gross errors aside.
 pub fn varies(campaign: &Campaign, channel: Channel) -> bool {
-    let values: Vec<f64> =
-        campaign.column(channel.name()).map_or_else(Vec::new, |column| column.iter().flatten().copied().collect());
+    let values: Vec<f64> = campaign.sound_rows().filter_map(|row| campaign.value(row, channel)).collect();
     let first = values.first().copied().unwrap_or(0.0);
-    values.len() as f64 >= KNOWN_SHARE * campaign.rows().len() as f64
+    values.len() as f64 >= KNOWN_SHARE * campaign.sound_rows().count() as f64
         && values.iter().any(|value| (value - first).abs() > 1e-9 * first.abs())
 }
 
-/// The rows that have all of these channels.
+/// The rows that have all of these channels, but for those with a gross error: one would hide what all others show.
 pub fn complete_rows(campaign: &Campaign, needed: &[Channel]) -> Vec<usize> {
     let has_all = |row: &usize| needed.iter().all(|channel| campaign.value(*row, *channel).is_some());
-    (0..campaign.rows().len()).filter(has_all).collect()
+    campaign.sound_rows().filter(has_all).collect()
 }
 
 /// The number of each row's run.

@@ -45,7 +45,7 @@ const PLAIN: Made =
 
 impl Made {
     /// Forces in proportion to the true load, with saturating thrust: enough to be moved by slip and by load as forces are.
-    fn campaign(&self, seed: u64) -> Campaign {
+    fn csv(&self, seed: u64) -> String {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut normal = move |std: f64| -> f64 {
             let drawn: f64 = StandardNormal.sample(&mut random);
@@ -76,7 +76,11 @@ impl Made {
                 writeln!(csv, "r{run},{row},{fields}").expect("text");
             }
         }
-        Campaign::parse(Path::new("made.csv"), &csv, TOML).expect("a campaign")
+        csv
+    }
+
+    fn campaign(&self, seed: u64) -> Campaign {
+        Campaign::parse(Path::new("made.csv"), &self.csv(seed), TOML).expect("a campaign")
     }
 }
 
@@ -107,6 +111,19 @@ fn each_law_of_a_sensor_is_found_by_its_name_and_size() {
     is_found(&with(|at| (0.0, 0.02 * at.load_n)), 7, into_side, 0.02);
     let pull = ("crosstalk", "drawbar pull into side force", "drawbar_pull_to_side_force");
     is_found(&with(|at| (0.0, -0.05 * at.pull_n)), 8, pull, -0.05);
+}
+
+/// A number that no wheel can have felt is left out here, too: one such would hide what all others show.
+#[test]
+fn a_gross_error_hides_nothing() {
+    let made = Made { law: |_| (0.0, 0.6), ..PLAIN };
+    let text = made.csv(5);
+    let side = text.lines().nth(1).and_then(|row| row.rsplit(',').nth(2)).expect("a side force");
+    let spoiled = Campaign::parse(Path::new("made.csv"), &text.replacen(side, "2000", 1), TOML).expect("a campaign");
+    assert!(spoiled.gross_error(0).is_some());
+    let [sound, beside] = [&made.campaign(5), &spoiled].map(force_channels);
+    let size = |found: &[FoundEffect]| found[0].parameters["side_force_n"].value;
+    assert!(beside.len() == 1 && (size(&beside) - size(&sound)).abs() < 0.1, "{beside:?}, {sound:?}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use crate::identify::logarithmic::log_normal_std;
 use crate::identify::target::is_told;
 use crate::limit::coordinates::Targets;
 use crate::limit::sampler::Effort;
@@ -30,7 +31,17 @@ pub fn posterior_mean(evidence: &Evidence) -> Result<Finding, String> {
         condition_number: None,
         fit: None,
         no_soil: None,
-        widened: None,
+        widened: unconverged(&summary),
+    })
+}
+
+/// What is said where the chains have not come together within the effort.
+fn unconverged(summary: &Summary) -> Option<String> {
+    (!summary.converged).then(|| {
+        format!(
+            "the sampler's chains have not come together (split-R̂ {:.2}, {:.0} independent draws): mean and intervals are rough",
+            summary.split_r_hat, summary.effective_size
+        )
     })
 }
 
@@ -43,10 +54,10 @@ fn statement(summary: &Summary, target: usize) -> Statement {
     let prior = f64::from(crate::train::dataset::prior_scale().std[target]);
     Statement {
         value: unit(mean),
-        std: if logarithmic { unit(mean) * std } else { std },
+        std: if logarithmic { log_normal_std(mean, std) } else { std },
         interval_68: [0.16, 0.84].map(|share| unit(at(share))),
         interval_95: [0.025, 0.975].map(|share| unit(at(share))),
-        identifiable: is_told(std, prior),
+        identifiable: is_told(std, prior) && summary.converged,
         assumed: false,
     }
 }

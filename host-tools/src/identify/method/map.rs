@@ -2,6 +2,7 @@
 
 use kapvik_firmware::identification::Belief;
 use kapvik_firmware::identification::map::{DeclaredEffects, Fitted, FreeParameter, MapEstimate, identify_declared};
+use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::terramechanics::effects::Effects;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -26,6 +27,13 @@ pub fn map(evidence: &Evidence) -> Result<Finding, String> {
         statement.assumed = belief.is_known();
     }
     Ok(finding)
+}
+
+/// The soil of the greatest posterior probability; none where the method refuses.
+pub fn most_probable_soil(evidence: &Evidence) -> Option<Soil<f64>> {
+    let declared = declared(evidence).ok()?;
+    let estimate = identify_declared(&evidence.wheel, &evidence.observations, &[], &evidence.prior, &declared);
+    estimate.ok().map(|estimate| estimate.mode)
 }
 
 /// Intervals of a logarithm are not symmetric about the number.

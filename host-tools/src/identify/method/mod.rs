@@ -25,6 +25,7 @@ use crate::data::campaign::{Campaign, Channel};
 pub use answer::{Finding, Fit, Statement};
 pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
 pub use knowledge::{soil_prior, training_prior};
+pub use map::most_probable_soil;
 pub use rehearsed::rehearse;
 pub use words::{method_refusal, network_refusal};
 
@@ -93,6 +94,11 @@ impl Method {
     /// Whether what the method states is the noise by its own simpler equations alone, and so has to be rehearsed.
     pub const fn is_simpler(self) -> bool {
         !matches!(self, Self::Network | Self::Map | Self::Limit)
+    }
+
+    /// Whether the method takes equations 1–11 for exact, and what it is told for states of a wheel.
+    pub const fn is_exact(self) -> bool {
+        matches!(self, Self::Map | Self::Limit)
     }
 
     /// Whether the method's model takes in the effects that a campaign declares.
