@@ -211,6 +211,23 @@ fn a_gross_error_is_told_from_other_units() {
     assert!(error.starts_with("test.csv:2:4: load_n of -80 N") && error.contains("a load is above 0"), "{error}");
 }
 
+/// A standard deviation is no bound, beside bounds of the other modulus either; and the cohesive modulus alone says nothing of the stiffness.
+#[test]
+fn a_modulus_with_a_standard_deviation_stays_one() {
+    let stiffness = |moduli: &str| {
+        let campaign = parse(CSV, &format!("{PLAIN}[soil]\n{moduli}")).expect("a campaign");
+        (campaign.ground.stiffness(&campaign.wheel), campaign.remarks())
+    };
+    let (known, _) = stiffness("k_c = { min = -12e3, max = 12e3 }\nk_phi = { value = 7e5, std = 1e5 }\n");
+    let Some(Knowledge::Value { value, std }) = known else { panic!("{known:?}") };
+    // 24 kPa/m^(n-1) over 0.1 m is a range of 240 kPa, with a standard deviation of 69.3 kPa.
+    assert!((value - 7e5).abs() < 1.0 && (std - 1.0e5_f64.hypot(69_282.0)).abs() < 1.0, "{value} ± {std}");
+    let (between, _) = stiffness("k_c = { min = 0, max = 12e3 }\nk_phi = 7e5\n");
+    assert_eq!(between, Some(Knowledge::Between { min: 7e5, max: 8.2e5 }));
+    let (unknown, remarks) = stiffness("k_c = 12e3\n");
+    assert!(unknown.is_none() && remarks[0].contains("expected k_phi beside it"), "{remarks:?}");
+}
+
 /// A logger at ten times the rate of its sensors: what they read once stands there once, whatever the clock says.
 #[test]
 fn rows_that_only_repeat_their_sensors_are_left_out() {
@@ -234,6 +251,18 @@ fn a_wheel_that_repeats_itself_beside_another_is_left_out() {
     let rows: String = (0..40).map(|row| format!("a,{},{}\n", row / 2, wheels[row % 2])).collect();
     let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
     assert_eq!(campaign.expect("a campaign").rows().len(), 2);
+}
+
+/// Rows of one time are different wheels: those of two sides without noise say the same, in whatever order they stand.
+#[test]
+fn wheels_of_one_instant_that_are_alike_stay() {
+    let wheels = ["0.2,80.0,11.0,4.2,0.006", "0.3,81.0,11.5,4.3,0.006", "0.4,79.0,11.8,4.4,0.007"];
+    for order in [[0, 0, 1, 1, 2, 2], [0, 1, 2, 0, 1, 2]] {
+        let rows: String = order.iter().map(|wheel| format!("a,0,{}\n", wheels[*wheel])).collect();
+        let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
+        let campaign = campaign.expect("a campaign");
+        assert_eq!((campaign.rows().len(), campaign.remarks()), (6, vec![]));
+    }
 }
 
 /// Two numbers of few digits agree by chance, and another run is another wheel on another ground.

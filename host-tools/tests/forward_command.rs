@@ -158,7 +158,7 @@ fn an_output_that_is_there_survives_a_refusal() {
 /// Tables that are refused, and what the one line on the error stream starts with.
 #[test]
 fn tables_that_are_wrong_are_refused_by_line_and_column() {
-    let cases: [(&[u8], &str); 20] = [
+    let cases: [(&[u8], &str); 21] = [
         (b"", "in.csv:1:1: the file is empty"),
         (b"\n\n", "in.csv:1:1: the file is empty"),
         (b"load_n\n65\n", "in.csv:1:1: no column `slip`"),
@@ -182,6 +182,7 @@ fn tables_that_are_wrong_are_refused_by_line_and_column() {
         (b"slip,load_n\n0.2\n", "in.csv:2:2: 1 fields in this row"),
         (b"slip,load_n\n0.2,6\xff5\n", "in.csv:2:6: this byte is not UTF-8"),
         (b"slip,load_n\n0.2,\"65\n", "in.csv:2:5: a quote is not closed"),
+        (b"slip,load_n\n0.2,65\r0.3,65\n", "in.csv:2:7: a line ends in a carriage return alone"),
     ];
     for (rows, expected) in cases {
         let said = Run::new(WHEEL, SOIL, rows).refusal();

@@ -1,4 +1,4 @@
-//! Outputs that could not be written, or would replace what is read, are refused before any work begins.
+//! Outputs that could not be written, or would replace what is read, and manoeuvres that cannot be, are refused before any work begins.
 
 mod kapvik;
 mod refused;
@@ -55,6 +55,17 @@ fn outputs_that_are_one_file_are_refused() {
     ] {
         let said = refusal(&arguments);
         assert!(said.contains("two outputs go to this file"), "{said}");
+    }
+}
+
+#[test]
+fn manoeuvres_that_cannot_be_are_refused() {
+    for (arguments, expected) in [
+        (["observe", "--speed", "0.05", "--top-speed", "0.02"], "--speed 0.05: expected no more than --top-speed, 0.02 m/s"),
+        (["observe", "--longest", "4.5", "--speed", "0.02"], "--longest 4.5: expected 5 s or more"),
+    ] {
+        let said = refusal(&arguments);
+        assert!(said.contains(expected), "{said}");
     }
 }
 

@@ -216,6 +216,57 @@ fn a_bad_truth_is_refused_at_its_place() {
     refused(case.command("run").args(["frames.csv", "--report", "out"]), &["frames.truth.csv:3:2:"]);
 }
 
+/// A column that is nearly one of a truth would stay away from the errors without a word; so would a truth of other times.
+#[test]
+fn a_truth_that_says_nothing_of_the_frames_is_told() {
+    let case = Case::with(None);
+    let truth = |text: &str| fs::write(case.path("frames.truth.csv"), text).expect("written");
+    let run = || {
+        let mut command = case.command("run");
+        command.args(["frames.csv", "--report", "out"]);
+        command
+    };
+    truth("t_s,drawbar_pull_fl\n0,0.1\n");
+    refused(
+        &mut run(),
+        &["frames.truth.csv:1:2: `drawbar_pull_fl` is no column of a truth: is `drawbar_pull_fl_n` meant?"],
+    );
+    truth("t_s\n0\n0.1\n");
+    refused(&mut run(), &["frames.truth.csv:1:1: no column of a truth"]);
+    truth("t_s,slip_fl\n0.05,0.1\n0.15,0.1\n");
+    let told = String::from_utf8(run().assert().success().get_output().stdout.clone()).expect("text");
+    assert!(told.contains("has no row at the time of any of them"), "{told}");
+}
+
+/// Clocks start anywhere: what a start-up is counts from the first frame.
+#[test]
+fn errors_do_not_hang_on_the_clock() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drive = folder.path().join("drive.1");
+    let mut command = kapvik();
+    command.args(["simulate", "--scenario", "spread", "--seed", "3", "--duration", "20", "-o"]).arg(&drive);
+    command.assert().success();
+    // What stands behind a full stop belongs to the name, unless it is csv.
+    let truth = folder.path().join("drive.1.truth.csv");
+    let errors = || {
+        let mut command = kapvik();
+        command.args(["run", "--on", "host"]).arg(&drive).arg("--report").arg(folder.path().join("out.html"));
+        let told = String::from_utf8(command.assert().success().get_output().stdout.clone()).expect("text");
+        let (_, table) = told.split_once("estimates against the truth").expect("a table of errors");
+        table.split("raw sensors:").next().expect("the table").to_owned()
+    };
+    let from_zero = errors();
+    for path in [&drive, &truth] {
+        let text = fs::read_to_string(path).expect("written");
+        let later = |line: &str| match line.split_once(',').map(|(time, rest)| (time.parse::<f64>(), rest)) {
+            Some((Ok(time_s), rest)) => format!("{:.6},{rest}\n", time_s + 1000.0),
+            _ => format!("{line}\n"),
+        };
+        fs::write(path, text.lines().map(later).collect::<String>()).expect("written");
+    }
+    assert_eq!(errors(), from_zero);
+}
+
 #[test]
 fn an_output_that_was_there_stays_where_the_frames_are_bad() {
     let case = Case::with(Some((62, row("6", "abc", 5))));

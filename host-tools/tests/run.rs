@@ -2,10 +2,13 @@
 
 mod kapvik;
 
+use std::path::Path;
+
 use assert_cmd::assert::OutputAssertExt;
 use kapvik::kapvik;
 use kapvik_host::data::campaign::{Campaign, Provenance};
 use kapvik_host::flight_computer::Computer;
+use kapvik_host::prior;
 use kapvik_host::report::{Findings, ModelCheck, RowKind, page, picture};
 
 fn carried() -> Campaign {
@@ -18,6 +21,22 @@ fn the_equations_leave_what_a_first_pass_over_these_figures_left() {
     // An independent implementation of equations 1–11 left 5.56 N and 4.08 mm on the same figures.
     assert!((rms.drawbar_pull_n.expect("measured") - 5.56).abs() < 0.06, "{rms:?}");
     assert!((1e3 * rms.sinkage_m.expect("measured") - 4.08).abs() < 0.05, "{rms:?}");
+}
+
+/// A number that no wheel can have felt is left out of what the equations leave, too.
+#[test]
+fn a_gross_error_is_no_residual() {
+    let toml = "name = \"T\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.075\nwidth_m = 0.07\n";
+    let rows = "a,0,0.2,65,5,1.8,0.012\na,1,0.3,65,8,2.1,0.013\n";
+    let parse = |rows: &str| {
+        let csv = format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}");
+        Campaign::parse(Path::new("t.csv"), &csv, toml).expect("a campaign")
+    };
+    let soil = prior::soil([800.0, 0.55, 0.0114, 1.0, 1.0e6, 0.3, 0.15]);
+    let [sound, spoiled] = [rows.to_owned(), format!("{rows}a,2,0.4,65,10,2.3,0.9\n")]
+        .map(|rows| ModelCheck::with(&parse(&rows), soil).rms());
+    assert!(sound.sinkage_m.is_some());
+    assert_eq!(sound, spoiled);
 }
 
 #[test]

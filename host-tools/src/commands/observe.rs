@@ -17,7 +17,7 @@ use crate::identifiability::cost::CostWeights;
 use crate::identifiability::manoeuvre::RimSpeeds;
 use crate::identifiability::map::{self, LOAD_CELLS, MapQuestion, SLIP_CELLS};
 use crate::identifiability::rover_side::RoverMeasurement;
-use crate::identifiability::search::Question;
+use crate::identifiability::search::{Question, SETTLING_S, SHORTEST_MANOEUVRE_S};
 use crate::identifiability::sensors::{FRAMES_PER_SECOND, INSTANTS_PER_SECOND, LASTING_PITCH_DEG, LastingErrors};
 use crate::identifiability::single_wheel::WheelMeasurement;
 use crate::parameter::Parameter;
@@ -120,6 +120,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let outputs = [&arguments.json, &arguments.html, &arguments.picture].map(|path| path.as_deref());
     outputs::check(&outputs, &[Some(arguments.soil.as_ref()), arguments.rover.as_deref()])?;
+    check_speeds(arguments)?;
     let told = observability(arguments)?;
     println!("{}", terminal(&told));
     if let Some(path) = &arguments.json {
@@ -132,6 +133,21 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     }
     if let Some(path) = &arguments.picture {
         write_text(path, &picture(&told))?;
+    }
+    Ok(())
+}
+
+fn check_speeds(arguments: &Arguments) -> Result<(), HostError> {
+    let Arguments { speed, top_speed, longest, .. } = arguments;
+    if speed > top_speed {
+        return Err(HostError::Failed(format!(
+            "--speed {speed}: expected no more than --top-speed, {top_speed} m/s, for no rim turns faster"
+        )));
+    }
+    if *longest < SHORTEST_MANOEUVRE_S {
+        return Err(HostError::Failed(format!(
+            "--longest {longest}: expected {SHORTEST_MANOEUVRE_S} s or more, for the first {SETTLING_S} s of each leg tell nothing"
+        )));
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::misspelling::column_meant;
+use super::misspelling::refuse_misspelt;
 use super::number_stream::{NumberStream, Row};
 use super::sensor_channels::{names, values, values_mut};
 use super::time_column::{self, TIME, TimeColumn};
@@ -40,12 +40,13 @@ impl FrameReader {
     /// Where its header has no time or no sensor, or a column that is nearly one of a sensor which it has not.
     pub fn new(stream: NumberStream) -> Result<Self, HostError> {
         let time = TimeColumn::of(&stream)?;
-        let columns: Vec<_> = names().iter().map(|name| stream.column(name)).collect();
+        let names = names();
+        let columns: Vec<_> = names.iter().map(|name| stream.column(name)).collect();
         if columns.iter().all(Option::is_none) {
             let expected = "no sensor: expected columns such as wheel_rate_fl_rad_s, load_cell_fl_n, accel_x_m_s2";
             return Err(stream.error(1, 1, format!("{expected} in the header (found {})", stream.header().join(", "))));
         }
-        no_misspelt_column(&stream)?;
+        refuse_misspelt(&stream, &names, "sensor")?;
         Ok(Self { stream, time, columns, is_empty: true })
     }
 
@@ -76,18 +77,6 @@ impl Iterator for FrameReader {
             None => is_first.then(|| Err(self.stream.error(2, 1, "no frame: expected one below the header"))),
         }
     }
-}
-
-/// Refuses a header in which a sensor would be absent for the sake of a letter or a unit.
-fn no_misspelt_column(stream: &NumberStream) -> Result<(), HostError> {
-    let sensors = names();
-    let absent = || sensors.iter().filter(|name| !stream.header().contains(name)).map(String::as_str);
-    for (place, name) in no_sensors(stream) {
-        if let Some(meant) = column_meant(name, absent()) {
-            return Err(stream.error(1, place as u64 + 1, format!("`{name}` is no sensor: is `{meant}` meant?")));
-        }
-    }
-    Ok(())
 }
 
 /// The columns of a table that are neither the time nor a sensor, and their places.

@@ -2,6 +2,10 @@
 
 use strsim::{jaro_winkler, normalized_damerau_levenshtein};
 
+use super::number_stream::NumberStream;
+use super::time_column::TIME;
+use crate::error::HostError;
+
 /// From this likeness of two keys on, of 1, one is taken for a misspelling of the other.
 const KEYS: f64 = 0.85;
 /// The same of two columns, which are many and differ in a letter.
@@ -23,6 +27,19 @@ pub fn column_meant<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) ->
     };
     let alike = names.into_iter().map(|other| (other, normalized_damerau_levenshtein(&name, other)));
     most_like(alike.filter(|(other, likeness)| *likeness >= COLUMNS || is_same_quantity(other)))
+}
+
+/// Refuses a table in whose header one of these columns is missing for the sake of a letter or a unit: a sensor would be absent. `what`
+/// says what such a column is.
+pub fn refuse_misspelt(stream: &NumberStream, names: &[String], what: &str) -> Result<(), HostError> {
+    let absent = || names.iter().filter(|name| !stream.header().contains(name)).map(String::as_str);
+    let others = stream.header().iter().enumerate().filter(|(_, name)| *name != TIME && !names.contains(name));
+    for (place, name) in others {
+        if let Some(meant) = column_meant(name, absent()) {
+            return Err(stream.error(1, place as u64 + 1, format!("`{name}` is no {what}: is `{meant}` meant?")));
+        }
+    }
+    Ok(())
 }
 
 fn most_like<'a>(alike: impl Iterator<Item = (&'a str, f64)>) -> Option<&'a str> {

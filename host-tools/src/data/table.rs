@@ -34,8 +34,8 @@ impl Table {
     /// Reads a table. A byte-order mark, either kind of line end, quoted fields and blanks around names are taken as they come.
     ///
     /// # Errors
-    /// Where the file cannot be read or is not UTF-8, leaves a quote open, has no header, names a column twice, or has a
-    /// row that is longer or shorter than the header.
+    /// Where the file cannot be read or is not UTF-8, leaves a quote open, has a line that ends in a carriage return alone, has no header,
+    /// names a column twice, or has a row that is longer or shorter than the header.
     pub fn read(path: &Path) -> Result<Self, HostError> {
         Self::parse(&TextFile::read(path)?)
     }
@@ -46,6 +46,7 @@ impl Table {
     /// As [`Self::read`].
     pub fn parse(file: &TextFile) -> Result<Self, HostError> {
         check_quotes(file)?;
+        check_line_ends(file)?;
         let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(file.text().as_bytes());
         let mut table = Self { path: file.path().to_path_buf(), header: Vec::new(), rows: Vec::new() };
         let mut record = StringRecord::new();
@@ -210,6 +211,14 @@ impl Lines<'_> {
 }
 
 /// Refuses a quote that is never closed: the rest of the file would vanish into one field.
+fn check_line_ends(file: &TextFile) -> Result<(), HostError> {
+    let alone = file.text().match_indices('\r').find(|(place, _)| !file.text()[place + 1..].starts_with('\n'));
+    match alone {
+        Some((place, _)) => Err(file.error_at(place, "a line ends in a carriage return alone: expected a line feed")),
+        None => Ok(()),
+    }
+}
+
 fn check_quotes(file: &TextFile) -> Result<(), HostError> {
     match file.text().rfind('"') {
         Some(last) if file.text().matches('"').count() % 2 == 1 => {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use kapvik_firmware::rover::PerWheel;
 
+use super::misspelling::refuse_misspelt;
 use super::number_stream::{NumberStream, Row};
 use super::sensor_channels::WHEEL_NAMES;
 use super::time_column::{self, TimeColumn};
@@ -65,9 +66,11 @@ pub struct Truth {
     pub roll_rad: f64,
 }
 
-/// Where the truth of a file of frames is written: NAME.truth.csv beside NAME.csv.
+/// Where the truth of a file of frames is written: NAME.truth.csv beside NAME.csv, or beside a NAME of any other kind.
 pub fn truth_path(frames: &Path) -> PathBuf {
-    frames.with_extension("truth.csv")
+    let is_table = frames.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+    // Of `drive.1` the 1 belongs to the name: `drive.2` has a truth of its own.
+    if is_table { frames.with_extension("truth.csv") } else { frames.with_added_extension("truth.csv") }
 }
 
 /// Names of the columns, in the order of [`values`].
@@ -181,11 +184,17 @@ impl TruthReader {
     /// Opens a file of truths.
     ///
     /// # Errors
-    /// Where it cannot be read, or its header has no time.
+    /// Where it cannot be read, or its header has no time, nothing that is true, or a column that is nearly one.
     pub fn open(path: &Path) -> Result<Self, HostError> {
         let stream = NumberStream::open(path)?;
         let time = TimeColumn::of(&stream)?;
-        let columns = names().iter().map(|name| stream.column(name)).collect();
+        let names = names();
+        refuse_misspelt(&stream, &names, "column of a truth")?;
+        let columns: Vec<_> = names.iter().map(|name| stream.column(name)).collect();
+        if columns.iter().all(Option::is_none) {
+            let expected = format!("no column of a truth beside `t_s`: expected some of {}, …", names[..7].join(", "));
+            return Err(stream.error(1, 1, expected));
+        }
         Ok(Self { stream, time, columns })
     }
 

@@ -91,6 +91,8 @@ const SHORTEST_S: f64 = 1.0;
 /// Until a leg is steady, s: the drives take 1.5 s to new speeds ([`crate::simulate`]), and then the wheels roll over the
 /// length of their contact, about 50 mm at 20 mm/s.
 pub const SETTLING_S: f64 = 4.0;
+/// The least time of a manoeuvre that tells anything, s.
+pub const SHORTEST_MANOEUVRE_S: f64 = SETTLING_S + SHORTEST_S;
 
 impl Question {
     /// What the rover does in a leg; none where it cannot.
@@ -172,7 +174,7 @@ impl Question {
     /// The least and the longest time that a manoeuvre may take, s, in whole seconds for every leg; none where that is too short for it.
     fn times_s(&self, manoeuvre: &Manoeuvre<'_>) -> Option<(f64, f64)> {
         let legs = manoeuvre.count() as f64;
-        let (least_s, longest_s) = (legs * (SETTLING_S + SHORTEST_S).ceil(), legs * (self.longest_s / legs).floor());
+        let (least_s, longest_s) = (legs * SHORTEST_MANOEUVRE_S.ceil(), legs * (self.longest_s / legs).floor());
         (least_s <= longest_s).then_some((least_s, longest_s))
     }
 

@@ -14,7 +14,8 @@ const LEAST_FRAMES: u32 = 20;
 #[derive(Debug, Clone)]
 pub struct GravityFelt {
     stated_m_s2: f64,
-    sum_m_s2: f64,
+    /// Sum of the logarithms of what is felt over what is stated.
+    ln_times: f64,
     frames: u32,
 }
 
@@ -30,22 +31,24 @@ pub struct OtherGravity {
 impl GravityFelt {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
-        Self { stated_m_s2: rover.gravity_m_s2.into(), sum_m_s2: 0.0, frames: 0 }
+        Self { stated_m_s2: rover.gravity_m_s2.into(), ln_times: 0.0, frames: 0 }
     }
 
-    /// Takes a frame in which all axes say something that is within a hundred times gravity.
+    /// Takes a frame in which all axes say something finite: a mean of logarithms, which few outliers hardly move.
     pub fn take(&mut self, frame: &SensorFrame) {
         let Some(felt) = frame.accel_m_s2.map(|axis| axis.map(f64::from)).all() else { return };
         let size_m_s2 = felt.x.hypot(felt.y).hypot(felt.z);
-        if size_m_s2 < 100.0 * self.stated_m_s2 {
-            self.sum_m_s2 += size_m_s2;
+        let times = size_m_s2 / self.stated_m_s2;
+        if times.is_normal() {
+            self.ln_times += libm::log(times);
             self.frames += 1;
         }
     }
 
     /// What it feels, where that is not gravity.
     pub fn other(&self) -> Option<OtherGravity> {
-        let (felt_m_s2, stated_m_s2) = (self.sum_m_s2 / f64::from(self.frames), self.stated_m_s2);
+        let stated_m_s2 = self.stated_m_s2;
+        let felt_m_s2 = stated_m_s2 * libm::exp(self.ln_times / f64::from(self.frames));
         let is_other = self.frames >= LEAST_FRAMES && (felt_m_s2 - stated_m_s2).abs() > TOLERATED * stated_m_s2;
         is_other.then_some(OtherGravity { felt_m_s2, stated_m_s2 })
     }
@@ -83,5 +86,7 @@ mod tests {
         assert_eq!(felt(1.0, 10), None, "too few frames tell nothing");
         let said = felt(1.0, 100).expect("in gravities").to_string();
         assert!(said.contains("feels 1.04 m/s² where gravity is 9.81"), "{said}");
+        let said = felt(9810.0, 100).expect("in millimetres").to_string();
+        assert!(said.contains("where gravity is 9.81: it speaks in other units"), "{said}");
     }
 }

@@ -13,6 +13,8 @@ use crate::statistics::PER_MEDIAN;
 const TOLERATED: f64 = 1.5;
 /// Fewest differences that tell.
 const LEAST_DIFFERENCES: u32 = 200;
+/// Times what is stated from which sizes are not told from greater ones.
+const FARTHEST: f64 = 10_000.0;
 /// Share of the time between two frames by which that between the next may be longer or shorter.
 const UNEVEN: f64 = 0.25;
 /// The standard deviation of x₀ − 3x₁ + 3x₂ − x₃ over that of white noise in x: √(1 + 9 + 9 + 1).
@@ -158,12 +160,14 @@ fn is_even([first, second, third, fourth]: [f64; 4]) -> bool {
 impl fmt::Display for Noisier {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, shown, stated } = self;
+        let times = shown / stated;
+        // Greater sizes are counted as the greatest.
+        let scatters = if times < FARTHEST { "" } else { "more than " };
         write!(
             formatter,
-            "{name} scatters by {} from frame to frame, {:.1} times the {} that the rover file states: what rests on it is less certain \
+            "{name} scatters by {scatters}{} from frame to frame, {times:.1} times the {} that the rover file states: what rests on it is less certain \
              than is said",
             significant(*shown, 2),
-            shown / stated,
             significant(*stated, 2),
         )
     }

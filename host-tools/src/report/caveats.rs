@@ -69,7 +69,8 @@ fn noise(findings: &Findings) -> Option<String> {
 }
 
 fn one_load(findings: &Findings) -> Option<String> {
-    let (low, high) = ends(findings.campaign.column(Channel::Load.name())?.iter().flatten().copied())?;
+    let campaign = &findings.campaign;
+    let (low, high) = ends(campaign.sound_rows().filter_map(|row| campaign.value(row, Channel::Load)))?;
     (high <= (1.0 + ONE_LOAD) * low).then(|| {
         "Every state has one load. Cohesion and friction can then stand in for each other: the same forces come from more \
          of one and less of the other. One wheel at one load cannot tell cohesion; where several slips together seem to, \

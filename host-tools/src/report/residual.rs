@@ -10,7 +10,7 @@ use crate::prior;
 pub struct ModelCheck {
     /// The soil of the equations.
     pub soil: Soil<f64>,
-    /// Every row that has slip and load.
+    /// Every row that has slip and load, but for gross errors.
     pub rows: Vec<ModelRow>,
 }
 
@@ -73,7 +73,7 @@ impl ModelCheck {
                 model: ModelState::at(&campaign.wheel, &soil, slip, load_n),
             })
         };
-        Self { soil, rows: (0..campaign.rows().len()).filter_map(row).collect() }
+        Self { soil, rows: campaign.sound_rows().filter_map(row).collect() }
     }
 
     /// Over all rows.

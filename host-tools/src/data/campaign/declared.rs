@@ -68,6 +68,20 @@ impl DeclaredEffect {
         self.known.keys().all(|name| form.has(name) || name.starts_with(REFERENCE))
     }
 
+    /// Checks that what is known of it are parameters of the form that the file states: another form's would change the law all the same.
+    fn check_form(&self, entries: &Entries, file: &TomlFile) -> Result<(), HostError> {
+        let Some(form) = self.form.filter(|form| !self.may_be(form)) else { return Ok(()) };
+        let is_other = |name: &&Spanned<String>| {
+            *name.get_ref() != "form" && !form.has(name.get_ref()) && !name.get_ref().starts_with(REFERENCE)
+        };
+        let Some(name) = entries.keys().find(is_other) else { return Ok(()) };
+        let its_own: Vec<_> = self.info.parameters.iter().map(|parameter| parameter.name).collect();
+        let its_own: Vec<_> = its_own.into_iter().filter(|name| form.has(name)).collect();
+        let message =
+            format!("{} is no parameter of the form {}: expected {}", name.get_ref(), form.name, its_own.join(", "));
+        Err(file.error_at(name, message))
+    }
+
     /// The form that the file states, else the first that it may have, else the effect's first.
     pub fn first_form(&self) -> Option<&'static Form> {
         let may_be = || self.info.forms.iter().find(|form| self.may_be(form));
@@ -94,15 +108,16 @@ impl Declared {
                 let message = format!("parameters of {}, which `effects` does not list", info.id);
                 return Err(file.error_at(&id, message));
             };
-            for (name, entry) in entries {
+            for (name, entry) in &entries {
                 match entry.get_ref() {
-                    Entry::Form(form) => place.form = Some(find_form(info, form, &name, &entry, file)?),
+                    Entry::Form(form) => place.form = Some(find_form(info, form, name, entry, file)?),
                     Entry::Parameter(known) => {
-                        let (name, known) = parameter(info, &name, *known, &entry, file)?;
+                        let (name, known) = parameter(info, name, *known, entry, file)?;
                         place.known.insert(name, known);
                     }
                 }
             }
+            place.check_form(&entries, file)?;
         }
         Ok(declared)
     }
@@ -205,10 +220,21 @@ impl<'de> Visitor<'de> for TableVisitor {
             if key.get_ref() == "effects" {
                 table.effects = map.next_value()?;
             } else {
-                table.parameters.push((key, map.next_value()?));
+                let entries = map.next_value().map_err(|error: M::Error| unlike_a_table(key.get_ref(), error))?;
+                table.parameters.push((key, entries));
             }
         }
         Ok(table)
+    }
+}
+
+/// Of a key that holds no table: a misspelt `effects`, or no effect's id.
+fn unlike_a_table<E: serde::de::Error>(key: &str, error: E) -> E {
+    let is_an_effect = effect_info(key).is_some();
+    if is_an_effect {
+        error
+    } else {
+        E::custom(format!("`{key}`: expected `effects`, or the table of an effect: {error}"))
     }
 }
 
@@ -226,6 +252,15 @@ mod tests {
         assert_eq!(form("n1 = 0.3\n"), Some("exponent"));
         assert_ne!(form("stretch = 0.4\n"), Some("exponent"), "which has no such parameter");
         assert_eq!(form("form = \"exponent\"\nn1 = 0.3\n"), Some("exponent"));
+    }
+
+    #[test]
+    fn a_parameter_of_another_form_than_the_one_stated_is_an_error_at_its_place() {
+        let text =
+            "[declared]\neffects = [\"slip-sinkage\"]\n[declared.slip-sinkage]\nform = \"exponent\"\nstretch = 0.4\n";
+        let error = Declared::parse(Path::new("declared.toml"), text).expect_err("two forms").to_string();
+        assert!(error.starts_with("declared.toml:5:1: stretch is no parameter of the form exponent"), "{error}");
+        assert!(error.contains("expected n1"), "{error}");
     }
 
     #[test]

@@ -38,6 +38,18 @@ impl Knowledge {
         }
     }
 
+    /// One standard deviation; between bounds that of an even distribution.
+    pub fn std(self) -> f64 {
+        match self {
+            Self::Value { std, .. } => std,
+            Self::Between { min, max } => (max - min) / 12_f64.sqrt(),
+        }
+    }
+
+    fn is_uncertain_value(self) -> bool {
+        matches!(self, Self::Value { std, .. } if std > 0.0)
+    }
+
     /// From one standard deviation below to one above, or the bounds.
     pub fn range(self) -> (f64, f64) {
         self.within(1.0)
@@ -116,6 +128,14 @@ impl Ground {
         })
     }
 
+    /// What is said where something is known that tells nothing by itself.
+    pub(super) fn of_unused(&self) -> Option<String> {
+        (self.cohesive_modulus.is_some() && self.frictional_modulus.is_none()).then(|| {
+            "k_c alone says nothing of the stiffness k_c/b + k_phi, and is not used: expected k_phi beside it."
+                .to_owned()
+        })
+    }
+
     /// Stiffness k_c / b + k_φ under a wheel, Pa/m^n, from whichever keys the file has.
     pub fn stiffness(&self, wheel: &Wheel<f64>) -> Option<Knowledge> {
         if self.stiffness.is_some() {
@@ -126,6 +146,10 @@ impl Ground {
             (None, k_phi) => Some(k_phi),
             (Some(Knowledge::Value { value, std }), Knowledge::Value { value: k_phi, std: k_phi_std }) => {
                 Some(Knowledge::Value { value: value + k_phi, std: std.hypot(k_phi_std) })
+            }
+            // A standard deviation is no bound: both together are as likely as their middles and variances say.
+            (Some(k_c), k_phi) if k_c.is_uncertain_value() || k_phi.is_uncertain_value() => {
+                Some(Knowledge::Value { value: k_c.middle() + k_phi.middle(), std: k_c.std().hypot(k_phi.std()) })
             }
             (Some(k_c), k_phi) => {
                 let ((low, high), (k_phi_low, k_phi_high)) = (k_c.range(), k_phi.range());

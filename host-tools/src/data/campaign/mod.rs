@@ -147,21 +147,22 @@ impl Campaign {
 
     /// What a reader of any result should know of how the file was read, sentence by sentence.
     pub fn remarks(&self) -> Vec<String> {
-        self.of_repeats().into_iter().chain(further_columns::misspelt(&self.header)).collect()
+        let of_rows = self.of_repeats().into_iter().chain(self.ground.of_unused());
+        of_rows.chain(further_columns::misspelt(&self.header)).collect()
     }
 
     /// What is said where rows of the file were taken out that only repeat what the sensors had said before.
     fn of_repeats(&self) -> Option<String> {
         (self.repeats > 0).then(|| {
             format!(
-                "{} rows say in every channel of the wheel's sensors what the row before them says: the logger writes faster \
-                 than the sensors speak. They are no new readings, and are left out.",
+                "{} rows say in every channel of the wheel's sensors what the same wheel said an instant before: the logger writes \
+                 faster than the sensors speak. They are no new readings, and are left out.",
                 self.repeats
             )
         })
     }
 
-    /// The rows, in the order of the file; without those that repeat the one before, where there are many.
+    /// The rows, in the order of the file; without those that repeat an instant before, where there are many.
     pub fn rows(&self) -> &[RowId] {
         &self.rows
     }

@@ -10,8 +10,8 @@ const FEWEST: usize = 3;
 /// Share of the rows from which repeats are a logger's habit. Fewer are chance, or cost nothing.
 const HABIT: f64 = 0.1;
 
-/// Takes rows out that say in every such channel what the row before them in the same run says, or the same wheel an instant
-/// before, where a campaign has many, and tells how many they were.
+/// Takes rows out that say in every such channel what the same wheel said an instant before, where a campaign has many, and tells how many
+/// they were. The row before is another wheel where it has the same time, and two wheels may well say the same.
 pub(super) fn take_out(rows: &mut Vec<RowId>, columns: &mut [Measured]) -> usize {
     let repeats = repeats(rows, columns);
     let count = repeats.iter().filter(|repeat| **repeat).count();
@@ -39,8 +39,7 @@ fn repeats(rows: &[RowId], columns: &[Measured]) -> Vec<bool> {
         said >= FEWEST && rows[earlier].run == rows[row].run && varying.iter().all(same)
     };
     let instant_before = an_instant_before(rows);
-    let is_repeat =
-        |row: usize| [row.checked_sub(1), instant_before[row]].into_iter().flatten().any(|one| says_same(row, one));
+    let is_repeat = |row: usize| instant_before[row].is_some_and(|earlier| says_same(row, earlier));
     (0..rows.len()).map(is_repeat).collect()
 }
 

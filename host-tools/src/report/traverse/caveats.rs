@@ -22,12 +22,23 @@ pub fn caveats(findings: &TraverseFindings) -> Vec<String> {
          beside mass and envelope. With another rover the numbers are other numbers; give yours with --rover."
             .to_owned()
     });
+    let no_truth = findings.truth_is_of_other_times.then(|| {
+        "The truth beside the frames has no row at the time of any of them: nothing is compared with it.".to_owned()
+    });
     let split = "Of the drawbar pull of a bogie's two wheels, the sensors tell the sum alone; how it is split follows from \
                  the wheels' torques, and its uncertainty is in the bands.";
-    [simulated, assumed, Some(split.to_owned()), cannot_be_told(findings), at_the_end(findings), outside(findings)]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        simulated,
+        assumed,
+        no_truth,
+        Some(split.to_owned()),
+        cannot_be_told(findings),
+        at_the_end(findings),
+        outside(findings),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 fn last_soil(findings: &TraverseFindings) -> Option<&SoilEstimate> {

@@ -33,6 +33,8 @@ pub struct TraverseFindings {
     pub unknown_columns: Vec<String>,
     /// Estimates and truths, thinned.
     pub samples: Samples,
+    /// Whether a truth is beside the frames that has a row at the time of none.
+    pub truth_is_of_other_times: bool,
     /// Errors against the truth, where it is known.
     pub errors: Option<Errors>,
     /// What came of the replay.

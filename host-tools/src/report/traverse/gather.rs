@@ -25,7 +25,7 @@ use crate::trial::errors::Errors;
 
 /// The traverse that the project carries: this drive of the simulator.
 const CARRIED: (Scenario, u64) = (Scenario::Traverse, 2);
-/// [`WARM_UP_S`] as the truth has it.
+/// [`WARM_UP_S`] as frames have it.
 const WARM_UP_US: u64 = (1.0e6 * WARM_UP_S) as u64;
 
 type Step = Result<(SensorFrame, Option<Truth>), HostError>;
@@ -35,6 +35,8 @@ pub struct Source {
     origin: Origin,
     rover: Rover<f64>,
     unknown_columns: Vec<String>,
+    /// Whether a truth is beside the frames.
+    has_truth: bool,
     steps: Box<dyn Iterator<Item = Step>>,
 }
 
@@ -53,7 +55,7 @@ impl Source {
             .progress_with(bar)
             .map(move |step| step.map(|(frame, truth)| (frame, Some(truth))).map_err(failed));
         let origin = Origin::Simulated { scenario, seed };
-        Ok(Self { origin, rover, unknown_columns: Vec::new(), steps: Box::new(steps) })
+        Ok(Self { origin, rover, unknown_columns: Vec::new(), has_truth: true, steps: Box::new(steps) })
     }
 
     /// A recording, with the truth where NAME.truth.csv is beside it.
@@ -64,7 +66,8 @@ impl Source {
         let Recording { rover, frames: recorded } = Recording::open(frames, rover)?;
         let unknown_columns = recorded.unknown_columns();
         let truths = truth_path(frames);
-        let mut truths = if truths.is_file() { Some(TruthReader::open(&truths)?.peekable()) } else { None };
+        let has_truth = truths.is_file();
+        let mut truths = if has_truth { Some(TruthReader::open(&truths)?.peekable()) } else { None };
         let steps = recorded.map(move |frame| {
             let frame = frame?;
             let Some(truths) = &mut truths else { return Ok((frame, None)) };
@@ -75,7 +78,7 @@ impl Source {
             Ok((frame, truths.next_if(same).transpose()?))
         });
         let name = frames.file_name().unwrap_or(frames.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { origin: Origin::Recorded(name), rover, unknown_columns, steps: Box::new(steps) })
+        Ok(Self { origin: Origin::Recorded(name), rover, unknown_columns, has_truth, steps: Box::new(steps) })
     }
 }
 
@@ -84,6 +87,10 @@ struct Gathered {
     rover: Rover<f64>,
     samples: Samples,
     trailing: TrailingMean,
+    /// Time of the first frame, µs: clocks start anywhere.
+    start_us: Option<u64>,
+    /// Frames of which the truth is known.
+    with_truth: u64,
     errors: Option<Errors>,
     /// Checksum over the bits of all estimates so far.
     fingerprint: u32,
@@ -95,7 +102,7 @@ impl TraverseFindings {
     /// # Errors
     /// Where the computer cannot be had, does not pass its self-test or does not answer, or a frame cannot be read.
     pub fn gather(source: Source, on: Computer) -> Result<Self, HostError> {
-        let Source { origin, rover, unknown_columns, steps } = source;
+        let Source { origin, rover, unknown_columns, has_truth, steps } = source;
         let flight_rover = rover.map(|value| value as f32);
         let mut computer = FlightComputer::start(on, LogView::Nothing)?;
         // Estimates come some frames after what they are of.
@@ -110,7 +117,7 @@ impl TraverseFindings {
             let step = under_way.borrow_mut().pop_front();
             step.iter().try_for_each(|(frame, truth)| gathered.take(frame, truth.as_ref(), estimate))
         })?;
-        let Gathered { samples, errors, fingerprint, .. } = gathered;
+        let Gathered { samples, with_truth, errors, fingerprint, .. } = gathered;
         let flight = FlightFacts {
             computer: on,
             boot: outcome.boot,
@@ -120,21 +127,33 @@ impl TraverseFindings {
             fingerprint: format!("{fingerprint:08x}"),
             networks: None,
         };
-        Ok(Self { origin, rover: flight_rover, unknown_columns, samples, errors, outcome, flight })
+        let truth_is_of_other_times = has_truth && with_truth == 0;
+        Ok(Self {
+            origin,
+            rover: flight_rover,
+            unknown_columns,
+            samples,
+            truth_is_of_other_times,
+            errors,
+            outcome,
+            flight,
+        })
     }
 }
 
 impl Gathered {
     fn new(rover: Rover<f64>) -> Self {
         let (samples, trailing) = (Samples::default(), TrailingMean::default());
-        Self { rover, samples, trailing, errors: None, fingerprint: 0 }
+        Self { rover, samples, trailing, start_us: None, with_truth: 0, errors: None, fingerprint: 0 }
     }
 
     fn take(&mut self, frame: &SensorFrame, truth: Option<&Truth>, estimate: &FrameEstimate) -> Result<(), HostError> {
         self.samples.push(estimate, truth);
+        self.with_truth += u64::from(truth.is_some());
         let now = naive(&self.rover, frame);
         let second = self.trailing.push(frame.time_us, now);
-        if let Some(truth) = truth.filter(|truth| truth.time_us >= WARM_UP_US) {
+        let start_us = *self.start_us.get_or_insert(frame.time_us);
+        if let Some(truth) = truth.filter(|_| frame.time_us.saturating_sub(start_us) >= WARM_UP_US) {
             self.errors.get_or_insert_default().take(estimate, &now, &second, truth);
         }
         let bytes = postcard::to_stdvec(&(self.fingerprint, estimate))

@@ -12,12 +12,13 @@ use super::time_axis::{Spread, spreads};
 use super::wheel_chart::QUANTITIES;
 use crate::identify::network_refusal;
 use crate::parameter::Parameter;
-use crate::replay::{REASONS, SensorTrouble, troubles};
+use crate::replay::{REASONS, SensorTrouble, troubles, unknown_columns};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
 use crate::report::legend::entry;
 use crate::report::page::head;
+use crate::report::sentence::capitalised;
 use crate::trial::errors::Errors;
 
 /// The page.
@@ -166,6 +167,7 @@ fn sensors(findings: &TraverseFindings) -> Markup {
     html! {
         section {
             h2 { "Sensors" }
+            @if let Some(unknown) = unknown_columns(&findings.unknown_columns) { p { (capitalised(&unknown)) "." } }
             @if troubles.is_empty() {
                 p { "Every reading of every sensor was used." }
             } @else {
