@@ -61,7 +61,10 @@ fn outputs_that_are_one_file_are_refused() {
 #[test]
 fn manoeuvres_that_cannot_be_are_refused() {
     for (arguments, expected) in [
-        (["observe", "--speed", "0.05", "--top-speed", "0.02"], "--speed 0.05: expected no more than --top-speed, 0.02 m/s"),
+        (
+            ["observe", "--speed", "0.05", "--top-speed", "0.02"],
+            "--speed 0.05: expected no more than --top-speed, 0.02 m/s",
+        ),
         (["observe", "--longest", "4.5", "--speed", "0.02"], "--longest 4.5: expected 5 s or more"),
     ] {
         let said = refusal(&arguments);

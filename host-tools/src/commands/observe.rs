@@ -120,7 +120,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let outputs = [&arguments.json, &arguments.html, &arguments.picture].map(|path| path.as_deref());
     outputs::check(&outputs, &[Some(arguments.soil.as_ref()), arguments.rover.as_deref()])?;
-    check_speeds(arguments)?;
+    check_manoeuvres(arguments)?;
     let told = observability(arguments)?;
     println!("{}", terminal(&told));
     if let Some(path) = &arguments.json {
@@ -137,7 +137,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     Ok(())
 }
 
-fn check_speeds(arguments: &Arguments) -> Result<(), HostError> {
+fn check_manoeuvres(arguments: &Arguments) -> Result<(), HostError> {
     let Arguments { speed, top_speed, longest, .. } = arguments;
     if speed > top_speed {
         return Err(HostError::Failed(format!(

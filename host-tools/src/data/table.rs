@@ -210,7 +210,7 @@ impl Lines<'_> {
     }
 }
 
-/// Refuses a quote that is never closed: the rest of the file would vanish into one field.
+/// Refuses such a line: it would run into the next one, and lines would be counted wrongly.
 fn check_line_ends(file: &TextFile) -> Result<(), HostError> {
     let alone = file.text().match_indices('\r').find(|(place, _)| !file.text()[place + 1..].starts_with('\n'));
     match alone {
@@ -219,6 +219,7 @@ fn check_line_ends(file: &TextFile) -> Result<(), HostError> {
     }
 }
 
+/// Refuses a quote that is never closed: the rest of the file would vanish into one field.
 fn check_quotes(file: &TextFile) -> Result<(), HostError> {
     match file.text().rfind('"') {
         Some(last) if file.text().matches('"').count() % 2 == 1 => {

@@ -5,24 +5,25 @@ use std::fmt;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-/// Share of gravity by which what is felt in the mean may be off: rovers on wheels hardly speed up, and no scale of a sensor errs by so much.
+use super::running_median::RunningMedian;
+
+/// Share of gravity by which what is felt may be off: rovers on wheels hardly speed up, and no scale of a sensor errs by so much.
 const TOLERATED: f64 = 0.1;
 /// Fewest frames that tell.
 const LEAST_FRAMES: u32 = 20;
 
-/// What the accelerometer feels over a drive, in a running sum.
+/// What the accelerometer feels over a drive: its median, which outliers do not move.
 #[derive(Debug, Clone)]
 pub struct GravityFelt {
     stated_m_s2: f64,
-    /// Sum of the logarithms of what is felt over what is stated.
-    ln_times: f64,
-    frames: u32,
+    /// What is felt over what is stated.
+    times: RunningMedian,
 }
 
 /// An accelerometer that feels another gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherGravity {
-    /// What it feels in the mean, m/s².
+    /// What it feels, m/s².
     pub felt_m_s2: f64,
     /// What the rover file states, m/s².
     pub stated_m_s2: f64,
@@ -31,25 +32,21 @@ pub struct OtherGravity {
 impl GravityFelt {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
-        Self { stated_m_s2: rover.gravity_m_s2.into(), ln_times: 0.0, frames: 0 }
+        Self { stated_m_s2: rover.gravity_m_s2.into(), times: RunningMedian::of_none(1e-4, 1.001, 20_000) }
     }
 
-    /// Takes a frame in which all axes say something finite: a mean of logarithms, which few outliers hardly move.
+    /// Takes a frame in which all axes say something.
     pub fn take(&mut self, frame: &SensorFrame) {
         let Some(felt) = frame.accel_m_s2.map(|axis| axis.map(f64::from)).all() else { return };
         let size_m_s2 = felt.x.hypot(felt.y).hypot(felt.z);
-        let times = size_m_s2 / self.stated_m_s2;
-        if times.is_normal() {
-            self.ln_times += libm::log(times);
-            self.frames += 1;
-        }
+        self.times.take(size_m_s2 / self.stated_m_s2);
     }
 
     /// What it feels, where that is not gravity.
     pub fn other(&self) -> Option<OtherGravity> {
         let stated_m_s2 = self.stated_m_s2;
-        let felt_m_s2 = stated_m_s2 * libm::exp(self.ln_times / f64::from(self.frames));
-        let is_other = self.frames >= LEAST_FRAMES && (felt_m_s2 - stated_m_s2).abs() > TOLERATED * stated_m_s2;
+        let felt_m_s2 = stated_m_s2 * self.times.median()?;
+        let is_other = self.times.count() >= LEAST_FRAMES && (felt_m_s2 - stated_m_s2).abs() > TOLERATED * stated_m_s2;
         is_other.then_some(OtherGravity { felt_m_s2, stated_m_s2 })
     }
 }

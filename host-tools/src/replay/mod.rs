@@ -7,6 +7,7 @@ pub mod naive;
 mod outcome;
 mod raw_sensors;
 mod recording;
+mod running_median;
 mod scatter;
 mod weighing;
 

@@ -5,6 +5,7 @@ use std::fmt;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
+use super::running_median::RunningMedian;
 use crate::data::sensor_channels::{names, standard_deviations, values};
 use crate::digits::significant;
 use crate::statistics::PER_MEDIAN;
@@ -31,50 +32,16 @@ const KEYS: [(&str, &[&str]); 7] = [
     ("velocity_m_s", &["velocity"]),
 ];
 
-/// How often a third difference had which size: a median of any number of them in a fixed place.
-///
-/// A difference of third order leaves nothing of what goes smoothly from frame to frame, and a median little of what comes seldom: a
-/// step, a stone, an outlier. What is left is white noise; noise that lasts from frame to frame does not show.
-#[derive(Debug, Clone)]
-struct Sizes {
-    counts: Vec<u32>,
-    count: u32,
-}
-
-impl Sizes {
-    /// Sizes as multiples of what is stated, from less than the least on; each is greater than the one before by a fiftieth.
-    const LEAST: f64 = 0.01;
-    const GROWTH: f64 = 1.02;
-    const BINS: usize = 700;
-
-    fn none() -> Self {
-        Self { counts: vec![0; Self::BINS], count: 0 }
-    }
-
-    fn take(&mut self, size: f64) {
-        let bin = (libm::log(size / Self::LEAST) / libm::log(Self::GROWTH)).clamp(0.0, (Self::BINS - 1) as f64);
-        self.counts[bin as usize] += 1;
-        self.count += 1;
-    }
-
-    /// None where too few were taken.
-    fn median(&self) -> Option<f64> {
-        let mut below = 0;
-        let bin = self.counts.iter().position(|count| {
-            below += count;
-            2 * below > self.count
-        });
-        let size = Self::LEAST * libm::pow(Self::GROWTH, bin? as f64 + 0.5);
-        (self.count >= LEAST_DIFFERENCES).then_some(size)
-    }
-}
-
 /// The scatter of every sensor over a drive.
 #[derive(Debug, Clone)]
 pub struct Scatter {
     /// One standard deviation as stated, in the order of [`values`].
     stated: Vec<f64>,
-    sizes: Vec<Sizes>,
+    /// Of each sensor the sizes of its third differences, as multiples of what is stated.
+    ///
+    /// A difference of third order leaves nothing of what goes smoothly from frame to frame, and a median little of what comes seldom: a
+    /// step, a stone, an outlier. What is left is white noise; noise that lasts from frame to frame does not show.
+    sizes: Vec<RunningMedian>,
     /// The three frames before, the first of them first.
     before: [Row; 3],
 }
@@ -102,7 +69,7 @@ impl Scatter {
     pub fn of(rover: &Rover<f32>) -> Self {
         let stated = values(&standard_deviations(&rover.noise));
         let stated: Vec<f64> = stated.into_iter().map(|std| std.map_or(f64::NAN, f64::from)).collect();
-        let sizes = vec![Sizes::none(); stated.len()];
+        let sizes = vec![RunningMedian::of_none(0.01, 1.02, 700); stated.len()];
         Self { stated, sizes, before: Default::default() }
     }
 
@@ -117,7 +84,7 @@ impl Scatter {
                 let [first, second, third, fourth] = rows.map(value);
                 let difference = || Some(fourth? - 3.0 * third? + 3.0 * second? - first?);
                 let size = difference().map(|difference| difference.abs() / (OF_DIFFERENCE * self.stated[place]));
-                size.filter(|size| size.is_finite()).into_iter().for_each(|size| sizes.take(size));
+                size.into_iter().for_each(|size| sizes.take(size));
             }
         }
         self.before.rotate_left(1);
@@ -133,7 +100,8 @@ impl Scatter {
     fn noisier_of(&self, key: &str, begins: &[&str]) -> Vec<Noisier> {
         let told = |(place, name): (usize, String)| {
             let stated = self.stated[place];
-            let shown = stated * PER_MEDIAN * self.sizes[place].median()?;
+            let sizes = Some(&self.sizes[place]).filter(|sizes| sizes.count() >= LEAST_DIFFERENCES)?;
+            let shown = stated * PER_MEDIAN * sizes.median()?;
             begins.iter().any(|begin| name.starts_with(begin)).then_some(Noisier { name, shown, stated })
         };
         let of_key: Vec<Noisier> = names().into_iter().enumerate().filter_map(told).collect();
@@ -165,8 +133,8 @@ impl fmt::Display for Noisier {
         let scatters = if times < FARTHEST { "" } else { "more than " };
         write!(
             formatter,
-            "{name} scatters by {scatters}{} from frame to frame, {times:.1} times the {} that the rover file states: what rests on it is less certain \
-             than is said",
+            "{name} scatters by {scatters}{} from frame to frame, {times:.1} times the {} that the rover file states: what rests on it \
+             is less certain than is said",
             significant(*shown, 2),
             significant(*stated, 2),
         )

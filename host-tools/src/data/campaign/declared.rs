@@ -65,18 +65,16 @@ pub struct DeclaredEffect {
 impl DeclaredEffect {
     /// Whether it may have a form: what is known of it are parameters that the form frees or sets, or what these refer to.
     pub fn may_be(&self, form: &Form) -> bool {
-        self.known.keys().all(|name| form.has(name) || name.starts_with(REFERENCE))
+        self.known.keys().all(|name| may_have(form, name))
     }
 
     /// Checks that what is known of it are parameters of the form that the file states: another form's would change the law all the same.
     fn check_form(&self, entries: &Entries, file: &TomlFile) -> Result<(), HostError> {
         let Some(form) = self.form.filter(|form| !self.may_be(form)) else { return Ok(()) };
-        let is_other = |name: &&Spanned<String>| {
-            *name.get_ref() != "form" && !form.has(name.get_ref()) && !name.get_ref().starts_with(REFERENCE)
-        };
+        let is_other = |name: &&Spanned<String>| *name.get_ref() != "form" && !may_have(form, name.get_ref());
         let Some(name) = entries.keys().find(is_other) else { return Ok(()) };
-        let its_own: Vec<_> = self.info.parameters.iter().map(|parameter| parameter.name).collect();
-        let its_own: Vec<_> = its_own.into_iter().filter(|name| form.has(name)).collect();
+        let names = self.info.parameters.iter().map(|parameter| parameter.name);
+        let its_own: Vec<_> = names.filter(|name| form.has(name)).collect();
         let message =
             format!("{} is no parameter of the form {}: expected {}", name.get_ref(), form.name, its_own.join(", "));
         Err(file.error_at(name, message))
@@ -87,6 +85,11 @@ impl DeclaredEffect {
         let may_be = || self.info.forms.iter().find(|form| self.may_be(form));
         self.form.or_else(may_be).or(self.info.forms.first())
     }
+}
+
+/// Whether something may be known of a parameter beside a form: one that it frees or sets, or what these refer to.
+fn may_have(form: &Form, parameter: &str) -> bool {
+    form.has(parameter) || parameter.starts_with(REFERENCE)
 }
 
 impl Declared {
