@@ -26,8 +26,20 @@ fn soil() -> Soil<f64> {
     prior::soil([800.0, PHI_RAD, 0.0114, 1.0, 1.0e6, 0.3, 0.15])
 }
 
+/// A campaign as text.
+struct Sweep {
+    csv: String,
+    toml: String,
+}
+
+impl Sweep {
+    fn campaign(&self) -> Campaign {
+        Campaign::parse(Path::new("sweep.csv"), &self.csv, &self.toml).expect("a campaign")
+    }
+}
+
 /// Rows at such slips and loads (N), with noise, of which what is stated is told.
-fn campaign(states: &[(f64, f64)], noise: &WheelNoise<f64>, stated: Option<&WheelNoise<f64>>, seed: u64) -> String {
+fn sweep(states: &[(f64, f64)], noise: &WheelNoise<f64>, stated: Option<&WheelNoise<f64>>, seed: u64) -> Sweep {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut csv = format!("{COLUMNS}\n");
     for (row, (slip, load_n)) in states.iter().enumerate() {
@@ -35,12 +47,7 @@ fn campaign(states: &[(f64, f64)], noise: &WheelNoise<f64>, stated: Option<&Whee
         let seen = truth.blurred(noise, || StandardNormal.sample(&mut random));
         writeln!(csv, "a,{row},{}", readings(&seen)).expect("text");
     }
-    csv + "\u{0}" + &description("One sweep", "", stated)
-}
-
-fn parsed(text: &str) -> Campaign {
-    let (csv, toml) = text.split_once('\u{0}').expect("a table and its description");
-    Campaign::parse(Path::new("sweep.csv"), csv, toml).expect("a campaign")
+    Sweep { csv, toml: description("One sweep", "", stated) }
 }
 
 /// Slips from 0.03 to 0.63 and loads from 25 to 110 N, anywhere.
@@ -65,7 +72,7 @@ fn run(campaign: &Campaign, method: Method) -> Value {
 #[test]
 fn rows_that_are_averaged_over_slips_and_loads_are_no_misfit() {
     for (rows, seed) in [(240, 2), (4000, 3), (4000, 4)] {
-        let campaign = parsed(&campaign(&anywhere(rows), &NOISE, Some(&NOISE), seed));
+        let campaign = sweep(&anywhere(rows), &NOISE, Some(&NOISE), seed).campaign();
         for method in [Method::Network, Method::Map, Method::Limit] {
             let run = run(&campaign, method);
             let number = |key: &str| run["friction_angle_rad"][key].as_f64().expect("a number");
@@ -85,15 +92,15 @@ fn noise_is_told_from_repeats_whatever_the_order_of_the_rows() {
     let alternating: Vec<_> =
         slips.into_iter().flat_map(|slip| (0..20).map(move |row| (slip, loads_n[row % 2]))).collect();
     let loud = WheelNoise { drawbar_pull_n: 1.5, slip: 0.0, ..NOISE };
-    let text = campaign(&alternating, &loud, None, 5);
-    let noise = SensorNoise::of(&parsed(&text)).drawbar_pull;
+    let made = sweep(&alternating, &loud, None, 5);
+    let noise = SensorNoise::of(&made.campaign()).drawbar_pull;
     assert_eq!(noise.source, NoiseSource::Repeats);
     // Sixty pairs tell it to a tenth.
     assert!((noise.std - 1.5).abs() < 0.45, "{noise:?}");
     // One number that no wheel can have felt is left out, and tells nothing of the noise either.
-    let pull = text.lines().nth(1).and_then(|line| line.split(',').nth(4)).expect("a pull");
-    let with_gross_error = text.replacen(pull, "9999", 1);
-    let of_others = SensorNoise::of(&parsed(&with_gross_error)).drawbar_pull;
+    let pull = made.csv.lines().nth(1).and_then(|line| line.split(',').nth(4)).expect("a pull");
+    let with_gross_error = Sweep { csv: made.csv.replacen(pull, "9999", 1), toml: made.toml.clone() };
+    let of_others = SensorNoise::of(&with_gross_error.campaign()).drawbar_pull;
     assert_eq!(of_others.source, NoiseSource::Repeats);
     assert!((of_others.std / noise.std - 1.0).abs() < 0.2, "{of_others:?}, {noise:?} without it");
 }
@@ -103,14 +110,15 @@ fn noise_is_told_from_repeats_whatever_the_order_of_the_rows() {
 fn nothing_is_called_a_misfit_by_a_noise_that_nobody_states() {
     let states: Vec<_> = anywhere(24);
     let rough = WheelNoise { sinkage_m: 0.006, ..NOISE };
-    let text = campaign(&states, &rough, Some(&rough), 6);
-    let (told, untold) = (parsed(&text), parsed(&text.replace("sinkage_m = 0.006\n", "")));
+    let made = sweep(&states, &rough, Some(&rough), 6);
+    let with = |stated: &str| Sweep { csv: made.csv.clone(), toml: made.toml.replace("sinkage_m = 0.006\n", stated) };
+    let (told, untold) = (made.campaign(), with("").campaign());
     let is_stated = |campaign: &Campaign| campaign.noise.of(Channel::Sinkage).is_some();
     assert!(is_stated(&told) && !is_stated(&untold));
     for campaign in [&told, &untold] {
         assert!(run(campaign, Method::Network)["misfit"].is_null());
     }
     // Of one that is stated, and is not so, it is.
-    let understated = parsed(&text.replace("sinkage_m = 0.006\n", "sinkage_m = 0.001\n"));
+    let understated = with("sinkage_m = 0.001\n").campaign();
     assert!(run(&understated, Method::Network)["misfit"].is_string());
 }

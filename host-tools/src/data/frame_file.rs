@@ -5,10 +5,10 @@ use std::path::Path;
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::misspelling::refuse_misspelt;
+use super::misspelling::{other_columns, refuse_misspelt};
 use super::number_stream::{NumberStream, Row};
 use super::sensor_channels::{names, values, values_mut};
-use super::time_column::{self, TIME, TimeColumn};
+use super::time_column::{self, TimeColumn};
 use crate::error::HostError;
 
 /// The frames of a file, in the order of time.
@@ -52,7 +52,7 @@ impl FrameReader {
 
     /// The columns that are passed over, such as those of a sensor whose name is not quite right.
     pub fn unknown_columns(&self) -> Vec<String> {
-        no_sensors(&self.stream).map(|(_, name)| name.clone()).collect()
+        other_columns(&self.stream, &names()).map(|(_, name)| name.clone()).collect()
     }
 
     fn frame(&mut self, row: &Row) -> Result<SensorFrame, HostError> {
@@ -77,12 +77,6 @@ impl Iterator for FrameReader {
             None => is_first.then(|| Err(self.stream.error(2, 1, "no frame: expected one below the header"))),
         }
     }
-}
-
-/// The columns of a table that are neither the time nor a sensor, and their places.
-fn no_sensors(stream: &NumberStream) -> impl Iterator<Item = (usize, &String)> {
-    let sensors = names();
-    stream.header().iter().enumerate().filter(move |(_, name)| *name != TIME && !sensors.contains(name))
 }
 
 /// Whether a table is one of sensor frames, by its header: a column of a sensor, or one that is named like an encoder's.

@@ -29,12 +29,16 @@ pub fn column_meant<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) ->
     most_like(alike.filter(|(other, likeness)| *likeness >= COLUMNS || is_same_quantity(other)))
 }
 
+/// The columns of a table that are neither the time nor one of these, and their places.
+pub fn other_columns<'a>(stream: &'a NumberStream, names: &'a [String]) -> impl Iterator<Item = (usize, &'a String)> {
+    stream.header().iter().enumerate().filter(move |(_, name)| *name != TIME && !names.contains(name))
+}
+
 /// Refuses a table in whose header one of these columns is missing for the sake of a letter or a unit: a sensor would be absent. `what`
 /// says what such a column is.
 pub fn refuse_misspelt(stream: &NumberStream, names: &[String], what: &str) -> Result<(), HostError> {
     let absent = || names.iter().filter(|name| !stream.header().contains(name)).map(String::as_str);
-    let others = stream.header().iter().enumerate().filter(|(_, name)| *name != TIME && !names.contains(name));
-    for (place, name) in others {
+    for (place, name) in other_columns(stream, names) {
         if let Some(meant) = column_meant(name, absent()) {
             return Err(stream.error(1, place as u64 + 1, format!("`{name}` is no {what}: is `{meant}` meant?")));
         }

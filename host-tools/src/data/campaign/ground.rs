@@ -46,8 +46,15 @@ impl Knowledge {
         }
     }
 
-    fn is_uncertain_value(self) -> bool {
-        matches!(self, Self::Value { std, .. } if std > 0.0)
+    /// What is known of a sum. A standard deviation is no bound: with one, both together are as likely as their middles and variances say.
+    fn plus(self, other: Self) -> Self {
+        let scatters = |one: Self| matches!(one, Self::Value { std, .. } if std > 0.0);
+        let are_values = self.value().is_some() && other.value().is_some();
+        if are_values || scatters(self) || scatters(other) {
+            return Self::Value { value: self.middle() + other.middle(), std: self.std().hypot(other.std()) };
+        }
+        let ((low, high), (other_low, other_high)) = (self.range(), other.range());
+        Self::Between { min: low + other_low, max: high + other_high }
     }
 
     /// From one standard deviation below to one above, or the bounds.
@@ -144,17 +151,7 @@ impl Ground {
         let cohesive = self.cohesive_modulus.map(|k_c| k_c.scaled(1.0 / wheel.width_m));
         match (cohesive, self.frictional_modulus?) {
             (None, k_phi) => Some(k_phi),
-            (Some(Knowledge::Value { value, std }), Knowledge::Value { value: k_phi, std: k_phi_std }) => {
-                Some(Knowledge::Value { value: value + k_phi, std: std.hypot(k_phi_std) })
-            }
-            // A standard deviation is no bound: both together are as likely as their middles and variances say.
-            (Some(k_c), k_phi) if k_c.is_uncertain_value() || k_phi.is_uncertain_value() => {
-                Some(Knowledge::Value { value: k_c.middle() + k_phi.middle(), std: k_c.std().hypot(k_phi.std()) })
-            }
-            (Some(k_c), k_phi) => {
-                let ((low, high), (k_phi_low, k_phi_high)) = (k_c.range(), k_phi.range());
-                Some(Knowledge::Between { min: low + k_phi_low, max: high + k_phi_high })
-            }
+            (Some(k_c), k_phi) => Some(k_c.plus(k_phi)),
         }
     }
 }

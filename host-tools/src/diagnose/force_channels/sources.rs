@@ -33,9 +33,10 @@ pub fn available(campaign: &Campaign, sources: &'static [Source]) -> Vec<&'stati
 
 /// Whether most rows have a channel, and it is not the same in all; gross errors aside.
 pub fn varies(campaign: &Campaign, channel: Channel) -> bool {
-    let values: Vec<f64> = campaign.sound_rows().filter_map(|row| campaign.value(row, channel)).collect();
+    let sound: Vec<usize> = campaign.sound_rows().collect();
+    let values: Vec<f64> = sound.iter().filter_map(|row| campaign.value(*row, channel)).collect();
     let first = values.first().copied().unwrap_or(0.0);
-    values.len() as f64 >= KNOWN_SHARE * campaign.sound_rows().count() as f64
+    values.len() as f64 >= KNOWN_SHARE * sound.len() as f64
         && values.iter().any(|value| (value - first).abs() > 1e-9 * first.abs())
 }
 
