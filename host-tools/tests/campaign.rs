@@ -290,3 +290,16 @@ fn a_column_that_is_nearly_a_channel_is_told() {
     assert!(remarks("run,t_s,slip,drawbar_pull_n,humidity").is_empty());
     assert!(remarks("run,t_s,slip,load_n,load_sd_n").is_empty(), "the load itself is there");
 }
+
+/// Two tables put together that share a part: its runs come once more under other names, and are no new ones.
+#[test]
+fn a_run_that_says_what_another_says_is_its_copy() {
+    let readings = ["0.2,80.0,11.0,4.2,0.006", "0.3,81.0,11.5,4.3,0.006", "0.4,79.0,11.8,4.4,0.007"];
+    let run = |name: &str, begins: usize, count: usize| -> String {
+        (0..count).map(|row| format!("{name},{},{}\n", begins + row, readings[row])).collect()
+    };
+    let rows = [run("a", 0, 3), run("b", 50, 3), run("c", 0, 2), run("d", 0, 2)].concat();
+    let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
+    let copies = [vec![false; 3], vec![true; 3], vec![false; 4]].concat();
+    assert_eq!(campaign.expect("a campaign").copies(), copies, "ten numbers: chance");
+}

@@ -5,7 +5,7 @@ mod support;
 
 use std::path::Path;
 
-use kapvik_host::compare::{CompareOptions, Comparison, ParameterScore, compare};
+use kapvik_host::compare::{CompareOptions, Comparison, ParameterScore, SITUATIONS, compare};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::{Method, identify_by};
 use kapvik_host::parameter::Parameter;
@@ -186,4 +186,13 @@ fn iagnemma_needs_a_spread_of_loads() {
     assert!((36.0..48.5).contains(&narrow.median), "{narrow:?}");
     assert!((29.6..34.9).contains(&wide.median), "{wide:?}");
     assert!(wide.bias < narrow.bias / 3.0, "{narrow:?} {wide:?}");
+}
+
+#[test]
+fn a_situation_that_is_named_twice_is_one() {
+    let ids: Vec<_> = SITUATIONS.iter().take(2).map(|situation| situation.id).collect();
+    let asked = [ids[1], ids[0], ids[1]].map(str::to_owned).to_vec();
+    let options = CompareOptions { cases: 2, limit_cases: 0, seed: 7, only: asked };
+    let found = options.situations().expect("situations");
+    assert_eq!(found.iter().map(|situation| situation.id).collect::<Vec<_>>(), ids);
 }

@@ -18,3 +18,15 @@ fn a_full_disk_is_one_line_and_no_panic() {
     assert_eq!(said.lines().count(), 1, "{said}");
     assert!(said.starts_with("kapvik: standard output could not be written: "), "{said}");
 }
+
+#[test]
+fn what_a_program_reads_there_stays_alone() {
+    let identify = ["identify", "ding2011-smooth", "--method", "map", "--json", "/dev/stdout"];
+    let output = kapvik().args(identify).output().expect("started");
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON and nothing else");
+    assert_eq!(document["method"], "map");
+    assert!(
+        String::from_utf8(output.stderr).expect("text").contains("no soil explains the run"),
+        "people are told all the same"
+    );
+}

@@ -39,7 +39,8 @@ pub struct Arguments {
 /// # Errors
 /// Where there is no such situation, or a file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    outputs::check(&[arguments.json.as_deref(), arguments.html.as_deref()], &[])?;
+    let outputs = [arguments.json.as_deref(), arguments.html.as_deref()];
+    outputs::check(&outputs, &[])?;
     let options = CompareOptions {
         cases: arguments.cases as usize,
         limit_cases: arguments.limit_cases as usize,
@@ -49,7 +50,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let bar = bar("answers", options.answers()?);
     let comparison = compare(&options, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    println!("{}", terminal(&comparison));
+    outputs::tell(&terminal(&comparison), &outputs);
     if let Some(path) = &arguments.json {
         write_json(path, &comparison)?;
     }

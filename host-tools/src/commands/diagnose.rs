@@ -43,7 +43,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let campaign = campaign(table)?;
     let outcome = with_progress(&campaign, arguments.braking)?;
     let findings = findings(&campaign, &outcome);
-    println!("{}", terminal(&findings));
+    outputs::tell(&terminal(&findings), &outputs);
     if let Some(path) = json {
         write_json(path, &outcome.document)?;
     }

@@ -30,7 +30,8 @@ pub struct Arguments {
 /// Identifies the soil of each run.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let table = &arguments.campaign;
-    outputs::check(&[Some(&arguments.json)], &[Some(table), Some(&table.with_extension("toml"))])?;
+    let outputs = [Some(arguments.json.as_path())];
+    outputs::check(&outputs, &[Some(table), Some(&table.with_extension("toml"))])?;
     let campaign = campaign(table)?;
     let document = match arguments.method {
         Method::Network => {
@@ -40,6 +41,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         method => identify_by(method, &campaign)?,
     };
     write_json(&arguments.json, &document)?;
-    println!("{}", identified(&document));
+    outputs::tell(&identified(&document), &outputs);
     Ok(())
 }

@@ -7,7 +7,7 @@ use kapvik_firmware::terramechanics::Soil;
 
 use super::numbers::{above_zero, not_negative};
 use super::soil_argument;
-use crate::data::atomic_write::write_text;
+use crate::data::atomic_write::{write_json, write_text};
 use crate::data::outputs;
 use crate::data::rover_file::RoverFile;
 use crate::error::HostError;
@@ -122,11 +122,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     outputs::check(&outputs, &[Some(arguments.soil.as_ref()), arguments.rover.as_deref()])?;
     check_manoeuvres(arguments)?;
     let told = observability(arguments)?;
-    println!("{}", terminal(&told));
+    outputs::tell(&terminal(&told), &outputs);
     if let Some(path) = &arguments.json {
-        let json = serde_json::to_string_pretty(&told.document())
-            .map_err(|error| HostError::Failed(format!("{}: {error}", path.display())))?;
-        write_text(path, &(json + "\n"))?;
+        write_json(path, &told.document())?;
     }
     if let Some(path) = &arguments.html {
         write_text(path, &page(&told))?;

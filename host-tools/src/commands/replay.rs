@@ -40,7 +40,8 @@ pub struct Arguments {
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let Arguments { frames, output, rover, weights, .. } = arguments;
-    outputs::check(&[Some(output)], &[Some(frames), rover.as_deref(), weights.as_deref()])?;
+    let outputs = [Some(output.as_path())];
+    outputs::check(&outputs, &[Some(frames), rover.as_deref(), weights.as_deref()])?;
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
     let rover = recording.rover.map(|value| value as f32);
@@ -55,13 +56,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         Ok(())
     })?;
     if let Some(outcome) = &outcome {
-        if let Some(weights) = &weights {
-            println!("networks: {}", weights.in_words());
-        }
-        unknown_columns(&unknown).iter().chain(&lines(outcome)).for_each(|line| println!("{line}"));
-        if arguments.on == Computer::Qemu {
-            println!("link: {}", link_in_words(&outcome.health));
-        }
+        let networks = weights.map(|weights| format!("networks: {}", weights.in_words()));
+        let link = (arguments.on == Computer::Qemu).then(|| format!("link: {}", link_in_words(&outcome.health)));
+        let told = networks.into_iter().chain(unknown_columns(&unknown)).chain(lines(outcome)).chain(link);
+        outputs::tell(&told.collect::<Vec<_>>().join("\n"), &outputs);
     }
     Ok(())
 }

@@ -61,7 +61,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let Arguments { input, rover, weights, report, picture, .. } = arguments;
     let [about, truth] = [input.as_ref().map(|input| input.with_extension("toml")), input.as_deref().map(truth_path)];
     let inputs = [input, rover, weights, &about, &truth].map(|path| path.as_deref());
-    outputs::check(&[report.as_deref(), picture.as_deref()], &inputs)?;
+    let outputs = [report.as_deref(), picture.as_deref()];
+    outputs::check(&outputs, &inputs)?;
+    input.as_deref().map_or(Ok(()), stays_to_be_read_again)?;
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let (on, weights) = (arguments.on, weights.as_ref());
     let told = match &arguments.input {
@@ -80,21 +82,28 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         (Some(_), None) => return Err(HostError::Failed("no run has an estimate to make a picture of".to_owned())),
         (None, _) => None,
     };
-    println!("{}", told.terminal);
-    for line in &told.flight {
-        println!("{line}");
-    }
+    outputs::tell(&[&[told.terminal], told.flight.as_slice()].concat().join("\n"), &outputs);
     let path = match &arguments.report {
         Some(path) => path.clone(),
         None => default_report()?,
     };
     write_text(&path, &told.page)?;
-    println!("\nreport: {}", path.display());
+    outputs::tell(&format!("\nreport: {}", path.display()), &outputs);
     if let Some((path, picture)) = picture {
         write_text(path, &picture)?;
-        println!("picture: {}", path.display());
+        outputs::tell(&format!("picture: {}", path.display()), &outputs);
     }
     Ok(())
+}
+
+/// Refuses a pipe: which kind of file it is the header tells, and what has been read of a pipe is gone.
+fn stays_to_be_read_again(path: &Path) -> Result<(), HostError> {
+    match std::fs::metadata(path) {
+        Ok(there) if !there.is_file() && !there.is_dir() => {
+            Err(HostError::Failed(format!("{}: expected a file on disk, which can be read twice", path.display())))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn traverse(source: Source, on: Computer, weights: Option<&Weights>) -> Result<Told, HostError> {

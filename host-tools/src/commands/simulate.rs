@@ -108,8 +108,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         )));
     }
     let told = write(&arguments.output, &truth, traverse)?;
-    println!("{told}, seed {}", arguments.seed);
-    println!("{} and {}", arguments.output.display(), truth.display());
+    let files = format!("{} and {}", arguments.output.display(), truth.display());
+    outputs::tell(&format!("{told}, seed {}\n{files}", arguments.seed), &[Some(&arguments.output)]);
     Ok(())
 }
 
@@ -127,6 +127,9 @@ fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Resu
                 write_truth(truths, &truth).map_err(HostError::file(truths_path))?;
                 (written, last_s, way_m) = (written + 1, 1.0e-6 * frame.time_us as f64, truth.x_m);
                 bar.inc(1);
+            }
+            if written == 0 {
+                return Err(HostError::Failed("--effect skip-frames: expected one that leaves a frame".to_owned()));
             }
             // Before the truth takes its place: it must not stand beside frames that could not be written.
             frames.flush().map_err(HostError::file(frames_path))

@@ -110,13 +110,12 @@ impl CompareOptions {
         if self.only.is_empty() {
             return Ok(SITUATIONS.iter().collect());
         }
-        let find = |id: &String| {
-            Situation::find(id).ok_or_else(|| {
-                let ids: Vec<_> = SITUATIONS.iter().map(|situation| situation.id).collect();
-                HostError::Failed(format!("no situation `{id}`: expected one of {}", ids.join(", ")))
-            })
-        };
-        self.only.iter().map(find).collect()
+        if let Some(id) = self.only.iter().find(|id| Situation::find(id).is_none()) {
+            let ids: Vec<_> = SITUATIONS.iter().map(|situation| situation.id).collect();
+            return Err(HostError::Failed(format!("no situation `{id}`: expected one of {}", ids.join(", "))));
+        }
+        let is_asked_for = |situation: &&Situation| self.only.iter().any(|id| id == situation.id);
+        Ok(SITUATIONS.iter().filter(is_asked_for).collect())
     }
 }
 

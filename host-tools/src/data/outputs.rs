@@ -1,4 +1,4 @@
-//! Where a command writes: looked at before its work begins, which may take an hour.
+//! Where a command writes: looked at before its work begins, which may take an hour; and where what it tells people goes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,6 +27,16 @@ pub fn check(outputs: &[Option<&Path>], inputs: &[Option<&Path>]) -> Result<(), 
         taken.push(place);
     }
     Ok(())
+}
+
+/// Names of standard output among files.
+const STANDARD_OUTPUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+
+/// Tells people what came of a command, on standard output; on standard error where one of the outputs is standard output itself, which a
+/// program reads then.
+pub fn tell(summary: &str, outputs: &[Option<&Path>]) {
+    let is_taken = |output: &&Path| STANDARD_OUTPUT.iter().any(|name| *output == Path::new(name));
+    if outputs.iter().flatten().any(is_taken) { eprintln!("{summary}") } else { println!("{summary}") }
 }
 
 /// Where a regular file stands, or one that is yet to be written would; none of anything else.

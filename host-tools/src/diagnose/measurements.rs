@@ -77,9 +77,10 @@ impl Measurements {
             (0, "braking"),
             (0, "gross errors: a force or sinkage that no wheel can have felt"),
             (0, "far out of what all other rows say"),
+            (0, "copies: in runs that say, row by row, what another run says"),
         ];
         let mut usable = Vec::new();
-        for row in 0..campaign.rows().len() {
+        for (row, is_copy) in campaign.copies().into_iter().enumerate() {
             let readings = COLUMNS.map(|channel| campaign.value(row, channel));
             if !is_usable(&readings) {
                 reasons[0].0 += 1;
@@ -89,6 +90,8 @@ impl Measurements {
                 reasons[2].0 += 1;
             } else if lone.iter().any(|lone| lone.place == row) {
                 reasons[3].0 += 1;
+            } else if is_copy {
+                reasons[4].0 += 1;
             } else {
                 usable.push((row, readings));
             }

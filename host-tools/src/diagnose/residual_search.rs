@@ -205,17 +205,17 @@ fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Opti
 
 /// What a channel's scale is estimated from beside a dependence: its rows, of which several tell as much as an independent one where noise
 /// remembers, or where runs have offsets of their own that the dependence does not explain. Of these the design effect of rows that are drawn
-/// by runs tells how many: 1 + (m − 1) ρ, m rows a run of which pairs correlate by ρ (Kish 1965, Survey Sampling).
+/// by runs tells how many: 1 + (m − 1) ρ, m rows in the run of a row, over all rows, pairs of a run correlating by ρ (Kish 1965, Survey Sampling).
 fn observations(bench: &Bench<'_>, with: &Fit, channel: Reading, rows_per_reading: f64) -> f64 {
     let c = channel.index();
     let rows: Vec<&Row> = bench.measurements.rows.iter().filter(|row| row.readings[c].is_some()).collect();
-    let mut runs: Vec<usize> = rows.iter().map(|row| row.run).collect();
-    runs.dedup();
+    let runs = rows.chunk_by(|one, other| one.run == other.run).map(<[&Row]>::len);
     let count = rows.len() as f64;
+    let beside_each = runs.map(|run| (run * run) as f64).sum::<f64>() / count - 1.0;
     let noise_variance = rows.iter().map(|row| (row.noise[c] * with.noise_scale[c]).powi(2)).sum::<f64>() / count;
     let offset_variance = with.offset_std[c].powi(2);
     let correlation = offset_variance / (offset_variance + noise_variance);
-    let design_effect = 1.0 + (count / runs.len() as f64 - 1.0) * correlation;
+    let design_effect = 1.0 + beside_each * correlation;
     count / design_effect.max(rows_per_reading)
 }
 

@@ -144,7 +144,7 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         fs::write(folder.0.path().join("r.toml"), rover).expect("written");
         is_refused(&folder, &["--rover", "r.toml"], expected);
     }
-    let cases: [(&[&str], &str); 11] = [
+    let cases: [(&[&str], &str); 12] = [
         (&["--rover", "none.toml"], "none.toml: "),
         (&["--soil", "butter"], "butter: expected a file S.toml, or a soil of the catalogue: seed-table-1,"),
         (&["--soil", "none.toml"], "none.toml: "),
@@ -158,6 +158,10 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         (&["--effect", "latency=late"], "--effect latency=late: `late`: expected a number"),
         (&["--effect", "nan=load@1-2"], "--effect nan=load@1-2: `load`: expected a column"),
         (&["--effect", "nan=gyro_*"], "--effect nan=gyro_*: `gyro_*`: expected SENSOR@T1-T2"),
+        (
+            &["--duration", "10", "--effect", "skip-frames=@0-10"],
+            "--effect skip-frames: expected one that leaves a frame",
+        ),
         (&["--scenario", "slope", "--soil", "snow-us"], ""),
     ];
     for (arguments, expected) in cases {

@@ -4,6 +4,7 @@
 mod about;
 mod carried;
 mod channel;
+mod copies;
 mod declared;
 mod fingerprint;
 mod further_columns;

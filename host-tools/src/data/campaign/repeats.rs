@@ -30,9 +30,7 @@ fn keep<T>(all: &mut Vec<T>, repeats: &[bool]) {
 
 /// Of each row whether it says the same as an earlier one.
 fn repeats(rows: &[RowId], columns: &[Measured]) -> Vec<bool> {
-    let is_sensed = |column: &&Measured| SENSED.iter().any(|channel| channel.name() == column.name);
-    let varies = |column: &&Measured| column.values.windows(2).any(|pair| pair[0] != pair[1]);
-    let varying: Vec<&Measured> = columns.iter().filter(is_sensed).filter(varies).collect();
+    let varying = varying(columns);
     let says_same = |row: usize, earlier: usize| {
         let same = |column: &&Measured| column.values[earlier] == column.values[row];
         let said = varying.iter().filter(|column| column.values[row].is_some()).count();
@@ -41,6 +39,13 @@ fn repeats(rows: &[RowId], columns: &[Measured]) -> Vec<bool> {
     let instant_before = an_instant_before(rows);
     let is_repeat = |row: usize| instant_before[row].is_some_and(|earlier| says_same(row, earlier));
     (0..rows.len()).map(is_repeat).collect()
+}
+
+/// What the sensors of a wheel read that is not one number throughout.
+pub(super) fn varying(columns: &[Measured]) -> Vec<&Measured> {
+    let is_sensed = |column: &&Measured| SENSED.iter().any(|channel| channel.name() == column.name);
+    let varies = |column: &&Measured| column.values.windows(2).any(|pair| pair[0] != pair[1]);
+    columns.iter().filter(is_sensed).filter(varies).collect()
 }
 
 /// Of each row the one in its place among the rows of the instant before it; none where that has fewer.
