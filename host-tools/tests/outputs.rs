@@ -77,3 +77,25 @@ fn a_folder_that_is_not_there_is_told_before_training() {
     let said = refusal(&["train", "-o", "nowhere/x.table"]);
     assert!(said.starts_with("kapvik: nowhere/x.table: No such file"), "{said}");
 }
+
+/// A table may have taken hours, and is not of this campaign.
+#[test]
+fn a_loop_without_a_finding_takes_no_table_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("made.csv"), Made::default().csv()).expect("written");
+    fs::write(path("made.toml"), TOML).expect("written");
+    fs::write(path("kapvik.table"), "of another").expect("written");
+    let output = kapvik().current_dir(&folder).args(["close-loop", "made.csv", "--quick", "-o", "."]).output();
+    let output = output.expect("started");
+    let said = String::from_utf8(output.stdout).expect("text");
+    assert!(said.contains("Nothing was found") && said.contains("kapvik.table was there before"), "{said}");
+    assert_eq!(fs::read_to_string(path("kapvik.table")).expect("readable"), "of another");
+    assert!(path("declared.toml").exists());
+}
+
+#[test]
+fn a_rover_has_no_place_beside_the_measured_states() {
+    let output = kapvik().args(["run", "--measured", "--on", "host", "--rover", "r.toml"]).output().expect("started");
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+}

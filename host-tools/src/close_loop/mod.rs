@@ -70,7 +70,6 @@ pub fn close(
     let declaration = declared_file(campaign, diagnosis);
     let forces = errors_of_forces(diagnosis);
     if diagnosis.effects.is_empty() {
-        remove(&table)?;
         write_text(&path, &declaration)?;
         return Ok(Closed { forces, soil: None });
     }
@@ -98,14 +97,6 @@ pub fn close(
         write_text(&table, &table_file(wheel, found.rover, &provenance).to_text())?;
     }
     Ok(Closed { forces, soil: Some(soil) })
-}
-
-/// Removes the table of an earlier campaign, if there is one.
-fn remove(table: &Path) -> Result<(), HostError> {
-    match std::fs::remove_file(table) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(HostError::file(table)(error)),
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

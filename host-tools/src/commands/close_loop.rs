@@ -14,8 +14,8 @@ use crate::data::soil_file::SoilTable;
 use crate::data::text::TextFile;
 use crate::diagnose::document::Diagnosis;
 use crate::error::HostError;
-use crate::process::workspace;
 use crate::report::diagnosis::page;
+use crate::target_folder::target_folder;
 use crate::train::plan::Plan;
 
 use super::diagnose;
@@ -53,7 +53,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let say = |what: &str| eprintln!("[{:4.0} s] {what}", start.elapsed().as_secs_f64());
     let campaign = diagnose::campaign(&arguments.campaign)?;
     let truth = truth(arguments)?;
-    let folder = arguments.output.clone().unwrap_or_else(|| workspace().join("target/kapvik-close-loop"));
+    let folder = arguments.output.clone().unwrap_or_else(|| target_folder().join("kapvik-close-loop"));
     // One that is yet to be made holds nothing that is read.
     if folder.is_dir() {
         check_outputs(arguments, &folder)?;
@@ -81,8 +81,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     println!("{}", sentence(&diagnosis));
     println!("\nRoot mean square errors on held-out runs\n\n{}", closed.forces);
     println!("\ndeclared model: {}", folder.join("declared.toml").display());
+    let table = folder.join("kapvik.table");
     let Some(soil) = closed.soil else {
         println!("Nothing was found that could be declared: the networks stay as they are.");
+        if table.exists() {
+            println!("{} was there before: it is not of this campaign.", table.display());
+        }
         return Ok(());
     };
     let [before, after] = &soil.effects;
@@ -93,7 +97,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         soil.errors
     );
     println!("\n{}\n\n{}", title_of_estimates(&campaign, truth.is_some()), soil.estimates);
-    let table = folder.join("kapvik.table");
     println!("\ntable: {}\nto fly it: kapvik run --weights {0}", table.display());
     Ok(())
 }

@@ -73,7 +73,7 @@ pub struct Arguments {
     sinkage: Option<f64>,
     /// What uneven ground adds to a wheel's drawbar pull over one second, N, one standard deviation; on the hills of `kapvik
     /// simulate` it is about 2
-    #[arg(long, value_name = "N", default_value_t = 0.5, value_parser = not_negative)]
+    #[arg(long, value_name = "N", default_value_t = 0.5, value_parser = of_ordinary_size)]
     ground: f64,
     /// What is known beforehand of c, φ and K
     #[arg(long, value_enum, default_value = "prior")]
@@ -85,22 +85,22 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "prior")]
     peak: Knowledge,
     /// Lasting error of the velocimeter's scale, as a share
-    #[arg(long, value_name = "SHARE", default_value_t = LastingErrors::default().speed_scale, value_parser = not_negative)]
+    #[arg(long, value_name = "SHARE", default_value_t = LastingErrors::default().speed_scale, value_parser = of_ordinary_size)]
     speed_bias: f64,
     /// Lasting error of each load cell, N
-    #[arg(long, value_name = "N", default_value_t = LastingErrors::default().load_n, value_parser = not_negative)]
+    #[arg(long, value_name = "N", default_value_t = LastingErrors::default().load_n, value_parser = of_ordinary_size)]
     load_bias: f64,
     /// Lasting error of each drive's torque, N·m
-    #[arg(long, value_name = "N_M", default_value_t = LastingErrors::default().torque_nm, value_parser = not_negative)]
+    #[arg(long, value_name = "N_M", default_value_t = LastingErrors::default().torque_nm, value_parser = of_ordinary_size)]
     torque_bias: f64,
     /// Lasting error of the pitch, degrees
-    #[arg(long, value_name = "DEG", default_value_t = LASTING_PITCH_DEG, value_parser = not_negative)]
+    #[arg(long, value_name = "DEG", default_value_t = LASTING_PITCH_DEG, value_parser = of_ordinary_size)]
     pitch_bias: f64,
     /// Cost of a joule beyond the usual drive, in seconds of driving
-    #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_joule, value_parser = not_negative)]
+    #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_joule, value_parser = of_ordinary_size)]
     joule_cost: f64,
     /// Cost of a millimetre of sinkage beyond the usual drive, in seconds of driving
-    #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_millimetre, value_parser = not_negative)]
+    #[arg(long, value_name = "S", default_value_t = CostWeights::default().per_millimetre, value_parser = of_ordinary_size)]
     sinkage_cost: f64,
     /// Where the advice goes as data
     #[arg(long, value_name = "OUT.json")]
@@ -233,6 +233,15 @@ fn soil(name: &str) -> Result<(Soil<f64>, String), HostError> {
         return Ok((middle_soil(), "the soil in the middle of the prior".to_owned()));
     }
     Ok((soil_argument::soil(name)?, format!("soil {name}")))
+}
+
+/// Of errors and costs: what is larger than any that matters tells nothing, and its squares overflow.
+fn of_ordinary_size(text: &str) -> Result<f64, String> {
+    const MOST: f64 = 1e6;
+    not_negative(text)
+        .ok()
+        .filter(|number| *number <= MOST)
+        .ok_or_else(|| format!("expected a number from 0 to {MOST}"))
 }
 
 fn slope(text: &str) -> Result<f64, String> {

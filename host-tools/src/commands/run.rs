@@ -11,9 +11,9 @@ use crate::data::outputs;
 use crate::data::truth_file::truth_path;
 use crate::error::HostError;
 use crate::flight_computer::Computer;
-use crate::process::workspace;
 use crate::report::traverse::{self, Source, TraverseFindings};
 use crate::report::{self, Findings, FlownNetworks};
+use crate::target_folder::target_folder;
 
 use super::weights::Weights;
 
@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(long)]
     measured: bool,
     /// The rover that recorded the frames [default: the assumed set K0]
-    #[arg(long, value_name = "R.toml", requires = "input")]
+    #[arg(long, value_name = "R.toml", requires = "input", conflicts_with = "measured")]
     rover: Option<PathBuf>,
     /// Where the flight library runs; both give the same bits
     #[arg(long, value_enum, default_value_t = Computer::Qemu)]
@@ -58,10 +58,11 @@ struct Told {
 /// # Errors
 /// Where a file is not as it should be, or the flight computer does not answer; nothing is written then.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    let Arguments { input, rover, weights, report, picture, .. } = arguments;
+    let Arguments { input, rover, weights, picture, .. } = arguments;
+    let report = arguments.report.clone().map_or_else(default_report, Ok)?;
     let [about, truth] = [input.as_ref().map(|input| input.with_extension("toml")), input.as_deref().map(truth_path)];
     let inputs = [input, rover, weights, &about, &truth].map(|path| path.as_deref());
-    let outputs = [report.as_deref(), picture.as_deref()];
+    let outputs = [Some(report.as_path()), picture.as_deref()];
     outputs::check(&outputs, &inputs)?;
     input.as_deref().map_or(Ok(()), stays_to_be_read_again)?;
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
@@ -83,12 +84,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         (None, _) => None,
     };
     outputs::tell(&[&[told.terminal], told.flight.as_slice()].concat().join("\n"), &outputs);
-    let path = match &arguments.report {
-        Some(path) => path.clone(),
-        None => default_report()?,
-    };
-    write_text(&path, &told.page)?;
-    outputs::tell(&format!("\nreport: {}", path.display()), &outputs);
+    write_text(&report, &told.page)?;
+    outputs::tell(&format!("\nreport: {}", report.display()), &outputs);
     if let Some((path, picture)) = picture {
         write_text(path, &picture)?;
         outputs::tell(&format!("picture: {}", path.display()), &outputs);
@@ -141,7 +138,7 @@ fn no_place_for_a_rover(campaign: &Path, rover: &Path) -> HostError {
 
 /// In the build folder, so that nothing appears where a person keeps files.
 fn default_report() -> Result<PathBuf, HostError> {
-    let folder = workspace().join("target/kapvik-run");
+    let folder = target_folder().join("kapvik-run");
     std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
     Ok(folder.join("report.html"))
 }

@@ -14,7 +14,7 @@ use crate::data::{frame_file, truth_file};
 use crate::error::HostError;
 use crate::progress::bar;
 use crate::simulate::effects::{EffectError, RoverEffects};
-use crate::simulate::faults::{FAILURES, Fault};
+use crate::simulate::faults::{FAILURES, Fault, OF_FRAMES};
 use crate::simulate::ground_soils::{Becomes, Change};
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
 
@@ -77,6 +77,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         arguments.then.iter().filter_map(|text| text.rsplit_once('@')).map(|(name, _)| Some(Path::new(name)));
     let inputs: Vec<_> = [arguments.rover.as_deref(), soil, right_soil].into_iter().chain(further_soils).collect();
     outputs::check(&[Some(&arguments.output), Some(&truth)], &inputs)?;
+    if std::fs::metadata(&arguments.output).is_ok_and(|there| !there.is_file()) {
+        let output = arguments.output.display();
+        return Err(HostError::Failed(format!("{output}: expected a file on disk: what was true goes beside it")));
+    }
     let RoverFile { rover, grousers } = match &arguments.rover {
         Some(path) => RoverFile::read(path)?,
         None => RoverFile::assumed(),
@@ -108,8 +112,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         )));
     }
     let told = write(&arguments.output, &truth, traverse)?;
-    let files = format!("{} and {}", arguments.output.display(), truth.display());
-    outputs::tell(&format!("{told}, seed {}\n{files}", arguments.seed), &[Some(&arguments.output)]);
+    println!("{told}, seed {}", arguments.seed);
+    println!("{} and {}", arguments.output.display(), truth.display());
     Ok(())
 }
 
@@ -177,6 +181,9 @@ fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), Ho
         let refuse = |message: String| HostError::Failed(format!("--effect {text}: {message}"));
         let (id, value) = text.split_once('=').ok_or_else(|| refuse("expected ID=VALUE".into()))?;
         if let Some((_, failure)) = FAILURES.iter().find(|(name, _)| *name == id) {
+            if OF_FRAMES.contains(&id) && !value.starts_with('@') {
+                return Err(refuse(format!("`{value}`: expected @T1-T2, which is of whole frames")));
+            }
             faults.push(Fault::parse(*failure, value).map_err(refuse)?);
             continue;
         }

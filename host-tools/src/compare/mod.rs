@@ -59,7 +59,8 @@ pub struct Compared {
     pub model_is_right: bool,
     /// Whether the soil differs from case to case; one soil ranks no methods.
     pub soils_differ: bool,
-    /// What no unbiased estimator can beat, where nothing is believed of c (Pa), φ (°) and K (mm): root mean square.
+    /// What no unbiased estimator can beat, where nothing is believed of c (Pa), φ (°) and K (mm): root mean square. None where the soil does
+    /// what equations 1–11 lack, for which it is not computed.
     pub cramer_rao: Option<[f64; 3]>,
     /// Contender by contender.
     pub scores: Vec<Score>,
@@ -138,7 +139,7 @@ fn compared(situation: &Situation, options: &CompareOptions, done: &(impl Fn() +
         title: situation.title,
         model_is_right: situation.model_is_right(),
         soils_differ: situation.soils_differ(),
-        cramer_rao: bound::cramer_rao(&cases),
+        cramer_rao: situation.obeys_equations().then(|| bound::cramer_rao(&cases)).flatten(),
         to_limit: to_limit(&truths[..limit_cases], &answers),
         scores: answers.iter().map(score).collect(),
     }

@@ -128,6 +128,11 @@ impl Situation {
         self.slip_sinkage != SlipSinkage::Undeclared
     }
 
+    /// Whether equations 1–11 alone are.
+    pub fn obeys_equations(&self) -> bool {
+        self.slip_sinkage == SlipSinkage::None
+    }
+
     /// Whether the soil differs from case to case, so that nobody is right by saying always the same.
     pub fn soils_differ(&self) -> bool {
         !matches!(self.truth, Truth::Fixed(_))

@@ -48,6 +48,11 @@ pub struct Ended {
     pub log: Vec<LogLine>,
 }
 
+/// A path among QEMU's options, which commas part unless they are doubled.
+fn in_options(path: &Path) -> String {
+    path.display().to_string().replace(',', ",,")
+}
+
 /// How long QEMU may take to open its serial ports.
 const START_PATIENCE: Duration = Duration::from_secs(30);
 const POLL: Duration = Duration::from_millis(2);
@@ -67,7 +72,7 @@ impl Machine {
         qemu.args(["-machine", "mps2-an386", "-cpu", "cortex-m4", "-nographic", "-monitor", "none"]);
         qemu.args(["-semihosting-config", "enable=on,target=native"]);
         for (name, path) in [("link", &link_path), ("log", &log_path)] {
-            qemu.arg("-chardev").arg(format!("socket,id={name},server=off,path={}", path.display()));
+            qemu.arg("-chardev").arg(format!("socket,id={name},server=off,path={}", in_options(path)));
             qemu.arg("-serial").arg(format!("chardev:{name}"));
         }
         if clock == Clock::Instructions {

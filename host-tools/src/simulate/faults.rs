@@ -35,6 +35,9 @@ pub const FAILURES: [(&str, Failure); 7] = [
     ("skip-frames", Failure::SkipFrames),
 ];
 
+/// Those of whole frames, whatever their sensors.
+pub const OF_FRAMES: [&str; 2] = ["repeat-frames", "skip-frames"];
+
 /// Columns that fail in one way for some time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {

@@ -56,6 +56,9 @@ pub enum SimulationError {
     /// The prior has no soil for it.
     #[error("no soil of the prior carries this rover through this scenario: give one with --soil")]
     NoSoil,
+    /// The wheels have no size.
+    #[error("rolling-radius: expected one that leaves the wheels a radius above 0 m")]
+    NoRadius,
     /// The rover cannot stand where it should start.
     #[error("the rover does not stand: the soil is too weak for its weight")]
     Standing,
@@ -122,6 +125,9 @@ impl Traverse {
         let mut truly = *rover;
         let excess = options.effects.library.rolling_radius.map_or(0.0, |wrong| wrong.excess);
         truly.wheel.radius_m = rover.wheel.radius_m / (1.0 + excess) + options.effects.rolling_radius_m;
+        if truly.wheel.radius_m <= 0.0 {
+            return Err(SimulationError::NoRadius);
+        }
         let mut programme = course.programme;
         if let Some(share) = options.effects.rim_wander {
             programme.wander.iter_wheels_mut().for_each(|wander| wander.share = share);

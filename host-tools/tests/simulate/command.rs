@@ -144,7 +144,7 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         fs::write(folder.0.path().join("r.toml"), rover).expect("written");
         is_refused(&folder, &["--rover", "r.toml"], expected);
     }
-    let cases: [(&[&str], &str); 12] = [
+    let cases: [(&[&str], &str); 13] = [
         (&["--rover", "none.toml"], "none.toml: "),
         (&["--soil", "butter"], "butter: expected a file S.toml, or a soil of the catalogue: seed-table-1,"),
         (&["--soil", "none.toml"], "none.toml: "),
@@ -161,6 +161,10 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         (
             &["--duration", "10", "--effect", "skip-frames=@0-10"],
             "--effect skip-frames: expected one that leaves a frame",
+        ),
+        (
+            &["--effect", "skip-frames=gyro_*@0-1"],
+            "--effect skip-frames=gyro_*@0-1: `gyro_*@0-1`: expected @T1-T2, which is of whole frames",
         ),
         (&["--scenario", "slope", "--soil", "snow-us"], ""),
     ];

@@ -37,6 +37,9 @@ use crate::error::HostError;
 pub use shared_errors::SharedErrors;
 use trial::{Counts, Plan, diagnose_all, draw_all, plan, save_all};
 
+/// Most campaigns of a kind.
+const MOST: u64 = 100_000;
+
 /// Options of `kapvik bench diagnose`.
 #[derive(Debug, Clone, Args)]
 pub struct DiagnoseArguments {
@@ -44,16 +47,16 @@ pub struct DiagnoseArguments {
     #[arg(long, default_value_t = 2026)]
     pub seed: u64,
     /// Campaigns with each undeclared effect
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(..=MOST))]
     pub per_effect: u64,
     /// Campaigns with nothing undeclared
-    #[arg(long, default_value_t = 200)]
+    #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u64).range(..=MOST))]
     pub clean: u64,
     /// Campaigns with two undeclared effects
-    #[arg(long, default_value_t = 30)]
+    #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(..=MOST))]
     pub pairs: u64,
     /// Campaigns with an effect that is in no list
-    #[arg(long, default_value_t = 40)]
+    #[arg(long, default_value_t = 40, value_parser = clap::value_parser!(u64).range(..=MOST))]
     pub unlisted: u64,
     /// What the errors of a run's rows have in common
     #[arg(long, value_enum, default_value_t)]

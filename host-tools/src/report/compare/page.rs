@@ -16,10 +16,10 @@ use super::{COMPARE_CSS, overview};
 const METHOD: [&str; 4] = [
     "Six wheels of Kapvik's assumed size at slips 0.05–0.60; noise of one instant 0.5 N (drawbar pull), 1 N (load), 0.05 N·m, \
      0.01 of slip, 2 mm of sinkage. All methods see the same numbers.",
-    "Where the soil is drawn from the prior, that prior is the one the networks were trained with, and every method that takes a \
-     prior is told it. Otherwise these have the usual one: c about 400 Pa, φ about 32 ± 6°, K about 13 mm.",
-    "Methods that take part of the soil as given have the middle of the prior for it; two stand in the table once more with the \
-     truth. Standard deviations are the method's own; where it gives none, by redrawing the noise 200 times.",
+    "Every method that takes a prior is told the one that the networks were trained with, whatever is true; map stands in the \
+     tables once more with the usual one: c about 400 Pa, φ about 32 ± 6°, K about 13 mm.",
+    "Methods that take part of the soil as given have the middle of the prior for it; some stand in the tables once more with the \
+     truth, and are named so. Standard deviations are the method's own; where it gives none, by redrawing the noise 200 times.",
     "The limit is the mean of the exact posterior, by sampling. Nothing beats its root mean square error where its prior is true.",
 ];
 
