@@ -41,7 +41,7 @@ const NOT_TO_BE_BELIEVED: f64 = 1.0e6;
 const UNSEEN_TURN: f64 = 0.05;
 
 impl<S: Scalar> Attitude<S> {
-    /// Nothing is known: level, within some radians.
+    /// Nothing is known: level, within a radian.
     pub fn new(gravity_m_s2: S) -> Self {
         let specific_force = Axes { x: S::zero(), y: S::zero(), z: gravity_m_s2 };
         Self {

@@ -38,6 +38,7 @@ const SWINGS_HUB: f64 = 0.08;
 const REPEATING: f64 = 10.0;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
+
 /// The estimators of one side.
 #[derive(Debug, Clone)]
 pub(super) struct SideEstimator<S> {

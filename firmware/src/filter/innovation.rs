@@ -6,7 +6,8 @@ use crate::scalar::Scalar;
 ///
 /// A gate believes the filter's own standard deviations. A filter that is surer than it should be, after a start that is wide
 /// against the bends of its models or a jump of the state, rejects good measurements, and goes on doing so: nothing they say
-/// comes in. The caller sees it in the fates; [`SigmaPointFilter::widen`](super::SigmaPointFilter::widen) lets them in again.
+/// comes in. The caller sees it in the fates, and lets them in again by more process noise, or by
+/// [`SigmaPointFilter::widen`](super::SigmaPointFilter::widen).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gate<T> {
     /// Rejects a measurement whose squared innovation is more than so many of its variances. The innovation of a good

@@ -25,8 +25,8 @@ pub enum Request {
     SelfTest,
     /// This is the rover: estimate anew. A rover that cannot be changes nothing.
     Configure(Rover<f32>),
-    /// What the sensors say: what are forces and soil? Frames are taken in the order of their numbers, each once: one that
-    /// is sent again has the same answer again, one after a gap is refused until the gap is filled.
+    /// What the sensors say: what are forces and soil? Frames are taken in the order of their numbers, each once: the
+    /// last one, sent again, has the same answer again; one after a gap is refused until the gap is filled.
     Frame(SensorFrame),
     /// How are sensors and filters?
     EstimatorHealth,

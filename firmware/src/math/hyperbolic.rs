@@ -1,4 +1,4 @@
-//! The hyperbolic tangent, and the activation of the network made of it.
+//! The hyperbolic tangent, and the activation of equation 13 made of it; the networks that fly have theirs in whole numbers.
 
 use super::{abs, magnitude_between};
 

@@ -49,7 +49,8 @@ impl Pipeline {
 
     /// Takes a frame. Every number that comes out is finite, whatever comes in. A frame that repeats the time of the one
     /// before, or comes from before it, changes nothing: the estimate is that of the one before; but where several come from before,
-    /// without a newer one between, the clock was set back, and the filters start anew with the last of them.
+    /// without a newer one between, the clock was set back, and the filters start anew with the last of them, as
+    /// after a gap. What was known of the soil stays then: how far the rover drove meanwhile, if at all, nothing tells.
     pub fn tick(&mut self, frame: &SensorFrame) -> &FrameEstimate {
         let last = &mut self.last;
         if let Taken::Used(travel_m) = self.estimator.tick(frame) {

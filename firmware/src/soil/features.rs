@@ -71,11 +71,6 @@ fn context_features(wheel: &Wheel<f32>, [pull, load, torque, slip]: [f32; 4], fi
 }
 
 impl SoilQuery {
-    /// Mean load of the wheels, N; NaN for no wheels.
-    pub fn mean_load_n(&self) -> f32 {
-        self.wheels.iter().map(|state| state.load_n).sum::<f32>() / self.wheels.len() as f32
-    }
-
     /// The fifth input of each wheel in the rover network: unknown for all where it is not known of all.
     pub fn sinkage_inputs(&self) -> impl Iterator<Item = FifthInput> + '_ {
         let seen = self.wheels.iter().all(|state| state.sinkage_m.is_some());

@@ -125,7 +125,11 @@ impl TableFile {
                 let (key, value) = note.split_once(": ").ok_or(wrong)?;
                 table.notes.push((key.to_owned(), value.to_owned()));
             } else {
-                table.blocks.push(parse_block(line, text, &mut lines)?);
+                let block = parse_block(line, text, &mut lines)?;
+                if table.block(&block.name).is_some() {
+                    return Err(TableError::Syntax { line, expected: "a block of a name that has not been there" });
+                }
+                table.blocks.push(block);
             }
         }
         Ok(table)
@@ -233,5 +237,7 @@ mod tests {
         assert!(matches!(sealed(long), Err(TableError::Syntax { line: 3, .. })));
         let digits = "kapvik-frozen-table\nversion 3\nblock a : 1\n+0000000\n";
         assert!(matches!(sealed(digits), Err(TableError::Syntax { line: 4, .. })));
+        let twice = "kapvik-frozen-table\nversion 3\nblock a : 1\n00000000\nblock a : 1\n00000001\n";
+        assert!(matches!(sealed(twice), Err(TableError::Syntax { line: 5, .. })));
     }
 }

@@ -94,9 +94,9 @@ fn forces_are_continuous_at_zero_slip() {
     assert!((below.torque_nm - above.torque_nm).abs() < 1e-6, "{below:?} {above:?}");
 }
 
-/// Equations 7 and 8 meet at θm, so a peak that moves across a fixed angle changes the forces smoothly.
+/// A peak that moves across a fixed angle changes the forces smoothly.
 #[test]
-fn stress_is_continuous_at_the_peak() {
+fn load_is_smooth_in_the_place_of_the_peak() {
     let at = |c1| forces(&kapvik_wheel(), &Soil { peak_stress_c1: c1, ..table_1_sand() }, 0.2, SINKAGE_M).load_n;
     let slopes = [0.2, 0.3, 0.4].map(|c1| (at(c1 + 1e-6) - at(c1 - 1e-6)) / 2e-6);
     let coarse = [0.2, 0.3, 0.4].map(|c1| (at(c1 + 1e-2) - at(c1 - 1e-2)) / 2e-2);

@@ -9,7 +9,7 @@ use crate::data::outputs;
 use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::qemu::LogView;
-use crate::replay::{EstimateWriter, Recording, lines, replay, unknown_columns};
+use crate::replay::{EstimateWriter, Recording, lines, replay};
 use crate::report::link_in_words;
 
 use super::weights::Weights;
@@ -45,7 +45,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let recording = Recording::open(&arguments.frames, arguments.rover.as_deref())?;
     let rover = recording.rover.map(|value| value as f32);
-    let unknown = recording.frames.unknown_columns();
+    let remarks = recording.remarks();
     let mut computer = FlightComputer::start(arguments.on, LogView::Nothing)?;
     let mut outcome = None;
     write_atomically(&arguments.output, |out| {
@@ -58,7 +58,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     if let Some(outcome) = &outcome {
         let networks = weights.map(|weights| format!("networks: {}", weights.in_words()));
         let link = (arguments.on == Computer::Qemu).then(|| format!("link: {}", link_in_words(&outcome.health)));
-        let told = networks.into_iter().chain(unknown_columns(&unknown)).chain(lines(outcome)).chain(link);
+        let told = networks.into_iter().chain(remarks.lines()).chain(lines(outcome)).chain(link);
         outputs::tell(&told.collect::<Vec<_>>().join("\n"), &outputs);
     }
     Ok(())

@@ -1,8 +1,12 @@
 //! Recorded sensor frames through a flight computer.
 
+mod camera_tilt;
+mod doubts;
 mod estimate_file;
 mod gravity_felt;
+mod gyro_felt;
 pub mod health;
+mod joined_rows;
 pub mod naive;
 mod outcome;
 mod raw_sensors;
@@ -10,6 +14,7 @@ mod recording;
 mod running_median;
 mod scatter;
 mod weighing;
+mod wheel_signs;
 
 use std::time::{Duration, Instant};
 
@@ -24,11 +29,11 @@ use kapvik_firmware::soil::Refusal;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
 
+pub use doubts::Doubts;
 pub use estimate_file::EstimateWriter;
-pub use gravity_felt::{GravityFelt, OtherGravity};
 pub use health::{REASONS, SensorTrouble, sensor_name, troubles};
-pub use outcome::{lines, unknown_columns};
-pub use recording::Recording;
+pub use outcome::lines;
+pub use recording::{Recording, Remarks};
 pub use scatter::{Noisier, Scatter};
 pub use weighing::{Misfit, Weighing};
 
@@ -45,12 +50,8 @@ pub struct Outcome {
     pub soil: Result<RoverSoil, Refusal>,
     /// Times at which another soil was noticed, µs.
     pub soil_changes_us: Vec<u64>,
-    /// What is wrong with rover file or load cells, where these do not bear what that says.
-    pub misfit: Option<Misfit>,
-    /// What the accelerometer feels in place of gravity, where that is something else.
-    pub other_gravity: Option<OtherGravity>,
-    /// Sensors that scatter more than the rover file states.
-    pub noisier: Vec<Noisier>,
+    /// What the sensors show otherwise than rover file and the agreement on columns say, a sentence each, without capital and stop.
+    pub doubts: Vec<String>,
     /// How sensors and filters did.
     pub estimator: EstimatorHealth,
     /// Who answered.
@@ -85,16 +86,8 @@ pub fn replay(
     }
     let start = Instant::now();
     let mut counted: Option<Counted> = None;
-    let mut weighing = Weighing::of(rover);
-    let mut gravity = GravityFelt::of(rover);
-    let mut scatter = Scatter::of(rover);
-    let looked_at = frames.inspect(|frame| {
-        frame.iter().for_each(|frame| {
-            weighing.take(frame);
-            gravity.take(frame);
-            scatter.take(frame);
-        });
-    });
+    let mut doubts = Doubts::of(rover);
+    let looked_at = frames.inspect(|frame| frame.iter().for_each(|frame| doubts.take(frame)));
     computer.frames(looked_at, |estimate| {
         counted.get_or_insert_with(|| Counted::from(estimate.time_us)).count(&estimate);
         take(&estimate)
@@ -103,20 +96,7 @@ pub fn replay(
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
-    let (misfit, other_gravity, noisier) = (weighing.misfit(), gravity.other(), scatter.noisier());
-    Ok(Outcome {
-        frames,
-        span_us,
-        took,
-        soil,
-        soil_changes_us,
-        misfit,
-        other_gravity,
-        noisier,
-        estimator,
-        boot,
-        health,
-    })
+    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, doubts: doubts.told(), estimator, boot, health })
 }
 
 impl Counted {
@@ -148,13 +128,6 @@ impl Outcome {
     pub fn driven_s(&self) -> f64 {
         let (first, last) = self.span_us;
         1e-6 * last.saturating_sub(first) as f64
-    }
-
-    /// What the sensors show otherwise than the rover file states: mass, gravity, noise; a sentence each, without capital and stop.
-    pub fn doubts_of_rover_file(&self) -> impl Iterator<Item = String> {
-        let misfit = self.misfit.map(|misfit| misfit.to_string());
-        let gravity = self.other_gravity.map(|other| other.to_string());
-        misfit.into_iter().chain(gravity).chain(self.noisier.iter().map(ToString::to_string))
     }
 
     /// Frames per second of the replay.

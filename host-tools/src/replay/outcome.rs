@@ -21,15 +21,11 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
         Err(reason) => format!("soil at the end: no estimate: {}", network_refusal(*reason)),
     });
     lines.extend(change_line(outcome));
-    lines.extend(outcome.doubts_of_rover_file());
+    lines.extend(outcome.doubts.iter().cloned());
+    lines.extend(seldom(outcome));
     lines.extend(filter_lines(outcome));
     lines.extend(sensor_lines(outcome));
     lines
-}
-
-/// What a person is told of columns of a recording that are passed over; a name may be misspelt.
-pub fn unknown_columns(names: &[String]) -> Option<String> {
-    (!names.is_empty()).then(|| format!("columns that name no sensor, and are not used: {}", names.join(", ")))
 }
 
 fn soil_line(soil: &RoverSoil) -> String {
@@ -56,6 +52,15 @@ fn change_line(outcome: &Outcome) -> Option<String> {
         more => format!(" and {more} times more"),
     };
     (!times.is_empty()).then(|| format!("another soil noticed at {}{more}", times.join(", ")))
+}
+
+/// Said where most frames come so long after each other that the filters start anew.
+fn seldom(outcome: &Outcome) -> Option<String> {
+    let is_seldom = outcome.frames > 2 && 2 * u64::from(outcome.estimator.gaps) > outcome.frames;
+    is_seldom.then(|| {
+        let step_s = outcome.driven_s() / (outcome.frames - 1) as f64;
+        format!("frames are {step_s:.0} s apart, too far to drive by: is t_s in seconds?")
+    })
 }
 
 /// What the filters count and what is not zero.

@@ -1,12 +1,15 @@
 //! A file of sensor frames, opened, with the rover that recorded it.
 
+use std::cell::Cell;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
+use std::rc::Rc;
 
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use kapvik_firmware::rover::Rover;
 
+use super::joined_rows::JoinedRows;
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
 use crate::data::rover_file::RoverFile;
@@ -17,10 +20,37 @@ pub struct Recording {
     /// The rover.
     pub rover: Rover<f64>,
     /// The frames, read as they are asked for.
-    pub frames: FrameReader,
+    pub frames: JoinedRows<FrameReader>,
+}
+
+/// What a person should know of how a recording was read.
+#[derive(Debug, Clone, Default)]
+pub struct Remarks {
+    /// Columns that are passed over; a name may be misspelt.
+    unknown_columns: Vec<String>,
+    /// Rows that have become part of others.
+    joined: Rc<Cell<u64>>,
+}
+
+impl Remarks {
+    /// Line by line, once all frames are read.
+    pub fn lines(&self) -> Vec<String> {
+        let unknown = (!self.unknown_columns.is_empty())
+            .then(|| format!("columns that name no sensor, and are not used: {}", self.unknown_columns.join(", ")));
+        let joined = (self.joined.get() > 0).then(|| {
+            let rows = self.joined.get();
+            format!("rows that say what others within 20 ms do not, and are taken as one frame with them: {rows}")
+        });
+        unknown.into_iter().chain(joined).collect()
+    }
 }
 
 impl Recording {
+    /// What a person should know of how it was read; counts go on while frames are read.
+    pub fn remarks(&self) -> Remarks {
+        Remarks { unknown_columns: self.frames.rows().unknown_columns(), joined: self.frames.joined() }
+    }
+
     /// Opens a file of frames behind a progress bar, which a terminal alone shows. Without a rover file the rover is the
     /// assumed set K0.
     ///
@@ -35,7 +65,7 @@ impl Recording {
         let length = file.metadata().map_err(HostError::file(frames))?.len();
         let input = BufReader::new(progress_bar(length).wrap_read(file));
         let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
-        Ok(Self { rover, frames })
+        Ok(Self { rover, frames: JoinedRows::of(frames) })
     }
 }
 

@@ -1,11 +1,11 @@
-//! Whether what the rover file states is what the sensors show: mass, gravity, noise.
+//! What the sensors show otherwise than rover file and agreement say, for a reader of the report.
 
 use super::findings::TraverseFindings;
 use crate::report::sentence::capitalised;
 
-/// What a reader must know where it is not.
-pub fn rover_file_doubts(findings: &TraverseFindings) -> Option<String> {
-    let sentences: Vec<String> = findings.outcome.doubts_of_rover_file().map(|said| sentence(&said)).collect();
+/// What a reader must know where they do.
+pub fn doubts(findings: &TraverseFindings) -> Option<String> {
+    let sentences: Vec<String> = findings.outcome.doubts.iter().map(|said| sentence(said)).collect();
     (!sentences.is_empty()).then(|| sentences.join(" "))
 }
 

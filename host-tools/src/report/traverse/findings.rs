@@ -29,8 +29,8 @@ pub struct TraverseFindings {
     pub origin: Origin,
     /// The rover that was calculated with.
     pub rover: Rover<f32>,
-    /// Columns of the recording that were passed over.
-    pub unknown_columns: Vec<String>,
+    /// What is to be known of how the recording was read.
+    pub remarks: Vec<String>,
     /// Estimates and truths, thinned.
     pub samples: Samples,
     /// Whether a truth is beside the frames that has a row at the time of none.

@@ -17,7 +17,7 @@ use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
 use crate::qemu::LogView;
 use crate::replay::naive::{TrailingMean, naive};
-use crate::replay::{Recording, replay};
+use crate::replay::{Recording, Remarks, replay};
 use crate::report::facts::FlightFacts;
 use crate::simulate::{Options, Scenario, Traverse};
 use crate::trial::WARM_UP_S;
@@ -34,7 +34,7 @@ type Step = Result<(SensorFrame, Option<Truth>), HostError>;
 pub struct Source {
     origin: Origin,
     rover: Rover<f64>,
-    unknown_columns: Vec<String>,
+    remarks: Remarks,
     /// Whether a truth is beside the frames.
     has_truth: bool,
     steps: Box<dyn Iterator<Item = Step>>,
@@ -55,7 +55,7 @@ impl Source {
             .progress_with(bar)
             .map(move |step| step.map(|(frame, truth)| (frame, Some(truth))).map_err(failed));
         let origin = Origin::Simulated { scenario, seed };
-        Ok(Self { origin, rover, unknown_columns: Vec::new(), has_truth: true, steps: Box::new(steps) })
+        Ok(Self { origin, rover, remarks: Remarks::default(), has_truth: true, steps: Box::new(steps) })
     }
 
     /// A recording, with the truth where NAME.truth.csv is beside it.
@@ -63,8 +63,9 @@ impl Source {
     /// # Errors
     /// Where a file cannot be read, or is not what it should be.
     pub fn recorded(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
-        let Recording { rover, frames: recorded } = Recording::open(frames, rover)?;
-        let unknown_columns = recorded.unknown_columns();
+        let recording = Recording::open(frames, rover)?;
+        let remarks = recording.remarks();
+        let Recording { rover, frames: recorded } = recording;
         let truths = truth_path(frames);
         let has_truth = truths.is_file();
         let mut truths = if has_truth { Some(TruthReader::open(&truths)?.peekable()) } else { None };
@@ -78,7 +79,7 @@ impl Source {
             Ok((frame, truths.next_if(same).transpose()?))
         });
         let name = frames.file_name().unwrap_or(frames.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { origin: Origin::Recorded(name), rover, unknown_columns, has_truth, steps: Box::new(steps) })
+        Ok(Self { origin: Origin::Recorded(name), rover, remarks, has_truth, steps: Box::new(steps) })
     }
 }
 
@@ -102,7 +103,7 @@ impl TraverseFindings {
     /// # Errors
     /// Where the computer cannot be had, does not pass its self-test or does not answer, or a frame cannot be read.
     pub fn gather(source: Source, on: Computer) -> Result<Self, HostError> {
-        let Source { origin, rover, unknown_columns, has_truth, steps } = source;
+        let Source { origin, rover, remarks, has_truth, steps } = source;
         let flight_rover = rover.map(|value| value as f32);
         let mut computer = FlightComputer::start(on, LogView::Nothing)?;
         // Estimates come some frames after what they are of.
@@ -131,7 +132,7 @@ impl TraverseFindings {
         Ok(Self {
             origin,
             rover: flight_rover,
-            unknown_columns,
+            remarks: remarks.lines(),
             samples,
             truth_is_of_other_times,
             errors,

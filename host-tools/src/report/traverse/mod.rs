@@ -1,12 +1,12 @@
 //! What a drive told: forces and soil over time, as a page to look at, a picture, and a table for the terminal.
 
 mod caveats;
+mod doubts;
 mod errors;
 mod findings;
 mod gather;
 mod page;
 mod picture;
-mod rover_file_doubts;
 mod samples;
 mod soil_chart;
 mod terminal;

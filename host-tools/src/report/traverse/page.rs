@@ -4,15 +4,15 @@ use maud::{DOCTYPE, Markup, html};
 
 use super::CHART_CSS;
 use super::caveats::caveats;
+use super::doubts::doubts;
 use super::errors;
 use super::findings::{Origin, TraverseFindings};
-use super::rover_file_doubts::rover_file_doubts;
 use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
 use super::wheel_chart::QUANTITIES;
 use crate::identify::network_refusal;
 use crate::parameter::Parameter;
-use crate::replay::{REASONS, SensorTrouble, troubles, unknown_columns};
+use crate::replay::{REASONS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
@@ -37,7 +37,7 @@ pub fn page(findings: &TraverseFindings) -> String {
                     section {
                         h2 { "What to keep in mind" }
                         ul class="caveats" {
-                            @for caveat in caveats(findings).into_iter().chain(rover_file_doubts(findings)) { li { (caveat) } }
+                            @for caveat in caveats(findings).into_iter().chain(doubts(findings)) { li { (caveat) } }
                         }
                     }
                     section {
@@ -167,7 +167,7 @@ fn sensors(findings: &TraverseFindings) -> Markup {
     html! {
         section {
             h2 { "Sensors" }
-            @if let Some(unknown) = unknown_columns(&findings.unknown_columns) { p { (capitalised(&unknown)) "." } }
+            @for remark in &findings.remarks { p { (capitalised(remark)) "." } }
             @if troubles.is_empty() {
                 p { "Every reading of every sensor was used." }
             } @else {

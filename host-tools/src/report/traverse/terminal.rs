@@ -11,9 +11,8 @@ use super::caveats::caveats;
 /// What came of the drive, a table of errors where the truth is known, and the caveats.
 pub fn terminal(findings: &TraverseFindings) -> String {
     let mut text = format!("{}\n\n", findings.name());
-    let unknown = replay::unknown_columns(&findings.unknown_columns);
-    for line in unknown.into_iter().chain(replay::lines(&findings.outcome)) {
-        text += &wrapped("", &line);
+    for line in findings.remarks.iter().chain(&replay::lines(&findings.outcome)) {
+        text += &wrapped("", line);
     }
     if let Some(errors) = &findings.errors {
         let mut table = plain_table();

@@ -1,0 +1,90 @@
+//! Whether the velocimeter sees the rover go where its wheels lead: one that is mounted askew does not.
+
+use kapvik_firmware::rover::{Planar, Rover, Side};
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+use super::raw_sensors::{rockers, wide};
+
+/// Slower than this a rover does not drive, m/s.
+const DRIVING_M_S: f64 = 0.005;
+/// Longer than this no frame lasts, s.
+const LONGEST_FRAME_S: f64 = 1.0;
+/// The shortest way that tells, m: over it bumps under single wheels are made up for.
+const LEAST_WAY_M: f64 = 0.5;
+/// Degrees from which it is told. Wheels that sink deeper at one end than at the other make up to half a degree.
+const TOLERATED_DEG: f64 = 0.8;
+
+/// The way of a drive in the body's plane, in running sums.
+#[derive(Debug, Clone)]
+pub struct CameraTilt {
+    rover: Rover<f64>,
+    before_us: Option<u64>,
+    way_m: f64,
+    /// How far up the velocimeter saw the body go, and how far the line through the wheels leads, m.
+    seen_up_m: f64,
+    led_up_m: f64,
+}
+
+impl CameraTilt {
+    /// Of a rover, before its first frame.
+    pub fn of(rover: &Rover<f32>) -> Self {
+        Self { rover: rover.map(f64::from), before_us: None, way_m: 0.0, seen_up_m: 0.0, led_up_m: 0.0 }
+    }
+
+    /// Takes a frame.
+    pub fn take(&mut self, frame: &SensorFrame) {
+        let before_us = self.before_us.replace(frame.time_us);
+        let step_s = before_us.and_then(|before| frame.time_us.checked_sub(before)).map(|step| 1e-6 * step as f64);
+        let Some(step_s) = step_s.filter(|step| *step <= LONGEST_FRAME_S) else { return };
+        let [ahead, up] = [frame.velocity_m_s.x, frame.velocity_m_s.z].map(wide);
+        let Some((ahead_m_s, up_m_s)) = ahead.zip(up) else { return };
+        if ahead_m_s.abs() <= DRIVING_M_S || up_m_s.abs() > ahead_m_s.abs() {
+            return;
+        }
+        let Some(slope) = self.slope_of_wheels(frame) else { return };
+        self.way_m += ahead_m_s.abs() * step_s;
+        self.seen_up_m += ahead_m_s.signum() * up_m_s * step_s;
+        self.led_up_m += slope * ahead_m_s.abs() * step_s;
+    }
+
+    /// The slope of the line through the hubs against the body: least squares, the mean of both sides.
+    fn slope_of_wheels(&self, frame: &SensorFrame) -> Option<f64> {
+        let rockers = rockers(frame);
+        let slopes = Side::ALL.as_array().map(|side| {
+            let rocker = *rockers.of(*side);
+            let hubs = hubs(&self.rover, rocker?, wide(*frame.bogie_angle_rad.of(*side))?);
+            let middle = hubs.iter().fold(Planar::default(), |sum, hub| sum + *hub).scaled(1.0 / hubs.len() as f64);
+            let apart = hubs.map(|hub| hub - middle);
+            let product: f64 = apart.iter().map(|hub| hub.x * hub.z).sum();
+            Some(product / apart.iter().map(|hub| hub.x * hub.x).sum::<f64>())
+        });
+        let [left, right] = slopes;
+        Some(0.5 * (left? + right?))
+    }
+
+    /// What came of it, without capital and stop.
+    pub fn told(&self) -> Option<String> {
+        if self.way_m < LEAST_WAY_M {
+            return None;
+        }
+        let [seen, led] = [self.seen_up_m, self.led_up_m].map(|up_m| (up_m / self.way_m).atan().to_degrees());
+        let tilt_deg = seen - led;
+        (tilt_deg.abs() > TOLERATED_DEG).then(|| {
+            format!(
+                "the velocimeter sees the rover go {:.1}° {} than its wheels lead: it is mounted askew, or velocity_z has a zero or a sign of \
+                 its own, and contact angles are off by as much, pulls and soil with them",
+                tilt_deg.abs(),
+                if tilt_deg > 0.0 { "higher" } else { "lower" }
+            )
+        })
+    }
+}
+
+/// Where front, middle and rear hub of a side are in the body, with these angles of its links, rad.
+fn hubs(rover: &Rover<f64>, rocker_rad: f64, bogie_rad: f64) -> [Planar<f64>; 3] {
+    let suspension = &rover.suspension;
+    let [rocker, bogie] = [rocker_rad, rocker_rad + bogie_rad].map(f64::sin_cos);
+    let pivot = suspension.bogie_pivot.turned(rocker);
+    let on_bogie = |hub: Planar<f64>| pivot + hub.turned(bogie);
+    [suspension.front_hub.turned(rocker), on_bogie(suspension.middle_hub), on_bogie(suspension.rear_hub)]
+}

@@ -1,0 +1,173 @@
+//! Whether the gyro turns as the rover does: against gravity, which tells pitch, and while all wheels stand.
+
+use kapvik_firmware::rover::Rover;
+use kapvik_firmware::sensor_frame::SensorFrame;
+use nalgebra::{Matrix3, Vector3};
+
+use super::raw_sensors::wide;
+
+/// A zero of the gyro from which slips and pulls are off by more than their standard deviations, rad/s.
+const TOLERATED_RAD_S: f64 = 5e-4;
+/// Standard errors beyond which that is no chance.
+const BEYOND_CHANCE: f64 = 6.0;
+/// Longer than this nothing is known of what the gyro would have said, s.
+const LONGEST_STEP_S: f64 = 0.5;
+/// Readings beyond these no rover on wheels makes: rad/s, and a share of gravity.
+const FASTEST_RAD_S: f64 = 2.0;
+const SHAKEN: f64 = 0.3;
+/// Least standard deviation of the pitch, rad, that tells how it turns, and share by which it may turn otherwise.
+const LEAST_PITCHING_RAD: f64 = 0.015;
+const OTHER_SCALE: f64 = 0.2;
+/// Shortest record that tells a drift, and shortest standing, s.
+const LEAST_S: f64 = 5.0;
+const LEAST_STANDING_S: f64 = 3.0;
+/// Fewest frames of both.
+const LEAST_FRAMES: u32 = 30;
+/// Standard deviations of an encoder, and m/s of the velocimeter, within which a wheel and a rover stand.
+const STANDING: f64 = 5.0;
+
+/// What the gyro of a drive says beside other sensors.
+#[derive(Debug, Clone)]
+pub struct GyroFelt {
+    rover: Rover<f64>,
+    before: Option<(u64, f64)>,
+    /// Time since the first frame, s, pitch by the gyro since then, and by the accelerometer, rad.
+    time_s: f64,
+    turned_rad: f64,
+    stretch: Moments,
+    all: Moments,
+    standing: Standing,
+}
+
+/// Means and products about them of time, pitch by the gyro and pitch by gravity.
+#[derive(Debug, Clone, Copy, Default)]
+struct Moments {
+    count: f64,
+    means: Vector3<f64>,
+    products: Matrix3<f64>,
+}
+
+/// The gyro's readings while the rover stands.
+#[derive(Debug, Clone, Copy, Default)]
+struct Standing {
+    frames: u32,
+    time_s: f64,
+    sums: Vector3<f64>,
+}
+
+impl Moments {
+    fn take(&mut self, numbers: Vector3<f64>) {
+        self.count += 1.0;
+        let before = numbers - self.means;
+        self.means += before / self.count;
+        self.products += before * (numbers - self.means).transpose();
+    }
+}
+
+impl GyroFelt {
+    /// Of a rover, before its first frame.
+    pub fn of(rover: &Rover<f32>) -> Self {
+        let (stretch, all, standing) = Default::default();
+        Self { rover: rover.map(f64::from), before: None, time_s: 0.0, turned_rad: 0.0, stretch, all, standing }
+    }
+
+    /// Takes a frame.
+    pub fn take(&mut self, frame: &SensorFrame) {
+        let reading = wide(frame.gyro_rad_s.y).filter(|rate| rate.abs() <= FASTEST_RAD_S);
+        let Some(rate) = reading else { return };
+        let before = self.before.replace((frame.time_us, rate));
+        let step = before.and_then(|(time_us, before)| {
+            let step_s = 1e-6 * frame.time_us.checked_sub(time_us)? as f64;
+            (step_s <= LONGEST_STEP_S).then_some((step_s, before))
+        });
+        let Some((step_s, rate_before)) = step else {
+            self.end_stretch();
+            return;
+        };
+        self.time_s += step_s;
+        // Nose-up is a negative rotation about y.
+        self.turned_rad -= 0.5 * step_s * (rate_before + rate);
+        if let Some(pitch) = self.pitch_rad(frame) {
+            self.stretch.take(Vector3::new(self.time_s, self.turned_rad, pitch));
+        }
+        self.stand(frame, step_s);
+    }
+
+    /// The pitch that gravity tells, rad.
+    fn pitch_rad(&self, frame: &SensorFrame) -> Option<f64> {
+        let felt = frame.accel_m_s2.map(wide);
+        let (ahead, up) = felt.x.zip(felt.z)?;
+        let size = ahead.hypot(felt.y.unwrap_or(0.0)).hypot(up);
+        let gravity = self.rover.gravity_m_s2;
+        ((size - gravity).abs() <= SHAKEN * gravity).then(|| ahead.atan2(up))
+    }
+
+    /// What is before and after a stretch without the gyro has no angle in common.
+    fn end_stretch(&mut self) {
+        let stretch = std::mem::take(&mut self.stretch);
+        self.all.count += stretch.count;
+        self.all.products += stretch.products;
+    }
+
+    fn stand(&mut self, frame: &SensorFrame, step_s: f64) {
+        let noise = &self.rover.noise;
+        let is_still =
+            |reading: Option<f32>, std: f64| wide(reading).is_some_and(|value| value.abs() <= STANDING * std);
+        let wheels_stand = frame.wheels.iter_wheels().all(|wheel| is_still(wheel.rate_rad_s, noise.wheel_rate_rad_s));
+        let stands = wheels_stand && is_still(frame.velocity_m_s.x, noise.velocity_m_s);
+        let Some(rates) = frame.gyro_rad_s.map(wide).all().filter(|_| stands) else { return };
+        self.standing.frames += 1;
+        self.standing.time_s += step_s;
+        self.standing.sums += Vector3::new(rates.x, rates.y, rates.z);
+    }
+
+    /// What came of it, sentence by sentence without capital and stop.
+    pub fn told(mut self) -> Vec<String> {
+        self.end_stretch();
+        let standing = self.while_standing();
+        let pitching = self.against_gravity().filter(|_| !standing.iter().any(|said| said.contains("gyro_y")));
+        standing.into_iter().chain(pitching).collect()
+    }
+
+    fn while_standing(&self) -> Vec<String> {
+        let Standing { frames, time_s, sums } = self.standing;
+        if frames < LEAST_FRAMES || time_s < LEAST_STANDING_S {
+            return Vec::new();
+        }
+        let error = self.rover.noise.gyro_rad_s / f64::from(frames).sqrt();
+        let axes = ["x", "y", "z"].into_iter().zip((sums / f64::from(frames)).iter().copied().collect::<Vec<_>>());
+        axes.filter(|(_, mean)| mean.abs() > TOLERATED_RAD_S.max(BEYOND_CHANCE * error))
+            .map(|(axis, mean)| {
+                format!("gyro_{axis} says {mean:.4} rad/s while the rover stands: it has a zero of its own, which slips, pulls and soil take in")
+            })
+            .collect()
+    }
+
+    fn against_gravity(&self) -> Option<String> {
+        let Moments { count, products, .. } = self.all;
+        let of_time = products[(0, 0)];
+        if count < f64::from(LEAST_FRAMES) || self.time_s < LEAST_S || of_time <= 0.0 {
+            return None;
+        }
+        // What of both pitches does not go with time.
+        let slopes = products.row(0).transpose() / of_time;
+        let left = |row: usize, column: usize| products[(row, column)] - slopes[row] * products[(0, column)];
+        let pitching = left(1, 1);
+        let scale = left(1, 2) / pitching;
+        if pitching / count > LEAST_PITCHING_RAD.powi(2) && (scale - 1.0).abs() > OTHER_SCALE {
+            return Some(match scale < 0.0 {
+                true => "gyro_y turns the other way than gravity tells: its sign, or that of accel_x, is wrong (nose-up is a negative rate \
+                         about y, and a positive accel_x), and soil and its changes with it"
+                    .to_owned(),
+                false => format!("pitch by gravity changes by {scale:.2} times what gyro_y says: one of them speaks in other units"),
+            });
+        }
+        let zero = slopes[2] - slopes[1];
+        // A rate with white noise adds up to a random walk, the slope of which scatters by 1.1 times its end over the time.
+        let step_s = self.time_s / count;
+        let chance = 1.1 * self.rover.noise.gyro_rad_s * (step_s / self.time_s).sqrt();
+        (zero.abs() > TOLERATED_RAD_S.max(BEYOND_CHANCE * chance)).then(|| {
+            format!("gyro_y says {zero:.4} rad/s more than gravity tells: it has a zero of its own, which slips, pulls and soil take in")
+        })
+    }
+}

@@ -1,0 +1,94 @@
+//! What a recording itself shows of signs, zeros and mountings, on drives of the simulator: silent where all is as agreed, and not where a
+//! sensor is otherwise.
+
+use kapvik_firmware::rover::Rover;
+use kapvik_firmware::sensor_frame::SensorFrame;
+use kapvik_host::replay::Doubts;
+use kapvik_host::simulate::{Options, Scenario, Traverse};
+use rayon::prelude::*;
+
+/// What is doubted of a drive whose frames are changed so.
+fn doubted(scenario: Scenario, seed: u64, change: impl Fn(&mut SensorFrame)) -> Vec<String> {
+    let rover = Rover::assumed();
+    let mut doubts = Doubts::of(&rover.map(|value| value as f32));
+    for step in Traverse::new(scenario, seed, &rover, &Options::default()).expect("a drive") {
+        let (mut frame, _) = step.expect("a frame");
+        change(&mut frame);
+        doubts.take(&frame);
+    }
+    doubts.told()
+}
+
+const ALL: [Scenario; 12] = [
+    Scenario::Traverse,
+    Scenario::Level,
+    Scenario::Spread,
+    Scenario::Hills,
+    Scenario::Slope,
+    Scenario::Rock,
+    Scenario::Dropout,
+    Scenario::StartStop,
+    Scenario::WheelLift,
+    Scenario::WheelBlocked,
+    Scenario::SoilChange,
+    Scenario::Varied,
+];
+
+#[test]
+fn sensors_that_agree_are_not_doubted() {
+    let drives = ALL.into_par_iter().flat_map_iter(|scenario| (8500..8506).map(move |seed| (scenario, seed)));
+    drives.for_each(|(scenario, seed)| {
+        let told = doubted(scenario, seed, |_| ());
+        assert!(told.is_empty(), "{scenario:?}, seed {seed}: {told:?}");
+    });
+}
+
+fn add(reading: &mut Option<f32>, more: f32) {
+    *reading = reading.map(|value| value + more);
+}
+
+fn turn(reading: &mut Option<f32>) {
+    *reading = reading.map(|value| -value);
+}
+
+/// The doubt that begins so, and no other, on all drives.
+fn is_told(scenario: Scenario, begins: &str, change: impl Fn(&mut SensorFrame) + Sync) {
+    (8510..8514).into_par_iter().for_each(|seed| {
+        let told = doubted(scenario, seed, &change);
+        assert!(told.len() == 1 && told[0].starts_with(begins), "{begins}: {scenario:?}, seed {seed}: {told:?}");
+    });
+}
+
+#[test]
+fn a_zero_of_the_gyro_is_told() {
+    for scenario in [Scenario::Level, Scenario::Hills, Scenario::Rock] {
+        is_told(scenario, "gyro_y says 0.00", |frame| add(&mut frame.gyro_rad_s.y, 0.001));
+        is_told(scenario, "gyro_y says -0.00", |frame| add(&mut frame.gyro_rad_s.y, -0.002));
+    }
+    is_told(Scenario::StartStop, "gyro_z says 0.00", |frame| add(&mut frame.gyro_rad_s.z, 0.002));
+}
+
+#[test]
+fn a_wrong_sign_is_told() {
+    is_told(Scenario::Hills, "gyro_y turns the other way", |frame| turn(&mut frame.gyro_rad_s.y));
+    is_told(Scenario::Level, "velocity_x and all encoders", |frame| turn(&mut frame.velocity_m_s.x));
+    is_told(Scenario::Spread, "the encoders of ml turn against", |frame| {
+        turn(&mut frame.wheels.left.middle.rate_rad_s);
+    });
+    is_told(Scenario::Spread, "the motor torques of rr go against", |frame| {
+        turn(&mut frame.wheels.right.rear.motor_torque_nm);
+    });
+}
+
+#[test]
+fn a_camera_that_is_mounted_askew_is_told() {
+    let (sine, cosine) = 0.026_f32.sin_cos();
+    for scenario in [Scenario::Level, Scenario::Hills, Scenario::Slope] {
+        is_told(scenario, "the velocimeter sees the rover go", |frame| {
+            let velocity = &mut frame.velocity_m_s;
+            let (ahead, up) = (velocity.x, velocity.z);
+            velocity.x = ahead.zip(up).map(|(ahead, up)| cosine * ahead - sine * up);
+            velocity.z = ahead.zip(up).map(|(ahead, up)| sine * ahead + cosine * up);
+        });
+    }
+}
