@@ -38,6 +38,7 @@ pub fn assemble(
         campaign: campaign.name.clone(),
         data: None,
         declared: campaign.declared.ids(),
+        declared_effects: Vec::new(),
         verdict: verdict(selected, &unexplained),
         sentence: String::new(),
         effects: selected
@@ -93,7 +94,7 @@ fn found_effect(measurements: &Measurements, model: &Trial<'_>, winner: &Judged<
 }
 
 /// The parameters of one of a trial's effects, as fitted; those at which its form holds it have no spread.
-fn parameters(measurements: &Measurements, trial: &Trial<'_>, id: &str) -> BTreeMap<String, Estimate> {
+pub fn parameters(measurements: &Measurements, trial: &Trial<'_>, id: &str) -> BTreeMap<String, Estimate> {
     let fitted = trial.places_of(id).map(|(place, name)| (name.to_owned(), estimate(trial, place)));
     let held = trial.specification.effect(id).map_or_else(Vec::new, |effect| effect.held(measurements)).into_iter();
     fitted.chain(held.map(|(name, value)| (name.to_owned(), Estimate { value, std: 0.0 }))).collect()

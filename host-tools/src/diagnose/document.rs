@@ -19,6 +19,9 @@ pub struct Diagnosis {
     pub data: Option<Fingerprint>,
     /// The ids of the effects that the model was told of.
     pub declared: Vec<String>,
+    /// The same as fitted, in the model with the effects that were found.
+    #[serde(default)]
+    pub declared_effects: Vec<DeclaredFit>,
     /// What came of it.
     pub verdict: Verdict,
     /// The verdict in one sentence.
@@ -99,6 +102,17 @@ pub struct Estimate {
     pub value: f64,
     /// One standard deviation, 0 or more.
     pub std: f64,
+}
+
+/// An effect that the model was told of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DeclaredFit {
+    /// Its id.
+    pub id: String,
+    /// The form that was stated, or the one that fits best.
+    pub form: String,
+    /// As in [`FoundEffect`].
+    pub parameters: BTreeMap<String, Estimate>,
 }
 
 /// An effect that earned its place.

@@ -183,7 +183,8 @@ pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
         let errors = winner.held_out.std.hypot(other.held_out.std);
         other.score > winner.score - TELLS_APART && other.held_out.per_row > winner.held_out.per_row - errors
     };
-    let near = |other: &&Judged<'_>| other.id() != winner.id() && is_near(other);
+    let is_another = |other: &Judged<'_>| other.id() != winner.id() && !other.trial.has_no_reference();
+    let near = |other: &&Judged<'_>| is_another(other) && is_near(other);
     let mut ambiguous_with: Vec<_> = step.ranking.iter().filter(near).map(Judged::id).collect();
     let also_near = ambiguous_with.split_off(MOST_ALTERNATIVES.min(ambiguous_with.len()));
     FoundStep { winner, ambiguous_with, also_near, step }

@@ -161,6 +161,11 @@ impl Measurements {
         found
     }
 
+    /// Radius of the wheel, m.
+    pub fn radius_m(&self) -> f64 {
+        self.radius_m
+    }
+
     /// Whether any row has the reading.
     pub fn has(&self, reading: Reading) -> bool {
         self.rows.iter().any(|row| row.readings[reading.index()].is_some())

@@ -4,7 +4,8 @@ use super::assemble::assemble;
 use super::bench::Bench;
 use super::candidates::is_measured;
 use super::curvature::{add_curvature, curvature};
-use super::document::Diagnosis;
+use super::declared_effects::declared_effects;
+use super::document::{Diagnosis, Verdict};
 use super::force_channels;
 use super::formula_search::law;
 use super::forward::{Selected, select};
@@ -48,9 +49,57 @@ pub struct Outcome {
 
 /// Diagnoses a campaign. `progress` is told what is being done.
 ///
+/// A declared effect whose form is open is taken in the one that fits best, which may be one that does what is missing. Where that leaves
+/// something without an effect, and another form leaves nothing, it is that.
+///
 /// # Errors
 /// Where the campaign lacks what a diagnosis needs, or its declared model fits nothing.
 pub fn diagnose(
+    campaign: &Campaign,
+    options: &DiagnoseOptions,
+    progress: &(dyn Fn(&str) + Sync),
+) -> Result<Outcome, HostError> {
+    let outcome = in_the_best_form(campaign, options, progress)?;
+    if outcome.document.verdict != Verdict::Unexplained {
+        return Ok(outcome);
+    }
+    for (other, said) in in_other_forms(campaign, &outcome) {
+        progress("another form of what is declared");
+        // One that fits nothing is not that.
+        let Ok(mut again) = in_the_best_form(&other, options, progress) else { continue };
+        if again.document.unexplained.is_empty() {
+            again.document.caveats.push(said);
+            return Ok(again);
+        }
+    }
+    Ok(outcome)
+}
+
+/// A campaign with one of its declared effects in another form that it may have, and what is said where that is the one.
+fn in_other_forms(campaign: &Campaign, outcome: &Outcome) -> Vec<(Campaign, String)> {
+    let fitted = &outcome.document.declared_effects;
+    let other = |place: usize| {
+        let effect = &campaign.declared.effects[place];
+        let open = effect.info.forms.iter().filter(|form| effect.form.is_none() && effect.may_be(form));
+        let measured = open.filter(|form| is_measured(campaign, &outcome.measurements, form));
+        let name = fitted.get(place).map_or("", |fitted| fitted.form.as_str());
+        measured.filter(move |form| form.name != name).map(move |form| {
+            let mut other = campaign.clone();
+            other.declared.effects[place] = effect.in_form(form);
+            let id = effect.info.id;
+            let said = format!(
+                "The form of {id} is not declared. As {name} it fits best by itself, but leaves what no effect explains; as {}, in this \
+                 diagnosis, it does not.",
+                form.name
+            );
+            (other, said)
+        })
+    };
+    (0..campaign.declared.effects.len()).flat_map(other).collect()
+}
+
+/// The same with each declared effect in the form that fits best before anything is added.
+fn in_the_best_form(
     campaign: &Campaign,
     options: &DiagnoseOptions,
     progress: &(dyn Fn(&str) + Sync),
@@ -139,6 +188,9 @@ impl Whole<'_> {
             let dispersion = selected.last.as_ref().map_or(selected.dispersion(), |step| step.dispersion);
             document.found_law = law(bench, selected.model(), structure, dispersion);
         }
+        let (declared, not_shown) = declared_effects(bench, selected);
+        document.declared_effects = declared;
+        document.caveats.extend(not_shown);
         document.caveats.splice(0..0, in_words(self.as_given, set_aside));
         if self.is_single {
             document.caveats.insert(0, ONE_RUN.to_owned());

@@ -3,6 +3,7 @@
 use super::campaign_model::CampaignModel;
 use super::fit::{Coordinate, Fit, Model, Start};
 use super::specification::{EffectForm, Specification};
+use crate::data::campaign::is_reference;
 
 /// Share of the variance of its bounds beyond which nothing is known of a parameter.
 const SILENT: f64 = 0.9;
@@ -74,6 +75,13 @@ impl Trial<'_> {
             let beyond = self.fit.beyond_bound(place);
             if is_size { beyond > BEYOND_BOUND } else { beyond > 0.0 && neutral != Some(self.fit.parameters[place]) }
         })
+    }
+
+    /// Whether what the last effect refers to, as the temperature at which it does nothing, lies at an end of its range: what is left of its
+    /// law there is a constant or a line, and of another effect.
+    pub fn has_no_reference(&self) -> bool {
+        let Some(effect) = self.added() else { return false };
+        self.places_of(effect.info.id).any(|(place, name)| is_reference(name) && self.fit.beyond_bound(place) > 0.0)
     }
 
     /// Whether all parameters of the last effect lie so few standard deviations from doing nothing.

@@ -80,6 +80,12 @@ impl DeclaredEffect {
         Err(file.error_at(name, message))
     }
 
+    /// The same in one form, as if the file stated it.
+    #[must_use]
+    pub fn in_form(&self, form: &'static Form) -> Self {
+        Self { form: Some(form), ..self.clone() }
+    }
+
     /// The form that the file states, else the first that it may have, else the effect's first.
     pub fn first_form(&self) -> Option<&'static Form> {
         let may_be = || self.info.forms.iter().find(|form| self.may_be(form));
@@ -89,7 +95,12 @@ impl DeclaredEffect {
 
 /// Whether something may be known of a parameter beside a form: one that it frees or sets, or what these refer to.
 fn may_have(form: &Form, parameter: &str) -> bool {
-    form.has(parameter) || parameter.starts_with(REFERENCE)
+    form.has(parameter) || is_reference(parameter)
+}
+
+/// Whether a parameter is what others refer to: the load, speed or temperature at which an effect does nothing.
+pub fn is_reference(parameter: &str) -> bool {
+    parameter.starts_with(REFERENCE)
 }
 
 impl Declared {

@@ -30,7 +30,7 @@ use gross_error::Plausible;
 pub use about::Provenance;
 pub use carried::Carried;
 pub use channel::Channel;
-pub use declared::{Declared, DeclaredEffect};
+pub use declared::{Declared, DeclaredEffect, is_reference};
 pub use fingerprint::Fingerprint;
 pub use ground::{Ground, Knowledge};
 pub use noise::ChannelNoise;

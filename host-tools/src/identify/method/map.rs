@@ -10,14 +10,15 @@ use crate::data::campaign::{DeclaredEffect, Knowledge};
 
 use super::{Evidence, Finding, Fit, Statement, method_refusal};
 
+/// χ² by which, beside two for each parameter more, another form of what is declared has to explain the wheels better.
+const BETTER: f64 = 6.0;
+
 /// The posterior's mean and intervals.
 ///
 /// # Errors
 /// The refusal, in words; where too many parameters of effects are free.
 pub fn map(evidence: &Evidence) -> Result<Finding, String> {
-    let declared = declared(evidence)?;
-    let estimate = identify_declared(&evidence.wheel, &evidence.observations, &[], &evidence.prior, &declared)
-        .map_err(method_refusal)?;
+    let estimate = in_the_best_forms(evidence)?;
     let mut finding = Finding::from(&estimate.identified);
     finding.cohesion_pa = of_logarithm(finding.cohesion_pa, estimate.ln_cohesion);
     finding.shear_modulus_m = of_logarithm(finding.shear_modulus_m, estimate.ln_shear_modulus);
@@ -31,9 +32,41 @@ pub fn map(evidence: &Evidence) -> Result<Finding, String> {
 
 /// The soil of the greatest posterior probability; none where the method refuses.
 pub fn most_probable_soil(evidence: &Evidence) -> Option<Soil<f64>> {
-    let declared = declared(evidence).ok()?;
-    let estimate = identify_declared(&evidence.wheel, &evidence.observations, &[], &evidence.prior, &declared);
-    estimate.ok().map(|estimate| estimate.mode)
+    in_the_best_forms(evidence).ok().map(|estimate| estimate.mode)
+}
+
+/// With the declared effects in the first forms that they may have, or in those that explain the wheels better by more than chance does.
+fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
+    let fitted = |effects: &[DeclaredEffect]| {
+        let declared = declared(evidence, effects)?;
+        let estimate = identify_declared(&evidence.wheel, &evidence.observations, &[], &evidence.prior, &declared);
+        Ok::<_, String>((estimate.map_err(method_refusal)?, declared.free.len()))
+    };
+    let cost = |(estimate, free): &(MapEstimate<f64>, usize)| estimate.misfit + 2.0 * *free as f64;
+    let first = fitted(&evidence.declared);
+    let others = in_other_forms(&evidence.declared);
+    let best = others.iter().filter_map(|effects| fitted(effects).ok()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+    match (first, best) {
+        (Ok(first), Some(best)) if cost(&best) < cost(&first) - BETTER => Ok(best.0),
+        (Err(_), Some(best)) => Ok(best.0),
+        (first, _) => first.map(|(estimate, _)| estimate),
+    }
+}
+
+/// The declared effects, one of them in another form that it may have, of those that follow no column beside a wheel's own.
+fn in_other_forms(effects: &[DeclaredEffect]) -> Vec<Vec<DeclaredEffect>> {
+    let other = |place: usize| {
+        let effect = &effects[place];
+        let open = effect.info.forms.iter().filter(|form| effect.form.is_none() && effect.may_be(form));
+        let own =
+            open.filter(|form| form.needs.is_empty() && Some(form.name) != effect.first_form().map(|form| form.name));
+        own.map(move |form| {
+            let mut effects = effects.to_vec();
+            effects[place] = effects[place].in_form(form);
+            effects
+        })
+    };
+    (0..effects.len()).flat_map(other).collect()
 }
 
 /// Intervals of a logarithm are not symmetric about the number.
@@ -48,14 +81,14 @@ fn fit(estimate: &MapEstimate<f64>) -> Fit {
     Fit { chi_square: estimate.misfit, degrees_of_freedom, p_value }
 }
 
-fn declared(evidence: &Evidence) -> Result<DeclaredEffects<f64>, String> {
+fn declared(evidence: &Evidence, effects: &[DeclaredEffect]) -> Result<DeclaredEffects<f64>, String> {
     let mut declared = DeclaredEffects {
         effects: Effects::none(),
         free: heapless::Vec::new(),
         grousers: evidence.grousers,
         gravity_m_s2: evidence.gravity_m_s2,
     };
-    for effect in &evidence.declared {
+    for effect in effects {
         declare(effect, &mut declared)?;
     }
     Ok(declared)

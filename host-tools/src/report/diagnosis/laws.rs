@@ -1,12 +1,14 @@
 //! The effects in numbers, what tells rivals apart, and what is left that has no name.
 
+use std::collections::BTreeMap;
+
 use kapvik_firmware::terramechanics::effects::effect_info;
 use maud::{Markup, html};
 
 use super::figures::{probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
-use crate::diagnose::document::{Diagnosis, FoundEffect, Unexplained};
+use crate::diagnose::document::{Diagnosis, Estimate, FoundEffect, Unexplained};
 
 /// Below the verdict: each effect found, rivals, a law without a name.
 pub fn cards(findings: &DiagnosisFindings) -> Markup {
@@ -54,8 +56,13 @@ fn rivals(diagnosis: &Diagnosis) -> Markup {
 
 /// `length_m = 0.060 ± 0.010 m, …`, with the units of the effect's parameters.
 pub fn parameters(effect: &FoundEffect) -> String {
-    let info = effect_info(&effect.id);
-    let each = effect.parameters.iter().map(|(name, estimate)| {
+    with_units(&effect.id, &effect.parameters)
+}
+
+/// The same of an effect that was declared.
+pub fn with_units(id: &str, parameters: &BTreeMap<String, Estimate>) -> String {
+    let info = effect_info(id);
+    let each = parameters.iter().map(|(name, estimate)| {
         let unit = info.and_then(|info| info.parameter(name)).map_or("-", |parameter| parameter.unit);
         let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
         format!("{name} = {}{unit}", with_std(*estimate, 1.0))
@@ -112,10 +119,7 @@ pub fn unexplained(unexplained: &[Unexplained]) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
     use super::*;
-    use crate::diagnose::document::Estimate;
 
     #[test]
     fn parameters_have_the_units_of_their_effect() {

@@ -47,6 +47,7 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
         campaign: campaign.name.clone(),
         data: None,
         declared: Vec::new(),
+        declared_effects: Vec::new(),
         verdict: Verdict::Effect,
         sentence:
             "The sinkage grows with slip, which the model lacks: with slip-sinkage the error of the sinkage on runs \
