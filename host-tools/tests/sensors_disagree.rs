@@ -82,7 +82,7 @@ fn a_wrong_sign_is_told() {
 
 #[test]
 fn a_camera_that_is_mounted_askew_is_told() {
-    let (sine, cosine) = 0.026_f32.sin_cos();
+    let (sine, cosine) = 0.035_f32.sin_cos();
     for scenario in [Scenario::Level, Scenario::Hills, Scenario::Slope] {
         is_told(scenario, "the velocimeter sees the rover go", |frame| {
             let velocity = &mut frame.velocity_m_s;

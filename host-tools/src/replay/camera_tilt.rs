@@ -11,8 +11,8 @@ const DRIVING_M_S: f64 = 0.005;
 const LONGEST_FRAME_S: f64 = 1.0;
 /// The shortest way that tells, m: over it bumps under single wheels are made up for.
 const LEAST_WAY_M: f64 = 0.5;
-/// Degrees from which it is told. Wheels that sink deeper at one end than at the other make up to half a degree.
-const TOLERATED_DEG: f64 = 0.8;
+/// Degrees from which it is told. Wheels that sink deeper at one end than at the other make up to eight tenths.
+const TOLERATED_DEG: f64 = 1.2;
 
 /// The way of a drive in the body's plane, in running sums.
 #[derive(Debug, Clone)]
@@ -71,8 +71,8 @@ impl CameraTilt {
         let tilt_deg = seen - led;
         (tilt_deg.abs() > TOLERATED_DEG).then(|| {
             format!(
-                "the velocimeter sees the rover go {:.1}° {} than its wheels lead: it is mounted askew, or velocity_z has a zero or a sign of \
-                 its own, and contact angles are off by as much, pulls and soil with them",
+                "the velocimeter sees the rover go {:.1}° {} than its wheels lead: it is mounted askew, velocity_z has a zero or a sign of its own, \
+                 or wheels sink far deeper at one end; by as much contact angles are off, pulls and soil with them",
                 tilt_deg.abs(),
                 if tilt_deg > 0.0 { "higher" } else { "lower" }
             )

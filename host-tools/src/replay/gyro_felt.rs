@@ -15,9 +15,15 @@ const LONGEST_STEP_S: f64 = 0.5;
 /// Readings beyond these no rover on wheels makes: rad/s, and a share of gravity.
 const FASTEST_RAD_S: f64 = 2.0;
 const SHAKEN: f64 = 0.3;
-/// Least standard deviation of the pitch, rad, that tells how it turns, and share by which it may turn otherwise.
-const LEAST_PITCHING_RAD: f64 = 0.015;
+/// Least standard deviation of the pitch, rad, that tells which way it turns, and of one that tells by how much; and the share by which that
+/// may be otherwise.
+const TELLS_SIGN_RAD: f64 = 0.004;
+const TELLS_SCALE_RAD: f64 = 0.015;
 const OTHER_SCALE: f64 = 0.2;
+/// Times its variance that a pitch has to turn by beyond what noise of the gyro adds up to: a random walk over a time T, less its trend, has a
+/// fifteenth of the variance of its end.
+const BEYOND_WALK: f64 = 10.0;
+const OF_WALK: f64 = 1.0 / 15.0;
 /// Shortest record that tells a drift, and shortest standing, s.
 const LEAST_S: f64 = 5.0;
 const LEAST_STANDING_S: f64 = 3.0;
@@ -154,8 +160,12 @@ impl GyroFelt {
         let left = |row: usize, column: usize| products[(row, column)] - slopes[row] * products[(0, column)];
         let pitching = left(1, 1);
         let scale = left(1, 2) / pitching;
-        if pitching / count > LEAST_PITCHING_RAD.powi(2) && (scale - 1.0).abs() > OTHER_SCALE {
-            return Some(match scale < 0.0 {
+        let step_s = self.time_s / count;
+        let walk = OF_WALK * self.rover.noise.gyro_rad_s.powi(2) * step_s * self.time_s;
+        let turns_by = |least_rad: f64| pitching / count > (BEYOND_WALK * walk).max(least_rad.powi(2));
+        let is_reversed = scale < 0.0 && turns_by(TELLS_SIGN_RAD);
+        if is_reversed || (scale - 1.0).abs() > OTHER_SCALE && turns_by(TELLS_SCALE_RAD) {
+            return Some(match is_reversed {
                 true => "gyro_y turns the other way than gravity tells: its sign, or that of accel_x, is wrong (nose-up is a negative rate \
                          about y, and a positive accel_x), and soil and its changes with it"
                     .to_owned(),
@@ -164,7 +174,6 @@ impl GyroFelt {
         }
         let zero = slopes[2] - slopes[1];
         // A rate with white noise adds up to a random walk, the slope of which scatters by 1.1 times its end over the time.
-        let step_s = self.time_s / count;
         let chance = 1.1 * self.rover.noise.gyro_rad_s * (step_s / self.time_s).sqrt();
         (zero.abs() > TOLERATED_RAD_S.max(BEYOND_CHANCE * chance)).then(|| {
             format!("gyro_y says {zero:.4} rad/s more than gravity tells: it has a zero of its own, which slips, pulls and soil take in")

@@ -12,6 +12,8 @@ use super::{Evidence, Finding, Fit, Statement, method_refusal};
 
 /// χ² by which, beside two for each parameter more, another form of what is declared has to explain the wheels better.
 const BETTER: f64 = 6.0;
+/// Standard deviations by which a parameter is another.
+const ANOTHER: f64 = 2.0;
 
 /// The posterior's mean and intervals.
 ///
@@ -27,7 +29,40 @@ pub fn map(evidence: &Evidence) -> Result<Finding, String> {
     for (statement, belief) in finding.statements_mut().into_iter().zip(beliefs) {
         statement.assumed = belief.is_known();
     }
+    for (id, without) in without_what_is_not_shown(evidence, &estimate) {
+        doubt(&mut finding, id, &without);
+    }
     Ok(finding)
+}
+
+/// Estimates without one of the declared effects each that explain the wheels as well as with it.
+fn without_what_is_not_shown(
+    evidence: &Evidence,
+    estimate: &MapEstimate<f64>,
+) -> Vec<(&'static str, MapEstimate<f64>)> {
+    let without = |left_out: &DeclaredEffect| {
+        let others = evidence.declared.iter().filter(|effect| effect.info.id != left_out.info.id);
+        let found = in_the_best_forms(&Evidence { declared: others.cloned().collect(), ..evidence.clone() }).ok()?;
+        (found.misfit <= estimate.misfit + BETTER).then_some((left_out.info.id, found))
+    };
+    evidence.declared.iter().filter_map(without).collect()
+}
+
+/// Says of parameters that they are not told where they are others without an effect which the data do not show.
+fn doubt(finding: &mut Finding, id: &str, without: &MapEstimate<f64>) {
+    let other = Finding::from(&without.identified);
+    let mut names = Vec::new();
+    let statements = finding.statements_mut().into_iter().zip(other.statements()).zip(["c", "φ", "K"]);
+    for ((statement, other), name) in statements {
+        if statement.identifiable && (statement.value - other.value).abs() > ANOTHER * statement.std {
+            statement.identifiable = false;
+            names.push(format!("{name} is {:.3e} without it", other.value));
+        }
+    }
+    if !names.is_empty() {
+        let said = format!("{id} is declared and not shown by these data: {}", names.join(", "));
+        finding.widened = Some(finding.widened.take().map_or(said.clone(), |before| format!("{before}; {said}")));
+    }
 }
 
 /// The soil of the greatest posterior probability; none where the method refuses.
