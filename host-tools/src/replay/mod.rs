@@ -6,6 +6,7 @@ mod estimate_file;
 mod gravity_felt;
 mod gyro_felt;
 pub mod health;
+mod held_readings;
 mod joined_rows;
 pub mod naive;
 mod outcome;

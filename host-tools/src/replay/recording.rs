@@ -1,6 +1,6 @@
 //! A file of sensor frames, opened, with the rover that recorded it.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -9,10 +9,12 @@ use std::rc::Rc;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use kapvik_firmware::rover::Rover;
 
+use super::held_readings::HeldReadings;
 use super::joined_rows::JoinedRows;
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
 use crate::data::rover_file::RoverFile;
+use crate::data::sensor_channels::names;
 use crate::error::HostError;
 
 /// A recording.
@@ -20,7 +22,7 @@ pub struct Recording {
     /// The rover.
     pub rover: Rover<f64>,
     /// The frames, read as they are asked for.
-    pub frames: JoinedRows<FrameReader>,
+    pub frames: HeldReadings<JoinedRows<FrameReader>>,
 }
 
 /// What a person should know of how a recording was read.
@@ -30,6 +32,8 @@ pub struct Remarks {
     unknown_columns: Vec<String>,
     /// Rows that have become part of others.
     joined: Rc<Cell<u64>>,
+    /// Of each sensor whether its readings are repeated until there is a new one.
+    held: Rc<RefCell<Vec<bool>>>,
 }
 
 impl Remarks {
@@ -41,14 +45,24 @@ impl Remarks {
             let rows = self.joined.get();
             format!("rows that say what others within 20 ms do not, and are taken as one frame with them: {rows}")
         });
-        unknown.into_iter().chain(joined).collect()
+        let held = self.held.borrow();
+        let held = names().into_iter().zip(held.iter()).filter(|(_, is_held)| **is_held);
+        let held: Vec<String> = held.map(|(name, _)| name).collect();
+        let held = (!held.is_empty()).then(|| {
+            format!(
+                "sensors whose readings are repeated row by row until there is a new one, and count once: {}",
+                held.join(", ")
+            )
+        });
+        unknown.into_iter().chain(joined).chain(held).collect()
     }
 }
 
 impl Recording {
     /// What a person should know of how it was read; counts go on while frames are read.
     pub fn remarks(&self) -> Remarks {
-        Remarks { unknown_columns: self.frames.rows().unknown_columns(), joined: self.frames.joined() }
+        let rows = self.frames.frames();
+        Remarks { unknown_columns: rows.rows().unknown_columns(), joined: rows.joined(), held: self.frames.held() }
     }
 
     /// Opens a file of frames behind a progress bar, which a terminal alone shows. Without a rover file the rover is the
@@ -65,7 +79,7 @@ impl Recording {
         let length = file.metadata().map_err(HostError::file(frames))?.len();
         let input = BufReader::new(progress_bar(length).wrap_read(file));
         let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
-        Ok(Self { rover, frames: JoinedRows::of(frames) })
+        Ok(Self { rover, frames: HeldReadings::of(JoinedRows::of(frames)) })
     }
 }
 

@@ -3,7 +3,7 @@
 use kapvik_firmware::identification::Belief;
 use kapvik_firmware::identification::map::{DeclaredEffects, Fitted, FreeParameter, MapEstimate, identify_declared};
 use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::terramechanics::effects::Effects;
+use kapvik_firmware::terramechanics::effects::{Column, Effects, Form};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
@@ -12,6 +12,8 @@ use super::{Evidence, Finding, Fit, Statement, method_refusal};
 
 /// χ² by which, beside two for each parameter more, another form of what is declared has to explain the wheels better.
 const BETTER: f64 = 6.0;
+/// What is known of a wheel's state.
+const OF_A_WHEEL: [Column; 5] = [Column::DrawbarPull, Column::Load, Column::Torque, Column::Sinkage, Column::Grousers];
 /// Standard deviations by which a parameter is another.
 const ANOTHER: f64 = 2.0;
 
@@ -88,13 +90,13 @@ fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
     }
 }
 
-/// The declared effects, one of them in another form that it may have, of those that follow no column beside a wheel's own.
+/// The declared effects, one of them in another form that it may have, of those that follow nothing but what is known of a wheel.
 fn in_other_forms(effects: &[DeclaredEffect]) -> Vec<Vec<DeclaredEffect>> {
+    let is_known = |form: &Form| form.needs.iter().all(|column| OF_A_WHEEL.contains(column));
     let other = |place: usize| {
         let effect = &effects[place];
         let open = effect.info.forms.iter().filter(|form| effect.form.is_none() && effect.may_be(form));
-        let own =
-            open.filter(|form| form.needs.is_empty() && Some(form.name) != effect.first_form().map(|form| form.name));
+        let own = open.filter(|form| is_known(form) && Some(form.name) != effect.first_form().map(|form| form.name));
         own.map(move |form| {
             let mut effects = effects.to_vec();
             effects[place] = effects[place].in_form(form);
