@@ -75,9 +75,11 @@ fn a_wrong_sign_is_told() {
     is_told(Scenario::Spread, "the encoders of ml turn against", |frame| {
         turn(&mut frame.wheels.left.middle.rate_rad_s);
     });
-    is_told(Scenario::Spread, "the motor torques of rr go against", |frame| {
-        turn(&mut frame.wheels.right.rear.motor_torque_nm);
-    });
+    // Drives on which this wheel slips by half.
+    for seed in [8510, 8512, 8513] {
+        let told = doubted(Scenario::Spread, seed, |frame| turn(&mut frame.wheels.right.middle.motor_torque_nm));
+        assert!(told.len() == 1 && told[0].starts_with("the motor torques of mr go against"), "seed {seed}: {told:?}");
+    }
 }
 
 #[test]

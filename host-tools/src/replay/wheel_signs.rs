@@ -60,14 +60,16 @@ impl WheelSigns {
         if !moves || turning_m_s.abs() > STRAIGHT * speed_m_s.abs() {
             return;
         }
-        let least_m_s = MOVING_M_S.max(BEYOND_NOISE * noise.wheel_rate_rad_s * wheel.radius_m);
+        let rim_std_m_s = noise.wheel_rate_rad_s * wheel.radius_m;
+        let least_m_s = MOVING_M_S.max(BEYOND_NOISE * rim_std_m_s);
+        let chance_m_s = BEYOND_NOISE * rim_std_m_s.hypot(noise.velocity_m_s);
         let counts = self.turning.iter_wheels_mut().zip(self.driving.iter_wheels_mut());
         for (sensors, (turning, driving)) in frame.wheels.iter_wheels().zip(counts) {
             let rim_m_s = wide(sensors.rate_rad_s).map(|rate| wheel.radius_m * rate);
             let Some(rim_m_s) = rim_m_s.filter(|rim| rim.abs() > least_m_s) else { continue };
             let goes_along = rim_m_s * speed_m_s > 0.0;
             turning.count(goes_along);
-            let drives = goes_along && speed_m_s.abs() < (1.0 - DRIVING_SLIP) * rim_m_s.abs() - least_m_s;
+            let drives = goes_along && speed_m_s.abs() < (1.0 - DRIVING_SLIP) * rim_m_s.abs() - chance_m_s;
             let torque =
                 wide(sensors.motor_torque_nm).filter(|torque| torque.abs() > BEYOND_NOISE * noise.motor_torque_nm);
             torque.filter(|_| drives).into_iter().for_each(|torque| driving.count(torque * rim_m_s > 0.0));
