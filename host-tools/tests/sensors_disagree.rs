@@ -1,6 +1,7 @@
 //! What a recording itself shows of signs, zeros and mountings, on drives of the simulator: silent where all is as agreed, and not where a
 //! sensor is otherwise.
 
+use clap::ValueEnum;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::replay::Doubts;
@@ -19,24 +20,10 @@ fn doubted(scenario: Scenario, seed: u64, change: impl Fn(&mut SensorFrame)) -> 
     doubts.told()
 }
 
-const ALL: [Scenario; 12] = [
-    Scenario::Traverse,
-    Scenario::Level,
-    Scenario::Spread,
-    Scenario::Hills,
-    Scenario::Slope,
-    Scenario::Rock,
-    Scenario::Dropout,
-    Scenario::StartStop,
-    Scenario::WheelLift,
-    Scenario::WheelBlocked,
-    Scenario::SoilChange,
-    Scenario::Varied,
-];
-
 #[test]
 fn sensors_that_agree_are_not_doubted() {
-    let drives = ALL.into_par_iter().flat_map_iter(|scenario| (8500..8506).map(move |seed| (scenario, seed)));
+    let scenarios = Scenario::value_variants().par_iter();
+    let drives = scenarios.flat_map_iter(|scenario| (8500..8506).map(move |seed| (*scenario, seed)));
     drives.for_each(|(scenario, seed)| {
         let told = doubted(scenario, seed, |_| ());
         assert!(told.is_empty(), "{scenario:?}, seed {seed}: {told:?}");

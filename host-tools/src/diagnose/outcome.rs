@@ -13,6 +13,7 @@ use super::held_out_errors::{HeldOutErrors, held_out_errors};
 use super::levels::levels_left_out;
 use super::lone_rows::{LoneRow, in_words, lone_rows};
 use super::measurements::Measurements;
+use super::other_forms::in_other_forms;
 use super::specification::Specification;
 use super::trial::Trial;
 use crate::data::campaign::{Campaign, Fingerprint};
@@ -73,29 +74,6 @@ pub fn diagnose(
         }
     }
     Ok(outcome)
-}
-
-/// A campaign with one of its declared effects in another form that it may have, and what is said where that is the one.
-fn in_other_forms(campaign: &Campaign, outcome: &Outcome) -> Vec<(Campaign, String)> {
-    let fitted = &outcome.document.declared_effects;
-    let other = |place: usize| {
-        let effect = &campaign.declared.effects[place];
-        let open = effect.info.forms.iter().filter(|form| effect.form.is_none() && effect.may_be(form));
-        let measured = open.filter(|form| is_measured(campaign, &outcome.measurements, form));
-        let name = fitted.get(place).map_or("", |fitted| fitted.form.as_str());
-        measured.filter(move |form| form.name != name).map(move |form| {
-            let mut other = campaign.clone();
-            other.declared.effects[place] = effect.in_form(form);
-            let id = effect.info.id;
-            let said = format!(
-                "The form of {id} is not declared. As {name} it fits best by itself, but leaves what no effect explains; as {}, in this \
-                 diagnosis, it does not.",
-                form.name
-            );
-            (other, said)
-        })
-    };
-    (0..campaign.declared.effects.len()).flat_map(other).collect()
 }
 
 /// The same with each declared effect in the form that fits best before anything is added.

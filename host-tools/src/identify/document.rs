@@ -199,8 +199,7 @@ impl Document {
             warnings.push(format!("declared effects that the method {} does not know: {effects}", method.name()));
         }
         if method.knows_effects() {
-            let open = campaign.declared.effects.iter().filter(|effect| effect.form.is_none());
-            let open = open.filter(|effect| effect.info.forms.iter().filter(|form| effect.may_be(form)).count() > 1);
+            let open = campaign.declared.effects.iter().filter(|effect| effect.open_forms().count() > 1);
             warnings.extend(open.map(|effect| {
                 let id = effect.info.id;
                 format!("the form of {id} is not declared: each run is taken to have the one that explains it best")

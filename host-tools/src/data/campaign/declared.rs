@@ -80,6 +80,11 @@ impl DeclaredEffect {
         Err(file.error_at(name, message))
     }
 
+    /// The forms that it may have; none where the file states it.
+    pub fn open_forms(&self) -> impl Iterator<Item = &'static Form> + use<'_> {
+        self.info.forms.iter().filter(|form| self.form.is_none() && self.may_be(form))
+    }
+
     /// The same in one form, as if the file stated it.
     #[must_use]
     pub fn in_form(&self, form: &'static Form) -> Self {

@@ -95,9 +95,8 @@ fn in_other_forms(effects: &[DeclaredEffect]) -> Vec<Vec<DeclaredEffect>> {
     let is_known = |form: &Form| form.needs.iter().all(|column| OF_A_WHEEL.contains(column));
     let other = |place: usize| {
         let effect = &effects[place];
-        let open = effect.info.forms.iter().filter(|form| effect.form.is_none() && effect.may_be(form));
-        let own = open.filter(|form| is_known(form) && Some(form.name) != effect.first_form().map(|form| form.name));
-        own.map(move |form| {
+        let first = effect.first_form().map(|form| form.name);
+        effect.open_forms().filter(move |form| is_known(form) && Some(form.name) != first).map(move |form| {
             let mut effects = effects.to_vec();
             effects[place] = effects[place].in_form(form);
             effects
