@@ -14,7 +14,7 @@ const ALIKE: usize = 6;
 /// A stretch that is longer than the habit by more than this is the sensor's own.
 const LONGER: u32 = 2;
 
-/// Frames, of which a sensor that is held says something in the first one of each stretch alone.
+/// Frames, of which a sensor that is held says something in the first one of each stretch alone; without those in which all are held.
 pub struct HeldReadings<I> {
     frames: I,
     stretches: Vec<Stretches>,
@@ -62,6 +62,21 @@ impl<I> HeldReadings<I> {
         Self { frames, stretches, held }
     }
 
+    /// Empties what is held. A frame of which that leaves nothing is none, but one in which no sensor spoke stays.
+    fn says_anything_new(&mut self, frame: &mut SensorFrame) -> bool {
+        let mut held = self.held.borrow_mut();
+        let sensors = self.stretches.iter_mut().zip(held.iter_mut());
+        let (mut spoken, mut emptied) = (0, 0);
+        for (value, (stretches, held)) in values_mut(frame).zip(sensors) {
+            spoken += usize::from(value.is_some());
+            if value.is_some_and(|reading| stretches.is_held(reading.to_bits())) {
+                (*value, *held) = (None, true);
+                emptied += 1;
+            }
+        }
+        emptied == 0 || emptied < spoken
+    }
+
     /// The frames as the logger wrote them.
     pub fn frames(&self) -> &I {
         &self.frames
@@ -77,19 +92,15 @@ impl<I: Iterator<Item = Result<SensorFrame, HostError>>> Iterator for HeldReadin
     type Item = Result<SensorFrame, HostError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let mut frame = match self.frames.next()? {
-            Ok(frame) => frame,
-            Err(error) => return Some(Err(error)),
-        };
-        let mut held = self.held.borrow_mut();
-        let sensors = self.stretches.iter_mut().zip(held.iter_mut());
-        for (value, (stretches, held)) in values_mut(&mut frame).zip(sensors) {
-            if value.is_some_and(|reading| stretches.is_held(reading.to_bits())) {
-                *value = None;
-                *held = true;
+        loop {
+            let mut frame = match self.frames.next()? {
+                Ok(frame) => frame,
+                Err(error) => return Some(Err(error)),
+            };
+            if self.says_anything_new(&mut frame) {
+                return Some(Ok(frame));
             }
         }
-        Some(Ok(frame))
     }
 }
 
@@ -97,14 +108,26 @@ impl<I: Iterator<Item = Result<SensorFrame, HostError>>> Iterator for HeldReadin
 mod tests {
     use super::*;
 
-    /// Which frames of these readings say something.
+    /// Which frames of these readings say something, beside a sensor that always does.
     fn said(readings: &[f32]) -> Vec<bool> {
-        let frames = readings.iter().map(|reading| {
-            let mut frame = SensorFrame::default();
+        let frames = readings.iter().zip(0_u16..).map(|(reading, number)| {
+            let mut frame = SensorFrame { rocker_angle_rad: Some(number.into()), ..SensorFrame::default() };
             frame.velocity_m_s.x = Some(*reading);
             Ok(frame)
         });
         HeldReadings::of(frames).map(|frame| frame.expect("a frame").velocity_m_s.x.is_some()).collect()
+    }
+
+    #[test]
+    fn rows_that_only_repeat_are_no_frames() {
+        let frames = (0..40_u16)
+            .map(|row| Ok(SensorFrame { rocker_angle_rad: Some((row / 2).into()), ..SensorFrame::default() }));
+        let said: Vec<f32> =
+            HeldReadings::of(frames).filter_map(|frame| frame.expect("a frame").rocker_angle_rad).collect();
+        // Six stretches are taken as they come, of the others one row each.
+        assert_eq!(said.len(), 2 * 6 + 1 + 13);
+        let silent = (0..5).map(|_| Ok(SensorFrame::default()));
+        assert_eq!(HeldReadings::of(silent).count(), 5);
     }
 
     #[test]
