@@ -22,8 +22,8 @@ impl<S: Scalar> CameraError<S> {
         self.variance
     }
 
-    /// Follows the error through an update of filter 1 with a speed of the hub, if there is one, as though it was taken: the gain g of the slip on that speed
-    /// takes the new error in, and 1 − g h of the old one stays, h being the slope of the speed in the slip.
+    /// Follows the error through an update of filter 1 with a speed of the hub, if there is one, as though it was taken: the gain g of the
+    /// slip on that speed takes the new error in, and 1 − g h of the old one stays, h being the slope of the speed in the slip.
     pub fn follow(&mut self, estimate: &Gaussian<S, STATES>, radius_m: S, readings: &WheelReadings<S>) {
         if readings.speeds.hub_speed_m_s.is_none() {
             return;

@@ -64,7 +64,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let inputs = [input, rover, weights, &about, &truth].map(|path| path.as_deref());
     let outputs = [Some(report.as_path()), picture.as_deref()];
     outputs::check(&outputs, &inputs)?;
-    input.as_deref().map_or(Ok(()), stays_to_be_read_again)?;
+    // Which kind of file it is the header tells, and then it is read again.
+    if let Some(pipe) = input.as_deref().filter(|input| outputs::is_pipe(input)) {
+        return Err(HostError::Failed(format!("{}: expected a file on disk, which can be read twice", pipe.display())));
+    }
     let weights = arguments.weights.as_deref().map(|path| Weights::fly(path, arguments.on)).transpose()?;
     let (on, weights) = (arguments.on, weights.as_ref());
     let told = match &arguments.input {
@@ -91,16 +94,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         outputs::tell(&format!("picture: {}", path.display()), &outputs);
     }
     Ok(())
-}
-
-/// Refuses a pipe: which kind of file it is the header tells, and what has been read of a pipe is gone.
-fn stays_to_be_read_again(path: &Path) -> Result<(), HostError> {
-    match std::fs::metadata(path) {
-        Ok(there) if !there.is_file() && !there.is_dir() => {
-            Err(HostError::Failed(format!("{}: expected a file on disk, which can be read twice", path.display())))
-        }
-        _ => Ok(()),
-    }
 }
 
 fn traverse(source: Source, on: Computer, weights: Option<&Weights>) -> Result<Told, HostError> {

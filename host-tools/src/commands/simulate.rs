@@ -77,7 +77,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         arguments.then.iter().filter_map(|text| text.rsplit_once('@')).map(|(name, _)| Some(Path::new(name)));
     let inputs: Vec<_> = [arguments.rover.as_deref(), soil, right_soil].into_iter().chain(further_soils).collect();
     outputs::check(&[Some(&arguments.output), Some(&truth)], &inputs)?;
-    if std::fs::metadata(&arguments.output).is_ok_and(|there| !there.is_file()) {
+    if outputs::is_pipe(&arguments.output) {
         let output = arguments.output.display();
         return Err(HostError::Failed(format!("{output}: expected a file on disk: what was true goes beside it")));
     }

@@ -29,6 +29,11 @@ pub fn check(outputs: &[Option<&Path>], inputs: &[Option<&Path>]) -> Result<(), 
     Ok(())
 }
 
+/// Whether something is there that is neither file nor folder, as a pipe: what has been read of it is gone, and nothing stands beside it.
+pub fn is_pipe(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
 /// Names of standard output among files.
 const STANDARD_OUTPUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 

@@ -205,7 +205,8 @@ fn gain_at_its_scales(bench: &Bench<'_>, trial: &Trial<'_>, after: &Fit) -> Opti
 
 /// What a channel's scale is estimated from beside a dependence: its rows, of which several tell as much as an independent one where noise
 /// remembers, or where runs have offsets of their own that the dependence does not explain. Of these the design effect of rows that are drawn
-/// by runs tells how many: 1 + (m − 1) ρ, m rows in the run of a row, over all rows, pairs of a run correlating by ρ (Kish 1965, Survey Sampling).
+/// by runs tells how many: 1 + (m − 1) ρ, m being the mean over all rows of how many are in a row's run, pairs of which correlate by ρ (Kish
+/// 1965, Survey Sampling).
 fn observations(bench: &Bench<'_>, with: &Fit, channel: Reading, rows_per_reading: f64) -> f64 {
     let c = channel.index();
     let rows: Vec<&Row> = bench.measurements.rows.iter().filter(|row| row.readings[c].is_some()).collect();

@@ -48,14 +48,14 @@ pub struct Ended {
     pub log: Vec<LogLine>,
 }
 
+/// How long QEMU may take to open its serial ports.
+const START_PATIENCE: Duration = Duration::from_secs(30);
+const POLL: Duration = Duration::from_millis(2);
+
 /// A path among QEMU's options, which commas part unless they are doubled.
 fn in_options(path: &Path) -> String {
     path.display().to_string().replace(',', ",,")
 }
-
-/// How long QEMU may take to open its serial ports.
-const START_PATIENCE: Duration = Duration::from_secs(30);
-const POLL: Duration = Duration::from_millis(2);
 
 impl Machine {
     /// Starts an image. It runs once this returns, and nothing that it has sent is lost.

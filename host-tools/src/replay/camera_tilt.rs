@@ -1,12 +1,10 @@
 //! Whether the velocimeter sees the rover go where its wheels lead: one that is mounted askew does not.
 
-use kapvik_firmware::rover::{Planar, Rover, Side};
+use kapvik_firmware::rover::{Link, LinkAngles, Planar, Rover, Side, SideLayout};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::{rockers, wide};
+use super::raw_sensors::{DRIVING_M_S, rockers, wide};
 
-/// Slower than this a rover does not drive, m/s.
-const DRIVING_M_S: f64 = 0.005;
 /// Longer than this no frame lasts, s.
 const LONGEST_FRAME_S: f64 = 1.0;
 /// The shortest way that tells, m: over it bumps under single wheels are made up for.
@@ -51,8 +49,10 @@ impl CameraTilt {
     fn slope_of_wheels(&self, frame: &SensorFrame) -> Option<f64> {
         let rockers = rockers(frame);
         let slopes = Side::ALL.as_array().map(|side| {
-            let rocker = *rockers.of(*side);
-            let hubs = hubs(&self.rover, rocker?, wide(*frame.bogie_angle_rad.of(*side))?);
+            let still = |pitch_rad| Link { pitch_rad, rate_rad_s: 0.0 };
+            let (rocker, bogie) = ((*rockers.of(*side))?, wide(*frame.bogie_angle_rad.of(*side))?);
+            let angles = LinkAngles { rocker: still(rocker), bogie: still(bogie) };
+            let hubs = SideLayout::new(&self.rover, *side, &angles).hubs.into_array();
             let middle = hubs.iter().fold(Planar::default(), |sum, hub| sum + *hub).scaled(1.0 / hubs.len() as f64);
             let apart = hubs.map(|hub| hub - middle);
             let product: f64 = apart.iter().map(|hub| hub.x * hub.z).sum();
@@ -78,13 +78,4 @@ impl CameraTilt {
             )
         })
     }
-}
-
-/// Where front, middle and rear hub of a side are in the body, with these angles of its links, rad.
-fn hubs(rover: &Rover<f64>, rocker_rad: f64, bogie_rad: f64) -> [Planar<f64>; 3] {
-    let suspension = &rover.suspension;
-    let [rocker, bogie] = [rocker_rad, rocker_rad + bogie_rad].map(f64::sin_cos);
-    let pivot = suspension.bogie_pivot.turned(rocker);
-    let on_bogie = |hub: Planar<f64>| pivot + hub.turned(bogie);
-    [suspension.front_hub.turned(rocker), on_bogie(suspension.middle_hub), on_bogie(suspension.rear_hub)]
 }

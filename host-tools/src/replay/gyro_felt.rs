@@ -131,22 +131,22 @@ impl GyroFelt {
     pub fn told(mut self) -> Vec<String> {
         self.end_stretch();
         let standing = self.while_standing();
-        let pitching = self.against_gravity().filter(|_| !standing.iter().any(|said| said.contains("gyro_y")));
-        standing.into_iter().chain(pitching).collect()
+        let pitching = if standing.iter().any(|(axis, _)| *axis == "y") { None } else { self.against_gravity() };
+        let told = standing.into_iter().map(|(axis, zero)| {
+            format!("gyro_{axis} says {zero:.4} rad/s while the rover stands: it has a zero of its own, which slips, pulls and soil take in")
+        });
+        told.chain(pitching).collect()
     }
 
-    fn while_standing(&self) -> Vec<String> {
+    /// The axes that have a zero of their own, and which, rad/s.
+    fn while_standing(&self) -> Vec<(&'static str, f64)> {
         let Standing { frames, time_s, sums } = self.standing;
         if frames < LEAST_FRAMES || time_s < LEAST_STANDING_S {
             return Vec::new();
         }
         let error = self.rover.noise.gyro_rad_s / f64::from(frames).sqrt();
-        let axes = ["x", "y", "z"].into_iter().zip((sums / f64::from(frames)).iter().copied().collect::<Vec<_>>());
-        axes.filter(|(_, mean)| mean.abs() > TOLERATED_RAD_S.max(BEYOND_CHANCE * error))
-            .map(|(axis, mean)| {
-                format!("gyro_{axis} says {mean:.4} rad/s while the rover stands: it has a zero of its own, which slips, pulls and soil take in")
-            })
-            .collect()
+        let axes = ["x", "y", "z"].into_iter().zip(sums.iter().map(|sum| sum / f64::from(frames)));
+        axes.filter(|(_, mean)| mean.abs() > TOLERATED_RAD_S.max(BEYOND_CHANCE * error)).collect()
     }
 
     fn against_gravity(&self) -> Option<String> {

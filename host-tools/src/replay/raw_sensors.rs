@@ -3,6 +3,9 @@
 use kapvik_firmware::rover::{PerAxle, PerSide, PerWheel};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
+/// Slower than this a rover does not drive, m/s.
+pub const DRIVING_M_S: f64 = 0.005;
+
 /// A reading that is a number.
 pub fn wide(reading: Option<f32>) -> Option<f64> {
     reading.map(f64::from).filter(|number| number.is_finite())

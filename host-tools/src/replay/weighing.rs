@@ -5,10 +5,8 @@ use std::fmt;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::{links, rockers, wide};
+use super::raw_sensors::{DRIVING_M_S, links, rockers, wide};
 
-/// Slower than this a rover does not drive, m/s: forces along the links of one that stands are whatever friction left there.
-const DRIVING_M_S: f64 = 0.005;
 /// Frames of so long are taken as one number, µs: over rough ground the errors of one frame are those of the next.
 const BLOCK_US: u64 = 5_000_000;
 /// Fewest such numbers that tell how far they scatter.
@@ -122,6 +120,7 @@ impl fmt::Display for Misfit {
     }
 }
 
+/// Forces along the links of a rover that stands are whatever friction left there.
 fn is_driving(frame: &SensorFrame) -> bool {
     wide(frame.velocity_m_s.x).is_some_and(|speed| speed.abs() > DRIVING_M_S)
 }

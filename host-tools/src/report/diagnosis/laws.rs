@@ -8,7 +8,7 @@ use maud::{Markup, html};
 use super::figures::{probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
-use crate::diagnose::document::{Diagnosis, Estimate, FoundEffect, Unexplained};
+use crate::diagnose::document::{DeclaredFit, Diagnosis, Estimate, FoundEffect, Unexplained};
 
 /// Below the verdict: each effect found, rivals, a law without a name.
 pub fn cards(findings: &DiagnosisFindings) -> Markup {
@@ -59,8 +59,12 @@ pub fn parameters(effect: &FoundEffect) -> String {
     with_units(&effect.id, &effect.parameters)
 }
 
-/// The same of an effect that was declared.
-pub fn with_units(id: &str, parameters: &BTreeMap<String, Estimate>) -> String {
+/// An effect that was declared: `id, form:` and the same.
+pub fn declared(effect: &DeclaredFit) -> String {
+    format!("{}, {}: {}", effect.id, effect.form, with_units(&effect.id, &effect.parameters))
+}
+
+fn with_units(id: &str, parameters: &BTreeMap<String, Estimate>) -> String {
     let info = effect_info(id);
     let each = parameters.iter().map(|(name, estimate)| {
         let unit = info.and_then(|info| info.parameter(name)).map_or("-", |parameter| parameter.unit);

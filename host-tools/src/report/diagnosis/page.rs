@@ -3,7 +3,6 @@
 use maud::{DOCTYPE, Markup, html};
 
 use super::findings::DiagnosisFindings;
-use super::laws::with_units;
 use super::quantity::Quantity;
 use super::{DIAGNOSIS_CSS, errors, laws, prediction, ranking, residual, soil};
 use crate::diagnose::document::Diagnosis;
@@ -100,10 +99,7 @@ fn declared(findings: &DiagnosisFindings) -> String {
     match findings.diagnosis.declared.as_slice() {
         [] => "equations 1–11 as they are".to_owned(),
         effects => {
-            let fitted = findings.diagnosis.declared_effects.iter().map(|effect| {
-                format!("{}, {}: {}", effect.id, effect.form, with_units(&effect.id, &effect.parameters))
-            });
-            let fitted: Vec<_> = fitted.collect();
+            let fitted: Vec<_> = findings.diagnosis.declared_effects.iter().map(laws::declared).collect();
             let told = if fitted.is_empty() { effects.join(", ") } else { fitted.join("; ") };
             format!("equations 1–11 with what was declared ({told})")
         }

@@ -4,7 +4,7 @@ use comfy_table::Table;
 
 use super::figures::{beside_noise, change, probability, significant, with_std};
 use super::findings::DiagnosisFindings;
-use super::laws::{parameters, with_units};
+use super::laws::{declared, parameters};
 use super::quantity::Quantity;
 use crate::diagnose::document::{Candidate, Diagnosis};
 use crate::report::terminal::wrapped;
@@ -21,8 +21,7 @@ pub fn terminal(findings: &DiagnosisFindings) -> String {
         text += &wrapped(" ", &format!("{}: {}", effect.id, parameters(effect)));
     }
     for effect in diagnosis.declared_effects.iter().filter(|effect| !effect.parameters.is_empty()) {
-        let parameters = with_units(&effect.id, &effect.parameters);
-        text += &wrapped(" ", &format!("declared {}, {}: {parameters}", effect.id, effect.form));
+        text += &wrapped(" ", &format!("declared {}", declared(effect)));
     }
     if let Some(measurement) = &diagnosis.deciding_measurement {
         text += &wrapped(" ", &format!("what would decide: {measurement}"));
