@@ -46,6 +46,34 @@ impl Parameter {
         }
     }
 
+    /// Symbol and unit, for the head of a table.
+    pub fn titled(self) -> String {
+        format!("{}, {}", self.symbol(), self.unit())
+    }
+
+    /// Its key in the table `[soil]` of a campaign's description.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Cohesion => "c",
+            Self::FrictionAngle => "phi",
+            Self::ShearModulus => "K",
+        }
+    }
+
+    /// Its value of a soil, SI.
+    pub fn of_soil(self, soil: &Soil<f64>) -> f64 {
+        match self {
+            Self::Cohesion => soil.cohesion_pa,
+            Self::FrictionAngle => soil.friction_angle_rad,
+            Self::ShearModulus => soil.shear_modulus_m,
+        }
+    }
+
+    /// Decimals that say something, in the unit that people read.
+    pub fn decimals(self) -> usize {
+        if self == Self::Cohesion { 0 } else { 1 }
+    }
+
     /// A number in SI units, in the unit that people read.
     pub fn shown(self, si: f64) -> f64 {
         match self {

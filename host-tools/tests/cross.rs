@@ -1,25 +1,22 @@
 //! The earlier network of the literature: trained in seconds, the same each time, as good as a single wheel allows.
 
-mod table_1;
-
 use std::sync::LazyLock;
 
 use kapvik_firmware::identification::{Observation, Refusal};
 use kapvik_firmware::terramechanics::Wheel;
-use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::WheelState;
+use kapvik_host::prior::KAPVIK_INSTANT_NOISE;
+use kapvik_host::soil_catalogue::TABLE_1;
 use kapvik_host::train::cross::{Scope, Trained, train};
-use table_1::table_1;
 
 const SEED: u64 = 1;
 static TRAINED: LazyLock<Trained> = LazyLock::new(|| train(&Scope::KAPVIK, SEED));
-const NOISE: WheelNoise<f64> =
-    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
 
 /// Six wheels at slips of 0.05 … 0.60 under one load, without noise.
 fn six_wheels(wheel: &Wheel<f64>, load_n: f64) -> [Observation<f64>; 6] {
     [0.05, 0.16, 0.27, 0.38, 0.49, 0.60].map(|slip| {
-        let state = WheelState::under_load(wheel, &table_1(), slip, load_n).expect("carried");
-        Observation { state, noise: NOISE }
+        let state = WheelState::under_load(wheel, &TABLE_1, slip, load_n).expect("carried");
+        Observation { state, noise: KAPVIK_INSTANT_NOISE }
     })
 }
 
@@ -45,8 +42,8 @@ fn held_out_errors_are_what_one_wheel_allows() {
 fn the_seed_s_sand_is_found_within_the_held_out_error() {
     let found = TRAINED.network.identify(&six_wheels(&Scope::KAPVIK.wheel, 65.4)).expect("an answer");
     let [_, angle_error, modulus_error] = TRAINED.held_out.error;
-    assert!((found.friction_angle_rad.value - table_1().friction_angle_rad).abs() < 2.0 * angle_error);
-    assert!((found.shear_modulus_m.value / table_1().shear_modulus_m).ln().abs() < 2.0 * modulus_error);
+    assert!((found.friction_angle_rad.value - TABLE_1.friction_angle_rad).abs() < 2.0 * angle_error);
+    assert!((found.shear_modulus_m.value / TABLE_1.shear_modulus_m).ln().abs() < 2.0 * modulus_error);
     assert!(found.cohesion_pa.std.is_none() && !found.cohesion_pa.identifiable);
     assert!(found.condition_number >= 1.0 && found.condition_number.is_finite());
 }
@@ -57,7 +54,7 @@ fn another_wheel_is_trained_for() {
     let wheel = Wheel { radius_m: 0.157, width_m: 0.165 };
     let trained = train(&Scope::around(wheel, 30.0, 150.0), SEED);
     let found = trained.network.identify(&six_wheels(&wheel, 80.0)).expect("an answer");
-    assert!((found.friction_angle_rad.value - table_1().friction_angle_rad).abs() < 2.0 * trained.held_out.error[1]);
+    assert!((found.friction_angle_rad.value - TABLE_1.friction_angle_rad).abs() < 2.0 * trained.held_out.error[1]);
     let refused = TRAINED.network.identify(&six_wheels(&wheel, 150.0));
     assert_eq!(refused.err(), Some(Refusal::OutOfRange), "the network of a small wheel knows no such load");
 }

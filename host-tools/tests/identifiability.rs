@@ -1,7 +1,5 @@
 //! What of a soil can be told: against published figures, and against estimates from simulated measurements.
 
-mod table_1;
-
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::wheel_state::WheelNoise;
 use kapvik_host::identifiability::advice::Advice;
@@ -17,7 +15,7 @@ use kapvik_host::identifiability::single_wheel::{Station, WheelMeasurement};
 use kapvik_host::identifiability::spread::{Spread, WheelsInTurn};
 use kapvik_host::parameter::Parameter;
 use kapvik_host::prior::{KAPVIK_INSTANT_NOISE, KAPVIK_WHEEL};
-use table_1::table_1;
+use kapvik_host::soil_catalogue::TABLE_1;
 
 const LOAD_N: f64 = 65.4;
 
@@ -34,7 +32,7 @@ fn of_the_table(pressure: Knowledge) -> WheelMeasurement {
 /// Relative standard deviations of c, φ and K, %.
 fn percent(bound: &Bound) -> [f64; 3] {
     let [c, phi, k, ..] = *bound.stds();
-    [100.0 * c, 100.0 * phi / table_1().friction_angle_rad, 100.0 * k]
+    [100.0 * c, 100.0 * phi / TABLE_1.friction_angle_rad, 100.0 * k]
 }
 
 /// Within a share of a published figure, and its rounding.
@@ -54,7 +52,7 @@ fn computed<const N: usize>(found: [f64; N], expected: [f64; N]) {
 /// Six wheels with loads of ±8 %.
 fn six_wheels(measurement: &WheelMeasurement, (slip_low, slip_high): (f64, f64), instants: f64) -> Bound {
     let spread = Spread { slip_low, slip_high, load_n: LOAD_N, load_share: 0.08 };
-    let information = spread.information(measurement, &KAPVIK_WHEEL, &table_1()).unwrap();
+    let information = spread.information(measurement, &KAPVIK_WHEEL, &TABLE_1).unwrap();
     information.bound(measurement, WheelsInTurn { wheels: 6, stations_each: 1 }, instants).unwrap()
 }
 
@@ -66,7 +64,7 @@ fn six_wheels(measurement: &WheelMeasurement, (slip_low, slip_high): (f64, f64),
 fn the_published_table() {
     let measurement = of_the_table(Knowledge::Known);
     let station = Station { slip: 0.2, load_n: LOAD_N };
-    let one = measurement.information(&KAPVIK_WHEEL, &table_1(), &station).unwrap();
+    let one = measurement.information(&KAPVIK_WHEEL, &TABLE_1, &station).unwrap();
     let single = |instants: f64| percent(&Bound::new(&measurement.beforehand, &[(one * instants, 1.0)]).unwrap());
     published(single(1.0), [36_000.0, 315.0, 761.0], 0.01);
     published(single(100.0), [3600.0, 32.0, 76.0], 0.01);
@@ -88,7 +86,7 @@ fn the_published_table_with_unknown_stiffness() {
     let found = six_wheels(&of_the_table(Knowledge::Free), (0.05, 0.60), 100.0);
     let [.., n, k, _, _] = found.stds().map(|std| 100.0 * std);
     published(percent(&found), [102.0, 2.0, 1.0], 0.005);
-    let soil = table_1();
+    let soil = TABLE_1;
     let k_phi = k * soil.stiffness(KAPVIK_WHEEL.width_m) / soil.frictional_modulus;
     assert_eq!([k_phi.round(), (n / soil.sinkage_exponent).round()], [5.0, 1.0]);
     computed([n, k], [0.993_953, 4.422_529]);
@@ -116,7 +114,7 @@ fn what_lasts_does_not_average_away() {
     };
     let spread = Spread { slip_low: 0.05, slip_high: 0.60, load_n: LOAD_N, load_share: 0.3 };
     let phi = |measurement: &WheelMeasurement, instants: f64| {
-        let information = spread.information(measurement, &KAPVIK_WHEEL, &table_1()).unwrap();
+        let information = spread.information(measurement, &KAPVIK_WHEEL, &TABLE_1).unwrap();
         let design = WheelsInTurn { wheels: 6, stations_each: 1 };
         information.bound(measurement, design, instants).unwrap().stds()[1]
     };

@@ -3,8 +3,6 @@
 //! The estimator knows nothing of the bound's code: forces from the f64 equations at a sinkage that is solved for, balances
 //! written out for level ground, all slopes by differences, and a plain Gauss–Newton iteration.
 
-mod table_1;
-
 use kapvik_firmware::rover::{PerAxle, Rover};
 use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
 use kapvik_host::identifiability::beforehand::{Beforehand, prior_stds};
@@ -15,11 +13,11 @@ use kapvik_host::identifiability::search::{DrivenLeg, Manoeuvre, Question, SETTL
 use kapvik_host::identifiability::sensors::{FRAMES_PER_SECOND, LastingErrors};
 use kapvik_host::parameter::Parameter;
 use kapvik_host::prior::KAPVIK_WHEEL;
+use kapvik_host::soil_catalogue::TABLE_1;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
-use table_1::table_1;
 
 const TIME_S: f64 = 20.0;
 const DRAWS: usize = 120;
@@ -61,7 +59,7 @@ fn soil_of(x: &[f64]) -> Soil<f64> {
 /// Table 1 of the seed, without lasting errors.
 fn truth() -> Unknowns {
     let mut x = [0.0; UNKNOWNS];
-    let soil = table_1();
+    let soil = TABLE_1;
     x[..SOIL].copy_from_slice(&[
         soil.cohesion_pa.ln(),
         soil.friction_angle_rad,

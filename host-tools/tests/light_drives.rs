@@ -17,7 +17,7 @@ fn errors(scenario: Scenario, inertia_kg_m2: f64, rate_hz: f64) -> Errors {
 }
 
 #[test]
-fn a_light_drive_beats_its_raw_sensors_and_says_how_well() {
+fn a_light_drive_is_hardly_worse_than_its_raw_sensors_and_says_how_well() {
     for (inertia_kg_m2, rate_hz) in [(0.01, 10.0), (0.05, 10.0), (0.1, 2.0), (0.01, 2.0)] {
         for scenario in [Scenario::Spread, Scenario::Hills] {
             let errors = errors(scenario, inertia_kg_m2, rate_hz);

@@ -70,6 +70,21 @@ fn a_wrong_sign_is_told() {
 }
 
 #[test]
+fn a_joint_that_is_read_the_other_way_round_is_told() {
+    let begins =
+        |columns: &str| format!("the wheels of a side roll over the same ground only if {columns} turned round");
+    for scenario in [Scenario::Hills, Scenario::Rock, Scenario::Traverse] {
+        is_told(scenario, &begins("rocker_angle_rad is"), |frame| turn(&mut frame.rocker_angle_rad));
+    }
+    for scenario in [Scenario::Hills, Scenario::Traverse] {
+        is_told(scenario, &begins("bogie_angle_r_rad is"), |frame| turn(&mut frame.bogie_angle_rad.right));
+        is_told(scenario, &begins("bogie_angle_l_rad, bogie_angle_r_rad are"), |frame| {
+            frame.bogie_angle_rad.as_array_mut().into_iter().for_each(turn);
+        });
+    }
+}
+
+#[test]
 fn a_camera_that_is_mounted_askew_is_told() {
     let (sine, cosine) = 0.035_f32.sin_cos();
     for scenario in [Scenario::Level, Scenario::Hills, Scenario::Slope] {

@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use kapvik_firmware::terramechanics::{Wheel, sinkage_for_load};
-use kapvik_host::soil_catalogue::{CatalogueSoil, Completion, Incomplete, catalogue};
+use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load};
+use kapvik_host::soil_catalogue::{CatalogueSoil, Completion, Incomplete, TABLE_1, catalogue};
 
 fn soils() -> Vec<CatalogueSoil> {
     catalogue().expect("the data file that is built in reads")
@@ -41,6 +41,8 @@ fn the_seed_s_sand_is_in_si() {
     );
     assert!((sand.friction_angle_rad - 0.556_760_031_386_191_1).abs() < 1e-12);
     assert!((sand.shear_modulus_m - 0.0114).abs() < 1e-15);
+    let rounded = |soil: &Soil<f64>| soil.map(|number| number as f32);
+    assert_eq!(rounded(&sand), rounded(&TABLE_1), "what the tools take for Table 1");
 }
 
 /// Under the wheel that they were used with, Bekker's moduli give Reece's pressure: (k₁ + k₂ b)(z/b)ⁿ.

@@ -102,11 +102,9 @@ fn print_tally(trial: &Trial, quantity: Quantity, tally: &Tally) {
         Quantity::LoadSplitPull => ("split by load", 1.0),
     };
     let (ratio, error) = trial.over_naive(quantity);
-    let [one, two] = trial.coverage(quantity).map(|(share, error)| (100.0 * share, 100.0 * error));
+    let covered = trial.coverage(quantity).map(|(share, error)| format!("{:5.1} ±{:.1}", 100.0 * share, 100.0 * error));
+    let covered = if quantity.states_std() { covered.join(", ") } else { "–".to_owned() };
     let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
     let bias = unit * tally.bias();
-    println!(
-        "  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.3} ±{error:5.3} {bias:9.4}   {:5.1} ±{:.1}, {:5.1} ±{:.1}",
-        one.0, one.1, two.0, two.1
-    );
+    println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.3} ±{error:5.3} {bias:9.4}   {covered}");
 }

@@ -6,6 +6,7 @@ use comfy_table::Table;
 use kapvik_firmware::terramechanics::Soil;
 
 use crate::diagnose::document::{Diagnosis, Estimate};
+use crate::parameter::Parameter;
 use crate::report::diagnosis::Quantity;
 use crate::terminal_table::{align_right, plain_table};
 use crate::train::score::Score;
@@ -79,20 +80,20 @@ pub fn estimates(
     header.extend(truth.map_or(vec![], |_| vec!["truth", "error", "error/σ"]));
     header.extend(["scatter of runs", "runs", "outside"]);
     let mut table = table(&header);
-    for (place, shown) in SHOWN.iter().enumerate() {
-        let truth = truth.map(shown.truth);
+    for (place, of) in Parameter::ALL.into_iter().enumerate() {
+        let truth = truth.map(|soil| of.of_soil(soil));
         for (name, soil) in
             ["network before", "network after"].into_iter().zip(networks).filter(|(_, soil)| soil.runs > 0)
         {
             let SoilColumn { value, interval_68, scatter } = soil.parameters[place];
-            let mut row = shown.row(name, value, interval_68, truth);
-            row.extend([shown.number(scatter), soil.runs.to_string(), soil.outside.to_string()]);
+            let mut row = row(of, name, value, interval_68, truth);
+            row.extend([number(of, scatter), soil.runs.to_string(), soil.outside.to_string()]);
             table.add_row(row);
         }
         for (name, fit) in ["fit before", "fit after"].into_iter().zip(fits) {
             // What the campaign's file fixes was not fitted.
-            if let Some(Estimate { value, std }) = fit.get(shown.key) {
-                let mut row = shown.row(name, *value, [value - std, value + std], truth);
+            if let Some(Estimate { value, std }) = fit.get(of.key()) {
+                let mut row = row(of, name, *value, [value - std, value + std], truth);
                 row.extend([NOTHING_THERE, NOTHING_THERE, NOTHING_THERE].map(str::to_owned));
                 table.add_row(row);
             }
@@ -107,54 +108,29 @@ pub fn estimates(
     format!("{}\n\n{of_networks}\n{of_fits}", aligned(table))
 }
 
-/// A parameter of the soil in this table.
-struct Shown {
-    name: &'static str,
-    /// Its key in `[soil]`.
-    key: &'static str,
-    truth: fn(&Soil<f64>) -> f64,
-    /// The unit shown, as so many of the parameter's own, and decimals.
-    scale: f64,
-    decimals: usize,
+/// Name, who says so, the estimate with its interval and, where the truth is known, truth and error.
+fn row(of: Parameter, by: &str, value: f64, [low, high]: [f64; 2], truth: Option<f64>) -> Vec<String> {
+    // None of them is negative, whatever the standard deviation says.
+    let interval = format!("{} … {}", number(of, low.max(0.0)), number(of, high));
+    let mut row = vec![of.titled(), by.to_owned(), number(of, value), interval];
+    if let Some(truth) = truth {
+        let error = value - truth;
+        let deviations = 2.0 * error / (high - low);
+        let signed = |text: String, number: f64| if number > 0.0 { format!("+{text}") } else { text };
+        row.push(number(of, truth));
+        row.push(signed(number(of, error), error));
+        row.push(match deviations.is_finite() {
+            true => signed(format!("{deviations:.1}"), deviations),
+            false => NOTHING_THERE.to_owned(),
+        });
+    }
+    row
 }
 
-const SHOWN: [Shown; 3] = [
-    Shown { name: "c / Pa", key: "c", truth: |soil| soil.cohesion_pa, scale: 1.0, decimals: 0 },
-    Shown {
-        name: "φ / °",
-        key: "phi",
-        truth: |soil| soil.friction_angle_rad,
-        scale: 180.0 / std::f64::consts::PI,
-        decimals: 1,
-    },
-    Shown { name: "K / mm", key: "K", truth: |soil| soil.shear_modulus_m, scale: 1e3, decimals: 1 },
-];
-
-impl Shown {
-    /// Name, who says so, the estimate with its interval and, where the truth is known, truth and error.
-    fn row(&self, by: &str, value: f64, [low, high]: [f64; 2], truth: Option<f64>) -> Vec<String> {
-        // None of them is negative, whatever the standard deviation says.
-        let interval = format!("{} … {}", self.number(low.max(0.0)), self.number(high));
-        let mut row = vec![self.name.to_owned(), by.to_owned(), self.number(value), interval];
-        if let Some(truth) = truth {
-            let error = value - truth;
-            let deviations = 2.0 * error / (high - low);
-            let signed = |text: String, number: f64| if number > 0.0 { format!("+{text}") } else { text };
-            row.push(self.number(truth));
-            row.push(signed(self.number(error), error));
-            row.push(match deviations.is_finite() {
-                true => signed(format!("{deviations:.1}"), deviations),
-                false => NOTHING_THERE.to_owned(),
-            });
-        }
-        row
-    }
-
-    fn number(&self, value: f64) -> String {
-        match value.is_finite() {
-            true => format!("{:.*}", self.decimals, self.scale * value),
-            false => NOTHING_THERE.to_owned(),
-        }
+fn number(of: Parameter, value: f64) -> String {
+    match value.is_finite() {
+        true => format!("{:.*}", of.decimals(), of.shown(value)),
+        false => NOTHING_THERE.to_owned(),
     }
 }
 

@@ -13,9 +13,8 @@ use crate::error::HostError;
 use crate::flight_computer::Computer;
 use crate::report::traverse::{self, Source, TraverseFindings};
 use crate::report::{self, Findings, FlownNetworks};
-use crate::target_folder::target_folder;
 
-use super::weights::Weights;
+use super::weights::{Weights, known_target_folder};
 
 /// Options of `kapvik run`.
 #[derive(Args)]
@@ -131,7 +130,7 @@ fn no_place_for_a_rover(campaign: &Path, rover: &Path) -> HostError {
 
 /// In the build folder, so that nothing appears where a person keeps files.
 fn default_report() -> Result<PathBuf, HostError> {
-    let folder = target_folder().join("kapvik-run");
+    let folder = known_target_folder().join("kapvik-run");
     std::fs::create_dir_all(&folder).map_err(HostError::file(&folder))?;
     Ok(folder.join("report.html"))
 }

@@ -53,7 +53,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         Some(path) => World::declared(&Declared::read_from(path)?),
         None => World::seed(),
     };
-    println!("Effects: {world}\n");
+    let tell = |said: &str| outputs::tell(said, &[Some(output), picture.as_deref()]);
+    tell(&format!("Effects: {world}\n"));
     let drawn = |count, seed| scenes_in(&world, Design::Training, count, seed);
     let training = with_progress("scenes", |_| drawn(plan.scenes, plan.seed))?;
     let held_out = with_progress("held-out scenes", |_| drawn(plan.held_out, !plan.seed))?;
@@ -64,16 +65,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     };
     let (few, few_held_out) = (six(&training), six(&held_out));
     let trainers = with_progress("trainers", |bar| compare_trainers(&plan, &few, &few_held_out, bar));
-    print_rows("Trainers (per-wheel network, sinkage as fifth input)", &trainers);
+    tell(&table("Trainers (per-wheel network, sinkage as fifth input)", &trainers));
     let inputs = with_progress("fifth inputs", |bar| compare_fifth_inputs(&plan, &few, &few_held_out, bar));
-    print_rows("Fifth inputs (per-wheel network, Adam)", &inputs);
-    judge_fifth_inputs(&inputs);
+    tell(&table("Fifth inputs (per-wheel network, Adam)", &inputs));
+    best_fifth_input(&inputs).iter().for_each(|said| tell(said));
     let (wheel, wheel_curve) =
         with_progress("per-wheel network", |bar| train_wheel(&plan, Candidate::SHIPPED, &training, &held_out, bar));
     drop(training);
     let training = with_progress("scenes", |_| rover_scenes(&plan, &world))?;
     let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
-    println!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last());
+    tell(&format!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last()));
     let losses = [wheel_curve.last(), rover_curve.last()];
     let file = table_file(wheel, rover, &Provenance { plan: &plan, world: &world, fifth: Candidate::SHIPPED, losses });
     write_text(&arguments.output, &file.to_text())?;
@@ -89,25 +90,26 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     Ok(())
 }
 
-/// Says which candidate without a sinkage sensor is best; a change of it is for people, since the flight side makes it.
-fn judge_fifth_inputs(rows: &[Row]) {
+/// Which candidate without a sinkage sensor is best; a change of it is for people, since the flight side makes it.
+fn best_fifth_input(rows: &[Row]) -> Option<String> {
     let loss = |fifth: Candidate| {
         rows.iter().find(|row| row.name == fifth.name()).map_or(f64::INFINITY, |row| row.curve.last())
     };
     let easier = Candidate::ALL.into_iter().filter(|&fifth| fifth != Candidate::Sinkage);
-    let Some(best) = easier.min_by(|&a, &b| loss(a).total_cmp(&loss(b))) else { return };
-    println!("Best without a sinkage sensor: {}. Shipped: {} (optional).\n", best.name(), Candidate::SHIPPED.name());
+    let best = easier.min_by(|&a, &b| loss(a).total_cmp(&loss(b)))?;
+    let (best, shipped) = (best.name(), Candidate::SHIPPED.name());
+    Some(format!("Best without a sinkage sensor: {best}. Shipped: {shipped} (optional).\n"))
 }
 
-fn print_rows(title: &str, rows: &[Row]) {
-    println!("{title}");
-    println!(
+/// The candidates' scores under a title, with an empty line behind them.
+fn table(title: &str, rows: &[Row]) -> String {
+    let head = format!(
         "  {:28} {:>10} {:>9} {:>9} {:>9} {:>9} {:>12} {:>8}",
         "", "loss/nats", "φ RMSE/°", "K med./%", "R² ln c", "R² ln K", "presented", "s"
     );
-    for row in rows {
+    let line = |row: &Row| {
         let [c, phi, k] = &row.score;
-        println!(
+        format!(
             "  {:28} {:>10.4} {:>9.3} {:>9.1} {:>9.3} {:>9.3} {:>12} {:>8.1}",
             row.name,
             row.curve.last(),
@@ -117,7 +119,8 @@ fn print_rows(title: &str, rows: &[Row]) {
             k.r_squared,
             row.presentations,
             row.curve.points.last().map_or(0.0, |point| point.0)
-        );
-    }
-    println!();
+        )
+    };
+    let lines: Vec<String> = [title.to_owned(), head].into_iter().chain(rows.iter().map(line)).collect();
+    format!("{}\n", lines.join("\n"))
 }

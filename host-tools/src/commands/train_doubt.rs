@@ -33,7 +33,8 @@ pub struct Arguments {
 /// # Errors
 /// Where no drive gave anything, the network cannot fly, or the file cannot be written.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
-    outputs::check(&[Some(&arguments.output)], &[])?;
+    let outputs = [Some(arguments.output.as_path())];
+    outputs::check(&outputs, &[])?;
     let plan = Plan { seed: arguments.seed, drives: arguments.drives };
     let mut training = with_progress("drives", |bar| drive_all(&plan.training(), bar));
     let held_out = plan.held_out().map(|journeys| with_progress("held-out drives", |bar| drive_all(&journeys, bar)));
@@ -41,13 +42,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     if rows == 0 {
         return Err(HostError::Failed("no drive gave anything to learn from: expected another seed".to_owned()));
     }
-    println!("{} drives, {rows} rows; {} drives failed", training.drives, training.failed);
+    let driven = format!("{} drives, {rows} rows; {} drives failed", training.drives, training.failed);
+    outputs::tell(&driven, &outputs);
     let network = with_progress("training", |bar| train(&mut training.sides, plan.seed, bar));
     if !network.cannot_overflow() {
         return Err(HostError::Failed("the network has diverged: its sums can overflow 32 bits".to_owned()));
     }
     let sets = held_out.each_ref().map(|driven| BeforeAfter::of(&driven.sides, &network));
-    println!("\n{}", tables(&held_out, &sets));
+    outputs::tell(&format!("\n{}", tables(&held_out, &sets)), &outputs);
     let provenance = Provenance { plan: &plan, held_out: &BeforeAfter::total(&sets) };
     write_text(&arguments.output, &source(&network, &provenance))?;
     Ok(())

@@ -20,7 +20,7 @@ use crate::train::world::World;
 
 /// What the build script takes a table from.
 const TABLE: &str = "KAPVIK_WEIGHTS";
-/// Set in a process that another one has become, so that none waits for itself.
+/// Set in a process that another one has become, so that none waits for itself: the target folder of that one.
 const HANDED_OVER: &str = "KAPVIK_HANDED_OVER";
 
 /// A table that was asked for, and that flies.
@@ -73,6 +73,11 @@ impl Weights {
     }
 }
 
+/// The target folder that a person knows of, whatever folder of its own a table is built in.
+pub fn known_target_folder() -> PathBuf {
+    std::env::var_os(HANDED_OVER).map_or_else(target_folder, PathBuf::from)
+}
+
 /// Becomes the program that flies the table; comes back with an error only.
 fn hand_over(table: &Path, on: Computer) -> HostError {
     let folder = build_folder();
@@ -86,7 +91,7 @@ fn hand_over(table: &Path, on: Computer) -> HostError {
     };
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
     let mut next = Command::new(&program);
-    next.args(arguments).env(TABLE, table).env("CARGO_TARGET_DIR", folder).env(HANDED_OVER, "1");
+    next.args(arguments).env(TABLE, table).env("CARGO_TARGET_DIR", folder).env(HANDED_OVER, target_folder());
     HostError::file(&program)(next.exec())
 }
 

@@ -69,15 +69,6 @@ pub struct Timed {
 }
 
 impl Parameter {
-    /// Of a soil, in the SI unit.
-    fn of_soil(self, soil: &Soil<f64>) -> f64 {
-        match self {
-            Self::Cohesion => soil.cohesion_pa,
-            Self::FrictionAngle => soil.friction_angle_rad,
-            Self::ShearModulus => soil.shear_modulus_m,
-        }
-    }
-
     /// Of a finding, in the SI unit.
     fn of_finding(self, finding: &Finding) -> &Statement {
         match self {

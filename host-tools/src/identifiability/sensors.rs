@@ -12,7 +12,8 @@ use serde::Serialize;
 /// 0.1 and 0.05.
 pub const INSTANTS_PER_SECOND: f64 = 1.0;
 
-/// Frames a second of the flight software.
+/// Frames a second that a drive is planned with, as the instants above were measured; drives of the simulator have ten unless others are
+/// asked for.
 pub const FRAMES_PER_SECOND: f64 = 20.0;
 
 /// One standard deviation of each error that lasts, so that it does not average away.

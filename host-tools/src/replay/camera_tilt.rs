@@ -1,9 +1,9 @@
 //! Whether the velocimeter sees the rover go where its wheels lead: one that is mounted askew does not.
 
-use kapvik_firmware::rover::{Link, LinkAngles, Planar, Rover, Side, SideLayout};
+use kapvik_firmware::rover::{Planar, Rover, Side, SideLayout};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::{DRIVING_M_S, rockers, wide};
+use super::raw_sensors::{DRIVING_M_S, links_at, rockers, wide};
 
 /// Longer than this no frame lasts, s.
 const LONGEST_FRAME_S: f64 = 1.0;
@@ -49,10 +49,8 @@ impl CameraTilt {
     fn slope_of_wheels(&self, frame: &SensorFrame) -> Option<f64> {
         let rockers = rockers(frame);
         let slopes = Side::ALL.as_array().map(|side| {
-            let still = |pitch_rad| Link { pitch_rad, rate_rad_s: 0.0 };
             let (rocker, bogie) = ((*rockers.of(*side))?, wide(*frame.bogie_angle_rad.of(*side))?);
-            let angles = LinkAngles { rocker: still(rocker), bogie: still(bogie) };
-            let hubs = SideLayout::new(&self.rover, *side, &angles).hubs.into_array();
+            let hubs = SideLayout::new(&self.rover, *side, &links_at(rocker, bogie)).hubs.into_array();
             let middle = hubs.iter().fold(Planar::default(), |sum, hub| sum + *hub).scaled(1.0 / hubs.len() as f64);
             let apart = hubs.map(|hub| hub - middle);
             let product: f64 = apart.iter().map(|hub| hub.x * hub.z).sum();

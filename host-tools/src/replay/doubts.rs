@@ -6,6 +6,7 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 use super::camera_tilt::CameraTilt;
 use super::gravity_felt::GravityFelt;
 use super::gyro_felt::GyroFelt;
+use super::joint_signs::JointSigns;
 use super::scatter::Scatter;
 use super::weighing::Weighing;
 use super::wheel_signs::WheelSigns;
@@ -17,6 +18,7 @@ pub struct Doubts {
     gravity: GravityFelt,
     gyro: GyroFelt,
     camera: CameraTilt,
+    joints: JointSigns,
     signs: WheelSigns,
     scatter: Scatter,
 }
@@ -29,6 +31,7 @@ impl Doubts {
             gravity: GravityFelt::of(rover),
             gyro: GyroFelt::of(rover),
             camera: CameraTilt::of(rover),
+            joints: JointSigns::of(rover),
             signs: WheelSigns::of(rover),
             scatter: Scatter::of(rover),
         }
@@ -40,6 +43,7 @@ impl Doubts {
         self.gravity.take(frame);
         self.gyro.take(frame);
         self.camera.take(frame);
+        self.joints.take(frame);
         self.signs.take(frame);
         self.scatter.take(frame);
     }
@@ -49,6 +53,7 @@ impl Doubts {
         let weighed = self.weighing.misfit().map(|misfit| misfit.to_string());
         let gravity = self.gravity.other().map(|other| other.to_string());
         let of_body = weighed.into_iter().chain(gravity).chain(self.gyro.told()).chain(self.camera.told());
+        let of_body = of_body.chain(self.joints.told());
         let noisier = self.scatter.noisier();
         of_body.chain(self.signs.told()).chain(noisier.iter().map(ToString::to_string)).collect()
     }

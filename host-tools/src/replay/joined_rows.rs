@@ -9,7 +9,7 @@ use crate::data::sensor_channels::{values, values_mut};
 use crate::error::HostError;
 
 /// So long after the first row of a frame its last may come, µs: what the sensors of fifty frames a second say between one and the next.
-const APART_US: u64 = 20_000;
+pub const APART_US: u64 = 20_000;
 
 /// Frames, those that follow each other within [`APART_US`] and of which no sensor says something twice as one, with the time of the last of
 /// them. One of which no sensor says anything is a frame by itself.

@@ -7,13 +7,16 @@ mod gravity_felt;
 mod gyro_felt;
 pub mod health;
 mod held_readings;
+mod hub_paths;
 mod joined_rows;
+mod joint_signs;
+mod motion_resistance;
 pub mod naive;
-mod outcome;
 mod raw_sensors;
 mod recording;
 mod running_median;
 mod scatter;
+mod terminal;
 mod weighing;
 mod wheel_signs;
 
@@ -33,9 +36,10 @@ use crate::flight_computer::FlightComputer;
 pub use doubts::Doubts;
 pub use estimate_file::EstimateWriter;
 pub use health::{REASONS, SensorTrouble, sensor_name, troubles};
-pub use outcome::lines;
+pub use motion_resistance::MotionResistance;
 pub use recording::{Recording, Remarks};
 pub use scatter::{Noisier, Scatter};
+pub use terminal::lines;
 pub use weighing::{Misfit, Weighing};
 
 /// What is known once all frames went through.
@@ -88,16 +92,19 @@ pub fn replay(
     let start = Instant::now();
     let mut counted: Option<Counted> = None;
     let mut doubts = Doubts::of(rover);
+    let mut resistance = MotionResistance::of(rover);
     let looked_at = frames.inspect(|frame| frame.iter().for_each(|frame| doubts.take(frame)));
     computer.frames(looked_at, |estimate| {
         counted.get_or_insert_with(|| Counted::from(estimate.time_us)).count(&estimate);
+        resistance.take(&estimate);
         take(&estimate)
     })?;
     let took = start.elapsed();
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
+    let doubts = doubts.told().into_iter().chain(resistance.told()).collect();
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
-    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, doubts: doubts.told(), estimator, boot, health })
+    Ok(Outcome { frames, span_us, took, soil, soil_changes_us, doubts, estimator, boot, health })
 }
 
 impl Counted {

@@ -1,6 +1,6 @@
 //! The raw sensors' readings as numbers, and where their angles put the links.
 
-use kapvik_firmware::rover::{PerAxle, PerSide, PerWheel};
+use kapvik_firmware::rover::{Link, LinkAngles, PerAxle, PerSide, PerWheel};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 /// Slower than this a rover does not drive, m/s.
@@ -24,4 +24,10 @@ pub fn links(frame: &SensorFrame, rockers: PerSide<Option<f64>>) -> PerWheel<Opt
         let bogie = rocker.zip(wide(bogie)).map(|(rocker, bogie)| rocker + bogie);
         PerAxle { front: rocker, middle: bogie, rear: bogie }
     })
+}
+
+/// Joints that stand at these angles, rad.
+pub fn links_at(rocker_rad: f64, bogie_rad: f64) -> LinkAngles<f64> {
+    let still = |pitch_rad| Link { pitch_rad, rate_rad_s: 0.0 };
+    LinkAngles { rocker: still(rocker_rad), bogie: still(bogie_rad) }
 }

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use kapvik_firmware::rover::Rover;
 
 use super::held_readings::HeldReadings;
-use super::joined_rows::JoinedRows;
+use super::joined_rows::{APART_US, JoinedRows};
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
 use crate::data::rover_file::RoverFile;
@@ -42,8 +42,10 @@ impl Remarks {
         let unknown = (!self.unknown_columns.is_empty())
             .then(|| format!("columns that name no sensor, and are not used: {}", self.unknown_columns.join(", ")));
         let joined = (self.joined.get() > 0).then(|| {
-            let rows = self.joined.get();
-            format!("rows that say what others within 20 ms do not, and are taken as one frame with them: {rows}")
+            let (rows, apart_ms) = (self.joined.get(), APART_US / 1000);
+            format!(
+                "rows that say what others within {apart_ms} ms do not, and are taken as one frame with them: {rows}"
+            )
         });
         let held = self.held.borrow();
         let held = names().into_iter().zip(held.iter()).filter(|(_, is_held)| **is_held);

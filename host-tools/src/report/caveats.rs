@@ -101,7 +101,7 @@ fn cannot_be_told(findings: &Findings) -> Option<String> {
     (!symbols.is_empty()).then(|| {
         format!(
             "\u{201c}Cannot be told\u{201d} ({} here, all states together) means that the data removed less than half of \
-             the variance that there was before them. The hollow mark is then mostly the middle of what the training \
+             the variance that there was before them. The value is then mostly the middle of what the training \
              allowed.",
             symbols.join(", ")
         )

@@ -13,7 +13,8 @@ const LEGEND: &str = "value ± one standard deviation; ? = cannot be told from t
 /// A line for each run.
 pub fn identified(document: &Document) -> String {
     let mut table = plain_table();
-    table.set_header(["run", "c, Pa", "φ, °", "K, mm", ""]);
+    let [cohesion, friction, modulus] = Parameter::ALL.map(Parameter::titled);
+    table.set_header(["run".to_owned(), cohesion, friction, modulus, String::new()]);
     for run in document.runs() {
         let [cohesion, friction, modulus] = soil_cells(&run.soil);
         table.add_row([run.run.clone(), cohesion, friction, modulus, remark(run)]);

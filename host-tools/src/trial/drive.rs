@@ -50,6 +50,11 @@ impl Quantity {
         Self::SplitPull,
         Self::LoadSplitPull,
     ];
+
+    /// Whether its estimate comes with a standard deviation.
+    pub fn states_std(self) -> bool {
+        self != Self::LoadSplitPull
+    }
 }
 
 /// What a drive came to.

@@ -36,8 +36,9 @@ impl Raw {
         self.count += other.count;
     }
 
+    /// No number where the sensors never said anything.
     fn mean_square(&self) -> f64 {
-        self.squares / self.count.max(1) as f64
+        self.squares / self.count as f64
     }
 }
 
@@ -85,7 +86,7 @@ impl Tally {
         if self.second.mean_square() < self.frame.mean_square() { &self.second } else { &self.frame }
     }
 
-    /// Root mean square error of the raw sensors.
+    /// Root mean square error of the raw sensors; no number where they never said anything.
     pub fn naive_rmse(&self) -> f64 {
         self.raw().mean_square().sqrt()
     }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
+use kapvik_firmware::wheel_state::WheelState;
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::Document;
 use kapvik_host::prior;
@@ -15,8 +15,6 @@ use serde_json::Value;
 
 use crate::described::{COLUMNS, description, readings};
 
-const NOISE: WheelNoise<f64> =
-    WheelNoise { drawbar_pull_n: 0.5, load_n: 1.0, torque_nm: 0.05, slip: 0.01, sinkage_m: 0.002 };
 /// Parameters in the document.
 pub const KEYS: [&str; 3] = ["cohesion_pa", "friction_angle_rad", "shear_modulus_m"];
 
@@ -69,12 +67,14 @@ impl Plan {
             let mut noises = vec![Remembered::default(); truths.len()];
             for row in 0..self.rows * truths.len() {
                 let (truth, noise) = (&truths[row % truths.len()], &mut noises[row % truths.len()]);
-                let seen = truth.blurred(&NOISE, || noise.next(self.kept, StandardNormal.sample(&mut random)));
+                let seen = truth.blurred(&prior::KAPVIK_INSTANT_NOISE, || {
+                    noise.next(self.kept, StandardNormal.sample(&mut random))
+                });
                 writeln!(csv, "{},{row},{}", drawn.len(), readings(&seen)).expect("text");
             }
             drawn.push(soil);
         }
-        let toml = description("Drawn from the prior", "", Some(&NOISE));
+        let toml = description("Drawn from the prior", "", Some(&prior::KAPVIK_INSTANT_NOISE));
         (Campaign::parse(Path::new("drawn.csv"), &csv, &toml).expect("a campaign"), drawn)
     }
 }

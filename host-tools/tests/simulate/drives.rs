@@ -119,7 +119,6 @@ fn a_rover_stops_stands_and_backs_up() {
 /// Each wheel meets the new soil where it lies, the front ones first.
 #[test]
 fn soil_changes_where_it_was_said_to() {
-    let rover = Rover::<f64>::assumed();
     for (becomes, stiffer, cohesion_pa) in [(Becomes::IceCemented, 3.0, 3.0e3), (Becomes::Sublimated, 0.5, 0.0)] {
         let changes = Some(vec![Change { from_m: 0.5, becomes }]);
         let rows = drive(Scenario::SoilChange, 9, &Options { changes, ..Options::default() });
@@ -141,7 +140,6 @@ fn soil_changes_where_it_was_said_to() {
         // Sinkage goes with about the power −1/(n + ½) of the stiffness, n = 0.8 … 1.3.
         assert!(if stiffer > 1.0 { last < 0.65 } else { last > 1.3 }, "{becomes:?}: {last}");
     }
-    assert_eq!(rover.check(), Ok(()));
 }
 
 #[test]
@@ -156,20 +154,20 @@ fn seeds_differ_and_repeat() {
 
 /// A left-hand relief of a mirrored rover is a right-hand relief: the world has no preferred side.
 #[test]
-fn sides_are_alike() {
-    let truths = truths(Scenario::Rock, 40);
-    let leans = |side: Side| {
-        let sum: f64 = truths.iter().map(|truth| truth.wheels.of(side).front.contact_angle_rad.abs()).sum();
-        sum > 1.0
-    };
-    let rolls = truths
-        .iter()
-        .map(|truth| truth.roll_rad)
-        .fold(0.0_f64, |most, roll| if roll.abs() > most.abs() { roll } else { most });
-    // Left side up is a positive roll.
-    assert!(leans(Side::Left) != leans(Side::Right) || rolls != 0.0);
-    if leans(Side::Left) != leans(Side::Right) {
-        assert_eq!(rolls > 0.0, leans(Side::Left), "{rolls}");
+fn a_rock_under_one_side_lifts_that_side() {
+    for (seed, under) in [(41, Side::Left), (44, Side::Right)] {
+        let truths = truths(Scenario::Rock, seed);
+        let climbs = |side: Side| {
+            let sum: f64 = truths.iter().map(|truth| truth.wheels.of(side).front.contact_angle_rad.abs()).sum();
+            sum > 1.0
+        };
+        assert_eq!([climbs(Side::Left), climbs(Side::Right)], [under == Side::Left, under == Side::Right], "{seed}");
+        let rolls = truths
+            .iter()
+            .map(|truth| truth.roll_rad)
+            .fold(0.0_f64, |most, roll| if roll.abs() > most.abs() { roll } else { most });
+        // Left side up is a positive roll.
+        assert_eq!(rolls > 0.0, under == Side::Left, "{seed}: {rolls}");
     }
 }
 

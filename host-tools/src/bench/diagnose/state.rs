@@ -32,12 +32,6 @@ impl State {
     pub fn channels(&self) -> [f64; 6] {
         [self.drawbar_pull_n, self.torque_nm, self.sinkage_m, self.side_force_n, self.slip, self.load_n]
     }
-
-    /// From all of it, in the order of [`MEASURED`].
-    pub fn from_channels(values: [f64; 6]) -> Self {
-        let [drawbar_pull_n, torque_nm, sinkage_m, side_force_n, slip, load_n] = values;
-        Self { drawbar_pull_n, torque_nm, sinkage_m, side_force_n, slip, load_n }
-    }
 }
 
 /// What surrounds a row, whether the campaign has a column for it or not.

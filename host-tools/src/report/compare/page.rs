@@ -119,7 +119,7 @@ fn measured_section(comparison: &Comparison) -> Markup {
             p { "Ding et al. 2011, a smooth wheel on a planetary simulant at one load; plate tests tell n and the stiffness. Direct tests: c 250 Pa, \
                 φ 31.9°, K 9.7–13.1 mm. Equations 1–11 lack effects that this wheel shows, and one load cannot tell c from φ." }
             div class="scroll" { table class="numbers" {
-                thead { tr { th {} th { "c, Pa" } th { "φ, °" } th { "K, mm" } th {} } }
+                thead { tr { th {} @for parameter in Parameter::ALL { th { (parameter.titled()) } } th {} } }
                 tbody { @for cells in measured_rows(&comparison.measured) { tr { @for cell in cells { td { (cell) } } } } }
             } }
         }

@@ -42,9 +42,10 @@ pub fn terminal(comparison: &Comparison) -> String {
 
 fn table(compared: &Compared) -> Table {
     let mut table = plain_table();
-    let head =
-        ["", "c, Pa", "error", "68, 95", "φ, °", "error", "68, 95", "K, mm", "error", "68, 95", "refused", "time"];
-    table.set_header(head);
+    let of_parameters =
+        Parameter::ALL.into_iter().flat_map(|of| [of.titled(), "error".to_owned(), "68, 95".to_owned()]);
+    let of_all = ["refused", "time"].map(str::to_owned);
+    table.set_header([String::new()].into_iter().chain(of_parameters).chain(of_all));
     for score in &compared.scores {
         let mut row = vec![label(score.contender).to_owned()];
         for parameter in Parameter::ALL {
@@ -117,7 +118,8 @@ pub fn duration(seconds: f64) -> String {
 
 fn measured(rows: &[MeasuredRow]) -> Table {
     let mut table = plain_table();
-    table.set_header(["", "c, Pa", "φ, °", "K, mm", ""]);
+    let [cohesion, friction, modulus] = Parameter::ALL.map(Parameter::titled);
+    table.set_header([String::new(), cohesion, friction, modulus, String::new()]);
     for cells in measured_rows(rows) {
         table.add_row(cells);
     }

@@ -1,4 +1,4 @@
-//! The candidates, the best first, with error bars.
+//! The candidates that the document lists, in the order in which they are preferred, with error bars.
 
 use maud::{Markup, html};
 
@@ -13,8 +13,6 @@ const LEFT: f64 = 290.0;
 const RIGHT: f64 = WIDTH - 175.0;
 const TOP: f64 = 40.0;
 const ROW: f64 = 24.0;
-/// So many are drawn of a step; the others are worse.
-const DRAWN: usize = 14;
 
 /// What a candidate is to the verdict.
 fn standing(findings: &DiagnosisFindings, candidate: &Candidate) -> &'static str {
@@ -52,14 +50,13 @@ fn title(findings: &DiagnosisFindings, step: usize) -> String {
 }
 
 fn chart(findings: &DiagnosisFindings, candidates: &[&Candidate]) -> Markup {
-    let drawn = &candidates[..candidates.len().min(DRAWN)];
-    let gains = drawn.iter().map(|candidate| (candidate.gain_per_row, candidate.gain_std));
+    let gains = candidates.iter().map(|candidate| (candidate.gain_per_row, candidate.gain_std));
     let top = gains.clone().map(|(gain, std)| gain + 2.0 * std);
     // What does far worse than nothing is at the end of the scale: it would hide the others.
     let best = top.clone().fold(0.0, f64::max);
     let bottom = gains.map(|(gain, std)| (gain - 2.0 * std).max(-0.5 * best));
     let scale = Scale::around(top.chain(bottom), (LEFT, RIGHT));
-    let floor = TOP + ROW * drawn.len() as f64;
+    let floor = TOP + ROW * candidates.len() as f64;
     let height = floor + 40.0;
     html! {
         svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(height)) } role="img"
@@ -68,14 +65,11 @@ fn chart(findings: &DiagnosisFindings, candidates: &[&Candidate]) -> Markup {
             (line("axis", (scale.at(0.0), TOP - 8.0), (scale.at(0.0), floor)))
             (text("tick", (WIDTH - 110.0, TOP - 16.0), Anchor::End, "gain"))
             (text("tick", (WIDTH - 10.0, TOP - 16.0), Anchor::End, "p"))
-            @for (candidate, place) in drawn.iter().zip(0..) {
+            @for (candidate, place) in candidates.iter().zip(0..) {
                 (bar(candidate, standing(findings, candidate), &scale, TOP + ROW * (f64::from(place) + 0.5)))
             }
             (text("tick", (0.5 * (LEFT + RIGHT), height - 8.0), Anchor::Middle,
                 "gain in log predictive density on held-out runs, nats a row, ± one and two standard deviations"))
-        }
-        @if candidates.len() > drawn.len() {
-            p class="note" { (candidates.len() - drawn.len()) " more candidates gain less." }
         }
     }
 }

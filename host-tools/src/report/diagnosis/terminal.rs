@@ -28,7 +28,10 @@ pub fn terminal(findings: &DiagnosisFindings) -> String {
     }
     text += &format!("\nroot mean square error on held-out runs\n{}\n", errors(diagnosis));
     if !diagnosis.candidates.is_empty() {
-        text += &format!("\nbest candidates, gain on held-out runs in nats a row\n{}\n", candidates(diagnosis));
+        text += &format!(
+            "\ncandidates as they are preferred, gain on held-out runs in nats a row\n{}\n",
+            candidates(diagnosis)
+        );
     }
     text += &by_themselves(diagnosis);
     text += &left(diagnosis);

@@ -23,8 +23,7 @@ fn row(quantity: Quantity, errors: &Errors) -> [String; 6] {
         if value.is_finite() { format!("{}{unit}", number(factor * value, digits, false)) } else { "–".to_owned() }
     };
     let ratio = tally.over_naive();
-    let states_std = quantity != Quantity::LoadSplitPull;
-    let [one, two] = tally.coverage().map(|share| match states_std {
+    let [one, two] = tally.coverage().map(|share| match quantity.states_std() {
         true => format!("{:.0} %", 100.0 * share),
         false => "–".to_owned(),
     });

@@ -167,7 +167,7 @@ fn sensors(findings: &TraverseFindings) -> Markup {
     html! {
         section {
             h2 { "Sensors" }
-            @for remark in &findings.remarks { p { (capitalised(remark)) "." } }
+            @for remark in &findings.remarks { p { (capitalised(remark)) } }
             @if troubles.is_empty() {
                 p { "Every reading of every sensor was used." }
             } @else {
