@@ -3,12 +3,11 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Deserialize;
 
 use crate::error::HostError;
+use crate::progress::spinner;
 
 /// The folder of the workspace that this program was built from.
 pub fn workspace() -> &'static Path {
@@ -93,13 +92,4 @@ struct Artifact {
 pub fn built_executable(messages: &str) -> Option<PathBuf> {
     let artifacts = messages.lines().filter_map(|line| serde_json::from_str::<Artifact>(line).ok());
     artifacts.filter(|artifact| artifact.reason == "compiler-artifact").find_map(|artifact| artifact.executable)
-}
-
-/// A spinner for what has no known length. Shown on a terminal only.
-pub fn spinner(what: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}")
-        .unwrap_or_else(|_| ProgressStyle::default_spinner());
-    let spinner = ProgressBar::new_spinner().with_style(style).with_message(what.to_owned());
-    spinner.enable_steady_tick(Duration::from_millis(100));
-    spinner
 }

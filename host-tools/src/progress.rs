@@ -1,4 +1,4 @@
-//! The bar that shows how far a piece of work has come.
+//! The bar that shows how far a piece of work has come, and the spinner of one that has no known length.
 
 use std::time::Duration;
 
@@ -15,6 +15,17 @@ pub fn bar(name: impl Into<String>, count: usize) -> ProgressBar {
         .with_finish(ProgressFinish::AndClear);
     bar.enable_steady_tick(TICK);
     bar
+}
+
+/// A spinner beside what is being done; shown on a terminal only.
+pub fn spinner(what: impl Into<String>) -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}");
+    let spinner = ProgressBar::new_spinner()
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
+        .with_message(what.into())
+        .with_finish(ProgressFinish::AndClear);
+    spinner.enable_steady_tick(TICK);
+    spinner
 }
 
 /// Does a piece of work behind a bar with its name; the work sets length, position and message.

@@ -32,6 +32,7 @@ fn every_method_answers_in_the_agreed_shape() {
         assert_eq!(document["method"], method.name());
         let runs = document["runs"].as_array().expect("runs");
         assert_eq!(runs.len(), 2);
+        assert!(runs.iter().any(|run| run["refused"].is_null()), "{} answers nowhere: {document}", method.name());
         for run in runs {
             if run["refused"].is_string() {
                 assert!(run["cohesion_pa"].is_null(), "{}: {run}", method.name());

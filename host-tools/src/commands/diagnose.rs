@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::data::atomic_write::{write_json, write_text};
 use crate::data::campaign::{Campaign, Carried};
 use crate::data::outputs;
 use crate::diagnose::{DiagnoseOptions, Outcome, declared_file, diagnose};
 use crate::error::HostError;
+use crate::progress::spinner;
 use crate::report::diagnosis::{DiagnosisFindings, page, terminal};
 
 /// Options of `kapvik diagnose`.
@@ -72,12 +72,9 @@ pub fn campaign(path: &Path) -> Result<Campaign, HostError> {
 /// # Errors
 /// As [`diagnose`].
 pub fn with_progress(campaign: &Campaign, braking: bool) -> Result<Outcome, HostError> {
-    let bar = ProgressBar::new_spinner();
-    let style = ProgressStyle::with_template("{spinner} {elapsed} {msg}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let outcome = diagnose(campaign, &DiagnoseOptions { braking }, &|what| bar.set_message(what.to_owned()));
-    bar.finish_and_clear();
+    let spinner = spinner("");
+    let outcome = diagnose(campaign, &DiagnoseOptions { braking }, &|what| spinner.set_message(what.to_owned()));
+    spinner.finish_and_clear();
     outcome
 }
 

@@ -165,7 +165,9 @@ impl Question {
         let widen = |answer: &mut QueryAnswer, is_blind: bool| {
             // Of what is outside, the networks say themselves that nothing can be relied on.
             let estimate = answer.rover.as_mut().ok().filter(|estimate| !estimate.outside_training_range)?;
-            let missing = missing(layout, &OfTraining, &targets(estimate), |states| ask(states, is_blind))?;
+            let stated = targets(estimate);
+            let widths = stated.map(|target| target.std);
+            let missing = missing(layout, &OfTraining, &stated, widths, |states| ask(states, is_blind))?;
             *estimate = widened(estimate, &missing.errors);
             Some(missing)
         };

@@ -81,15 +81,15 @@ impl Missing {
 }
 
 /// What the intervals that are stated lack on runs of this layout; none where too few soils carry the wheels, or too few are
-/// answered. `ask` is what makes of states an answer.
+/// answered. `widths` are the standard deviations of the soils about the answer; `ask` is what makes of states an answer.
 pub fn missing(
     layout: &Layout,
     soils: &impl Soils,
     stated: &[Target; TARGETS],
+    mut widths: [f64; TARGETS],
     ask: impl Fn(&[WheelState<f64>]) -> Option<[Target; TARGETS]> + Sync,
 ) -> Option<Missing> {
     let mut missing = Missing::default();
-    let mut widths = stated.map(|target| target.std);
     for _ in 0..ROUNDS {
         let runs = layout.rehearse(FIRST_SEED..FIRST_SEED + SOILS, |random| soils.draw(stated, &widths, random));
         let answers: Vec<([f64; TARGETS], [Target; TARGETS])> =

@@ -1,5 +1,7 @@
 //! The wheel states that a run of a campaign holds.
 
+use std::cmp::Ordering;
+
 use crate::data::campaign::{Campaign, Channel};
 use crate::error::HostError;
 use crate::statistics::sorted;
@@ -46,7 +48,12 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> V
             rows_left_out.sort_by_key(|(line, _)| *line);
         }
         let mut samples: Vec<Sample> = samples.into_iter().map(|(_, sample)| sample).collect();
-        samples.sort_by(|one, other| one.t_s.total_cmp(&other.t_s));
+        // In which order a file lists the wheels of an instant says nothing.
+        let order = |sample: &Sample| [sample.t_s, sample.slip, sample.load_n];
+        samples.sort_by(|one, other| {
+            let pairs = order(one).into_iter().zip(order(other));
+            pairs.fold(Ordering::Equal, |so_far, (one, other)| so_far.then(one.total_cmp(&other)))
+        });
         let mut times = sorted(samples.iter().map(|sample| sample.t_s));
         times.dedup();
         RunStates {

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::error::HostError;
-use crate::process::spinner;
+use crate::progress::spinner;
 use crate::setup::Toolchain;
 
 use super::{Binary, Clock, Image, LogView, Machine};

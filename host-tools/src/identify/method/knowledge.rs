@@ -5,6 +5,10 @@ use kapvik_firmware::identification::{Belief, SoilPrior};
 use crate::data::campaign::{Campaign, Knowledge};
 use crate::prior::{self, Range};
 
+/// A number that is less than so many of its standard deviations may be nothing at all; and it is no more than so many above.
+const NEAR_NOTHING: f64 = 3.0;
+const FARTHEST: f64 = 6.0;
+
 /// The usual prior, but for what a campaign's `[soil]` says.
 pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
     let usual = SoilPrior::usual();
@@ -56,12 +60,72 @@ fn number(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
 /// Of the logarithm of a number that is not below zero.
 fn logarithm(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
     // Below the usual range a number is as good as zero.
-    let ln = |value: f64| value.max(usual.low.exp()).ln();
+    let least = usual.low.exp();
+    let ln = |value: f64| value.max(least).ln();
     match known {
+        // What may be nothing at all is far from normal in its logarithm, and what may be anything from nothing on is no less likely to be
+        // much than little: such a logarithm is believed to be what it is on the mean, as surely as it scatters.
+        Some(Knowledge::Value { value, std }) if value < NEAR_NOTHING * std => {
+            let most = (value + FARTHEST * std).max(2.0 * least);
+            let (mean, std) = moments_of_ln([least, most], |number| (-0.5 * ((number - value) / std).powi(2)).exp());
+            Belief { mean, std: Some(std), low: usual.low, high: most.ln().max(usual.high) }
+        }
+        Some(Knowledge::Between { min, max }) if min <= least && max > 2.0 * least => {
+            let (mean, std) = moments_of_ln([least, max], |_| 1.0);
+            Belief { mean, std: Some(std), low: usual.low, high: max.ln() }
+        }
         Some(Knowledge::Value { value, std }) => {
-            number(Some(Knowledge::Value { value: ln(value), std: std / value.max(usual.low.exp()) }), usual)
+            number(Some(Knowledge::Value { value: ln(value), std: std / value.max(least) }), usual)
         }
         Some(Knowledge::Between { min, max }) => Belief::flat(ln(min), ln(max).max(ln(min) + 1e-9)),
         None => usual,
+    }
+}
+
+/// Mean and standard deviation of the logarithm of a number between two that are greater than zero, which has this density.
+fn moments_of_ln([least, most]: [f64; 2], density: impl Fn(f64) -> f64) -> (f64, f64) {
+    const STEPS: u32 = 2000;
+    let [low, high] = [least.ln(), most.ln()];
+    let step = (high - low) / f64::from(STEPS);
+    let [mut sum, mut first, mut second] = [0.0; 3];
+    for place in 0..STEPS {
+        let ln = low + (f64::from(place) + 0.5) * step;
+        let weight = density(ln.exp()) * ln.exp();
+        sum += weight;
+        first += weight * ln;
+        second += weight * ln * ln;
+    }
+    let mean = first / sum;
+    (mean, (second / sum - mean * mean).max(0.0).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn usual() -> Belief<f64> {
+        SoilPrior::usual().ln_cohesion
+    }
+
+    /// Of a number that is uniform from nothing to M, the logarithm has the mean ln M − 1 and the standard deviation one; of the size of a
+    /// normal one without mean, ln σ − (γ + ln 2)/2 and π/√8.
+    #[test]
+    fn what_may_be_nothing_is_believed_by_its_logarithm() {
+        let uniform = logarithm(Some(Knowledge::Between { min: 0.0, max: 1000.0 }), usual());
+        assert!((uniform.mean - (1000_f64.ln() - 1.0)).abs() < 0.01, "{uniform:?}");
+        assert!((uniform.spread() - 1.0).abs() < 0.02 && uniform.is_valid(), "{uniform:?}");
+        let half = logarithm(Some(Knowledge::Value { value: 0.0, std: 200.0 }), usual());
+        assert!((half.mean - (200_f64.ln() - 0.635)).abs() < 0.01, "{half:?}");
+        assert!((half.spread() - 1.11).abs() < 0.02 && half.is_valid(), "{half:?}");
+    }
+
+    #[test]
+    fn what_is_far_from_nothing_is_believed_as_it_is_stated() {
+        let stated = logarithm(Some(Knowledge::Value { value: 500.0, std: 50.0 }), usual());
+        assert_eq!((stated.mean, stated.std), (500_f64.ln(), Some(0.1)));
+        let between = logarithm(Some(Knowledge::Between { min: 50.0, max: 500.0 }), usual());
+        assert_eq!((between.low, between.high, between.std), (50_f64.ln(), 500_f64.ln(), None));
+        let nothing = logarithm(Some(Knowledge::Value { value: 0.0, std: 0.0 }), usual());
+        assert!(nothing.is_known() && nothing.mean == usual().low);
     }
 }
