@@ -106,6 +106,11 @@ impl<S: Scalar> Correction<S> {
         Self { steeper: zero, of_path: one, left_of_angle: one, left_of_pull: one, by_pull: zero }
     }
 
+    /// The path of the hub has turned by so much since, rad; what is remembered of the terrain has not.
+    pub fn turn_path(&mut self, by_rad: S) {
+        self.steeper -= (S::one() - self.of_path) * by_rad;
+    }
+
     /// Adds a memory of the terrain that tells so much of the contact angle, 0 … 1, and that it is so much steeper than the path, rad.
     pub fn remember(&mut self, told: S, steeper: S) {
         self.of_path = S::one() - told;
@@ -161,7 +166,7 @@ impl<S: Scalar> Known<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{BogieWheel, Compaction, Known, Together};
+    use super::{BogieWheel, Compaction, Correction, Known, Together};
 
     /// An angle that is too small by 0.05 rad for a moment, of a wheel that has rolled for long: known to 0.015 rad, it is half made good.
     #[test]
@@ -212,6 +217,20 @@ mod tests {
         let mean = 0.5 * (well.steeper + badly.steeper);
         assert!((mean - 0.05 * (1.0 - well.left_of_pull)).abs() < 1.0e-12, "{mean}");
         assert!(badly.left_of_angle < well.left_of_angle && well.left_of_angle > 0.9);
+    }
+
+    /// A terrain that is remembered is as steep as before, however the path of the hub turns; where only the path tells it, that is followed.
+    #[test]
+    fn what_is_remembered_does_not_turn_with_the_path() {
+        let (terrain, path, turned) = (0.1, 0.02, 0.05);
+        for told in [0.0, 0.6, 1.0] {
+            let mut correction = Correction::<f64>::none();
+            correction.remember(told, terrain - path);
+            let before = path + correction.steeper;
+            correction.turn_path(turned);
+            let angle = path + turned + correction.steeper;
+            assert!((angle - before - (1.0 - told) * turned).abs() < 1.0e-12, "{told}: {before} {angle}");
+        }
     }
 
     /// A soil that is another for long is the soil, however much it is another: within three times the way nineteen twentieths are learned.

@@ -181,9 +181,14 @@ impl<S: Scalar> SideEstimator<S> {
         self.silent = frame.silent(&readings.axis_velocity_m_s);
         self.follow_rims(step_s, &frame.wheel_rate_rad_s, readings.axis_velocity_m_s.x);
         let slopes = *self.sinking.slopes();
+        let before = self.angles.angles();
         let told = self.angles.tick(step_s, self.rims.speed_m_s(), &slopes, attitude, &readings, &self.rover.noise);
         surprises.of_side(&told);
         self.told.angles = told;
+        // What the torques and the memory said of the frame before is asked once more, of the forces.
+        let turned = self.angles.angles().zip(before).map(|(now, before)| now - before);
+        let corrections = self.corrections.as_mut().zip(turned).into_array();
+        corrections.into_iter().for_each(|(correction, by_rad)| correction.turn_path(by_rad));
         self.motion = self.angles.motion();
         let wheels = self.wheel_frames(&readings, self.angles.body_pitch());
         self.tick_wheels(step_s, frame, &wheels, &mut surprises);
