@@ -1,6 +1,7 @@
 //! What the soil takes from front wheels and from bogies, on drives of the simulator: silent where the rover file is right, and not where it
 //! states another centre of mass.
 
+use clap::ValueEnum;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::replay::MotionResistance;
 use kapvik_host::simulate::effects::RoverEffects;
@@ -19,19 +20,7 @@ fn told(scenario: Scenario, seed: u64, truly: &Rover<f64>, options: &Options) ->
     Some(resistance.told())
 }
 
-const DRIVES: [Scenario; 9] = [
-    Scenario::Traverse,
-    Scenario::Level,
-    Scenario::Spread,
-    Scenario::Hills,
-    Scenario::Slope,
-    Scenario::Rock,
-    Scenario::StartStop,
-    Scenario::WheelBlocked,
-    Scenario::SoilChange,
-];
-
-/// On level, spread and hilly ground slips, slopes, effects of the soil and friction in the drives make less of a difference.
+/// Slips, slopes, effects of the soil and friction in the drives make less of a difference, on ground of any kind.
 #[test]
 fn a_right_rover_file_is_not_doubted() {
     let with = |id: &str, value: f64| {
@@ -45,14 +34,15 @@ fn a_right_rover_file_is_not_doubted() {
         with("grouser-ripple", 0.2),
         with("drive-friction", 0.2),
     ];
-    let drives = worlds.iter().flat_map(|world| DRIVES.map(|scenario| (scenario, world))).zip(8530..);
-    let driven = drives.par_bridge().filter_map(|((scenario, world), seed)| {
+    let drives =
+        worlds.iter().flat_map(|world| Scenario::value_variants().iter().map(move |scenario| (*scenario, world)));
+    let driven = drives.zip(8530..).par_bridge().filter_map(|((scenario, world), seed)| {
         let told = told(scenario, seed, &Rover::assumed(), world)?;
         assert_eq!(told, None, "{scenario:?}, seed {seed}");
         Some(())
     });
     let driven = driven.count();
-    assert!(driven >= 40, "{driven} of 45 rovers did not get stuck");
+    assert!(driven >= 50, "{driven} of 60 rovers did not get stuck");
 }
 
 #[test]
@@ -61,7 +51,7 @@ fn another_centre_of_mass_is_told() {
         let mut truly = Rover::assumed();
         truly.suspension.centre_of_mass.x += ahead_m;
         for (scenario, seed) in
-            [Scenario::Level, Scenario::Spread, Scenario::Hills, Scenario::Slope].into_iter().zip(8580..)
+            [Scenario::Level, Scenario::Spread, Scenario::Hills, Scenario::Slope].into_iter().zip(8595..)
         {
             let told = told(scenario, seed, &truly, &Options::default()).expect("a drive");
             let begins = told.as_ref().is_some_and(|said| said.starts_with("the soil takes"));
