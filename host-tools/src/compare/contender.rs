@@ -78,6 +78,11 @@ impl Contender {
         self.way == Way::By(Method::Limit)
     }
 
+    /// Whether it is told what nobody knows on a drive, or stands in the table with another prior: it is not in the contest then.
+    pub fn is_told_otherwise(&self) -> bool {
+        self.told != Told::Middle
+    }
+
     /// Whether it is asked in a situation: not where it would be another once more.
     pub fn takes_part(&self, situation: &Situation) -> bool {
         let drawn = situation.truth == Truth::Drawn;

@@ -8,7 +8,7 @@ use crate::report::draw::number;
 use crate::report::page::head;
 
 use super::error_chart::{chart, percent};
-use super::terminal::{cramer_rao, duration, label, measured_rows};
+use super::terminal::{DIRECT_TESTS, cramer_rao, duration, label, measured_rows};
 use super::verdict::{to_limit, verdicts};
 use super::{COMPARE_CSS, overview};
 
@@ -116,8 +116,8 @@ fn measured_section(comparison: &Comparison) -> Markup {
     html! {
         section {
             h2 { "One wheel at six slips, measured" }
-            p { "Ding et al. 2011, a smooth wheel on a planetary simulant at one load; plate tests tell n and the stiffness. Direct tests: c 250 Pa, \
-                φ 31.9°, K 9.7–13.1 mm. Equations 1–11 lack effects that this wheel shows, and one load cannot tell c from φ." }
+            p { "Ding et al. 2011, a smooth wheel on a planetary simulant at one load; plate tests tell n and the stiffness. Direct tests: "
+                (DIRECT_TESTS) ". Equations 1–11 lack effects that this wheel shows, and one load cannot tell c from φ." }
             div class="scroll" { table class="numbers" {
                 thead { tr { th {} @for parameter in Parameter::ALL { th { (parameter.titled()) } } th {} } }
                 tbody { @for cells in measured_rows(&comparison.measured) { tr { @for cell in cells { td { (cell) } } } } }

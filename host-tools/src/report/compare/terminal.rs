@@ -10,6 +10,9 @@ use crate::terminal_table::{align_right, plain_table};
 
 use super::verdict::{is_best, to_limit, verdicts};
 
+/// What direct tests of the sand of Ding et al. 2011 found.
+pub const DIRECT_TESTS: &str = "c 250 Pa, φ 31.9°, K 9.7–13.1 mm";
+
 /// What the figures are.
 const LEGEND: &str = "median of the estimates [quartiles], median size of the error, 68 % and 95 % intervals that hold the truth in %; \
     * = least median error of the methods; ( ) = taken as given";
@@ -25,7 +28,7 @@ pub fn terminal(comparison: &Comparison) -> String {
     }
     if !comparison.measured.is_empty() {
         text += &format!(
-            "\none wheel at six slips, measured (Ding et al. 2011); direct tests: c 250 Pa, φ 31.9°, K 9.7–13.1 mm\n{}\n",
+            "\none wheel at six slips, measured (Ding et al. 2011); direct tests: {DIRECT_TESTS}\n{}\n",
             measured(&comparison.measured)
         );
     }

@@ -1,13 +1,11 @@
 //! What follows from a comparison, in sentences.
 
-use crate::compare::{Compared, Comparison, Score, is_beaten};
+use crate::compare::{CONTENDERS, Compared, Comparison, Score, is_beaten};
 use crate::parameter::Parameter;
 use crate::report::draw::number;
 
 use super::terminal::label;
 
-/// Methods that are told what nobody knows on a drive, or stand in the table with another prior: they are not in the contest.
-const TOLD_THE_TRUTH: [&str; 5] = ["iagnemma-K", "iagnemma-recursive", "hutangkabodee-n", "ray-bank", "map-usual"];
 /// Who answers less often, or says more often of its answer that the data do not tell it, has no say: the middle of the prior
 /// is near a truth that lies there, whatever was seen.
 const LEAST_TOLD: f64 = 0.5;
@@ -19,7 +17,7 @@ pub fn is_best(compared: &Compared, score: &Score, parameter: Parameter) -> bool
 
 /// Whether a method is told no more than the others.
 pub fn is_in_contest(score: &Score) -> bool {
-    !TOLD_THE_TRUTH.contains(&score.contender)
+    !CONTENDERS.iter().any(|contender| contender.id == score.contender && contender.is_told_otherwise())
 }
 
 fn winner(compared: &Compared, parameter: Parameter) -> Option<&Score> {
