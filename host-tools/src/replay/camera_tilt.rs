@@ -3,10 +3,8 @@
 use kapvik_firmware::rover::{Planar, Rover, Side, SideLayout};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::{DRIVING_M_S, links_at, rockers, wide};
+use super::raw_sensors::{DRIVING_M_S, Steps, links_at, rockers, wide};
 
-/// Longer than this no frame lasts, s.
-const LONGEST_FRAME_S: f64 = 1.0;
 /// The shortest way that tells, m: over it bumps under single wheels are made up for.
 const LEAST_WAY_M: f64 = 0.5;
 /// Degrees from which it is told. Wheels that sink deeper at one end than at the other make up to eight tenths.
@@ -16,7 +14,7 @@ const TOLERATED_DEG: f64 = 1.2;
 #[derive(Debug, Clone)]
 pub struct CameraTilt {
     rover: Rover<f64>,
-    before_us: Option<u64>,
+    steps: Steps,
     way_m: f64,
     /// How far up the velocimeter saw the body go, and how far the line through the wheels leads, m.
     seen_up_m: f64,
@@ -26,14 +24,12 @@ pub struct CameraTilt {
 impl CameraTilt {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
-        Self { rover: rover.map(f64::from), before_us: None, way_m: 0.0, seen_up_m: 0.0, led_up_m: 0.0 }
+        Self { rover: rover.map(f64::from), steps: Steps::default(), way_m: 0.0, seen_up_m: 0.0, led_up_m: 0.0 }
     }
 
     /// Takes a frame.
     pub fn take(&mut self, frame: &SensorFrame) {
-        let before_us = self.before_us.replace(frame.time_us);
-        let step_s = before_us.and_then(|before| frame.time_us.checked_sub(before)).map(|step| 1e-6 * step as f64);
-        let Some(step_s) = step_s.filter(|step| *step <= LONGEST_FRAME_S) else { return };
+        let Some(step_s) = self.steps.since_before_s(frame) else { return };
         let [ahead, up] = [frame.velocity_m_s.x, frame.velocity_m_s.z].map(wide);
         let Some((ahead_m_s, up_m_s)) = ahead.zip(up) else { return };
         if ahead_m_s.abs() <= DRIVING_M_S || up_m_s.abs() > ahead_m_s.abs() {

@@ -18,13 +18,11 @@ pub struct HubPaths {
 }
 
 /// How far numbers are from their mean, in running sums.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Spread {
-    /// How many.
-    pub count: f64,
+#[derive(Debug, Clone, Copy, Default)]
+struct Spread {
+    count: f64,
     mean: f64,
-    /// The squares of what they are from their mean, added.
-    pub squares: f64,
+    squares: f64,
 }
 
 impl Spread {
@@ -33,11 +31,6 @@ impl Spread {
         let before = number - self.mean;
         self.mean += before / self.count;
         self.squares += before * (number - self.mean);
-    }
-
-    /// Both together, each about its own mean.
-    fn and(self, other: Self) -> Self {
-        Self { count: self.count + other.count, mean: 0.0, squares: self.squares + other.squares }
     }
 }
 
@@ -81,9 +74,14 @@ impl HubPaths {
         (way_m > 0.0).then(|| (place as i64, height_m()))
     }
 
-    /// How far middle and rear hub are from where the front one was, each about its own mean.
-    pub fn apart(&self) -> Spread {
-        self.middle.and(self.rear)
+    /// How many times a hub came by where the front one had.
+    pub fn compared(&self) -> f64 {
+        self.middle.count + self.rear.count
+    }
+
+    /// How far middle and rear hub were from where the front one was, each about its own mean, m²: squares, added.
+    pub fn apart(&self) -> f64 {
+        self.middle.squares + self.rear.squares
     }
 }
 

@@ -7,10 +7,8 @@ use kapvik_firmware::rover::{PerSide, Planar, Rover, Side, SideLayout};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::hub_paths::HubPaths;
-use super::raw_sensors::{links_at, rockers, wide};
+use super::raw_sensors::{Steps, links_at, rockers, wide};
 
-/// Longer than this no frame lasts, s.
-const LONGEST_FRAME_S: f64 = 1.0;
 /// Fewest comparisons that tell, and the share of the rover's length by which hubs may differ by sinking, a root mean square.
 const LEAST_COMPARED: f64 = 30.0;
 const TOLERATED: f64 = 0.012;
@@ -23,7 +21,7 @@ const EACH_JOINT: f64 = 0.5;
 pub struct JointSigns {
     rover: Rover<f64>,
     length_m: f64,
-    before_us: Option<u64>,
+    steps: Steps,
     /// Where the midpoint of the differential axis is, m from where it was at first.
     at_m: Planar<f64>,
     /// The first of a side has both joints as they say.
@@ -59,15 +57,13 @@ impl JointSigns {
             signs.map(|(rocker, bogie)| Signs { rocker, bogie, paths: HubPaths::of_length(length_m) })
         };
         let candidates = PerSide { left: of_side(), right: of_side() };
-        Self { rover, length_m, before_us: None, at_m: Planar::default(), candidates }
+        Self { rover, length_m, steps: Steps::default(), at_m: Planar::default(), candidates }
     }
 
     /// Takes a frame.
     pub fn take(&mut self, frame: &SensorFrame) {
-        let before_us = self.before_us.replace(frame.time_us);
-        let step_s = before_us.and_then(|before| frame.time_us.checked_sub(before)).map(|step| 1e-6 * step as f64);
-        let posture = Posture::of(frame).zip(step_s.filter(|step| *step <= LONGEST_FRAME_S));
-        let Some((posture, step_s)) = posture else {
+        let step_s = self.steps.since_before_s(frame);
+        let Some((posture, step_s)) = Posture::of(frame).zip(step_s) else {
             self.candidates.as_array_mut().into_iter().flatten().for_each(|signs| signs.paths.begin_anew());
             return;
         };
@@ -101,11 +97,12 @@ impl JointSigns {
 
     /// Whether a side's rocker and whether its bogie is clearly the other way round.
     fn turned(&self, candidates: &[Signs; 4]) -> (bool, bool) {
-        let [as_said, ..] = candidates.each_ref().map(|signs| signs.paths.apart());
+        let [as_said, ..] = candidates;
+        let (compared, apart) = (as_said.paths.compared(), as_said.paths.apart());
         let best = candidates.iter().min_by(|a, b| a.weighed().total_cmp(&b.weighed()));
-        let is_clear = |best: &&Signs| best.paths.apart().squares < CLEARLY * as_said.squares;
-        let tolerated = as_said.count * (TOLERATED * self.length_m).powi(2);
-        let tells = as_said.count >= LEAST_COMPARED && as_said.squares > tolerated;
+        let is_clear = |best: &&Signs| best.paths.apart() < CLEARLY * apart;
+        let tolerated = compared * (TOLERATED * self.length_m).powi(2);
+        let tells = compared >= LEAST_COMPARED && apart > tolerated;
         best.filter(|_| tells).filter(is_clear).map_or((false, false), |best| (best.rocker < 0.0, best.bogie < 0.0))
     }
 }
@@ -114,7 +111,7 @@ impl Signs {
     /// How far the hubs' paths are apart, for comparison: each joint that is turned round has to pay for itself.
     fn weighed(&self) -> f64 {
         let turned = [self.rocker, self.bogie].into_iter().filter(|sign| *sign < 0.0);
-        turned.fold(self.paths.apart().squares, |left, _| left / EACH_JOINT)
+        turned.fold(self.paths.apart(), |left, _| left / EACH_JOINT)
     }
 }
 

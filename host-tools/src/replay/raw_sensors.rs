@@ -6,6 +6,24 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 /// Slower than this a rover does not drive, m/s.
 pub const DRIVING_M_S: f64 = 0.005;
 
+/// Longer than this no frame lasts, s.
+const LONGEST_FRAME_S: f64 = 1.0;
+
+/// How long frames last, one after the other.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Steps {
+    before_us: Option<u64>,
+}
+
+impl Steps {
+    /// Time since the frame before, s; none of the first, and where frames are missing or out of order.
+    pub fn since_before_s(&mut self, frame: &SensorFrame) -> Option<f64> {
+        let before_us = self.before_us.replace(frame.time_us)?;
+        let step_s = 1e-6 * frame.time_us.checked_sub(before_us)? as f64;
+        (step_s <= LONGEST_FRAME_S).then_some(step_s)
+    }
+}
+
 /// A reading that is a number.
 pub fn wide(reading: Option<f32>) -> Option<f64> {
     reading.map(f64::from).filter(|number| number.is_finite())

@@ -152,7 +152,7 @@ fn seeds_differ_and_repeat() {
     assert!(one[0].1.soil != two[0].1.soil && one[40].0 != two[40].0);
 }
 
-/// A left-hand relief of a mirrored rover is a right-hand relief: the world has no preferred side.
+/// Whichever side that is: the world prefers none.
 #[test]
 fn a_rock_under_one_side_lifts_that_side() {
     for (seed, under) in [(41, Side::Left), (44, Side::Right)] {
