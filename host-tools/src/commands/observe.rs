@@ -152,11 +152,7 @@ fn check_manoeuvres(arguments: &Arguments) -> Result<(), HostError> {
 
 fn observability(arguments: &Arguments) -> Result<Observability, HostError> {
     let (soil, soil_in_words) = soil(&arguments.soil)?;
-    let rover = match &arguments.rover {
-        Some(path) => RoverFile::read(path)?,
-        None => RoverFile::assumed(),
-    }
-    .rover;
+    let rover = RoverFile::read_or_assumed(arguments.rover.as_deref())?.rover;
     let question = arguments.question(rover, soil);
     let map_question = arguments.map_question(&question);
     // The map is only computed where it is drawn.
@@ -218,7 +214,7 @@ impl Arguments {
         let measurement = WheelMeasurement { noise: KAPVIK_INSTANT_NOISE, sinkage_seen: false, lasting, beforehand };
         MapQuestion {
             wheel: rover.wheel,
-            load_n: rover.mass_kg * rover.gravity_m_s2 / 6.0,
+            load_n: rover.load_at_rest_n(),
             soil: question.soil,
             measurement,
             instants_per_second: INSTANTS_PER_SECOND,

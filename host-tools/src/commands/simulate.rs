@@ -1,5 +1,6 @@
 //! `kapvik simulate`: sensor frames of a drive, with truth.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -81,10 +82,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         let output = arguments.output.display();
         return Err(HostError::Failed(format!("{output}: expected a file on disk: what was true goes beside it")));
     }
-    let RoverFile { rover, grousers } = match &arguments.rover {
-        Some(path) => RoverFile::read(path)?,
-        None => RoverFile::assumed(),
-    };
+    let RoverFile { rover, grousers } = RoverFile::read_or_assumed(arguments.rover.as_deref())?;
     let (effects, faults) = effects_and_faults(&arguments.effect)?;
     let soil = arguments.soil.as_deref().map(soil_argument::soil).transpose()?;
     let changes = arguments.then.iter().map(|text| change(text)).collect::<Result<Vec<_>, _>>()?;
@@ -177,6 +175,7 @@ fn change(text: &str) -> Result<Change, HostError> {
 fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), HostError> {
     let mut effects = RoverEffects::default();
     let mut faults = Vec::new();
+    let mut given = BTreeSet::new();
     for text in texts {
         let refuse = |message: String| HostError::Failed(format!("--effect {text}: {message}"));
         let (id, value) = text.split_once('=').ok_or_else(|| refuse("expected ID=VALUE".into()))?;
@@ -186,6 +185,9 @@ fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), Ho
             }
             faults.push(Fault::parse(*failure, value).map_err(refuse)?);
             continue;
+        }
+        if !given.insert(id) {
+            return Err(refuse(format!("`{id}` is given twice: expected it once")));
         }
         let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
         // A wrong name is told before a wrong number.

@@ -101,6 +101,14 @@ impl RoverFile {
         Self { rover: Rover::assumed(), grousers: GROUSERS }
     }
 
+    /// That of a file, or the assumed one where none is given.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_or_assumed(path: Option<&Path>) -> Result<Self, HostError> {
+        path.map_or_else(|| Ok(Self::assumed()), Self::read)
+    }
+
     /// Reads a rover file.
     ///
     /// # Errors

@@ -73,10 +73,7 @@ impl Recording {
     /// # Errors
     /// Where a file cannot be read, the frames have no header, or there can be no such rover.
     pub fn open(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
-        let rover = match rover {
-            Some(path) => RoverFile::read(path)?.rover,
-            None => Rover::assumed(),
-        };
+        let rover = RoverFile::read_or_assumed(rover)?.rover;
         let file = File::open(frames).map_err(HostError::file(frames))?;
         let length = file.metadata().map_err(HostError::file(frames))?.len();
         let input = BufReader::new(progress_bar(length).wrap_read(file));

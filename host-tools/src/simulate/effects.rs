@@ -77,7 +77,7 @@ impl RoverEffects {
     ///
     /// # Errors
     /// What is wrong with the name or the value: there is no such effect or parameter, it means nothing on a rover, or the value is outside
-    /// its bounds.
+    /// its bounds, which those of sensors do not have.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), EffectError> {
         if let Some(own) = OWN.iter().find(|own| own.id == name) {
             if !own.range.contains(&value) {
@@ -102,8 +102,9 @@ impl RoverEffects {
         if let Some(reason) = lacks(id, parameter) {
             return refused(format!("{name} means nothing on a rover: {reason}. What does: {}", known()));
         }
-        if !acts_on_sensors(id) && !(about.low..=about.high).contains(&value) {
-            return refused(format!("{parameter} = {value}: expected {} to {} {}", about.low, about.high, about.unit));
+        if !info.any_size && !(about.low..=about.high).contains(&value) {
+            let unit = if about.unit == "-" { String::new() } else { format!(" {}", about.unit) };
+            return refused(format!("{parameter} = {value}: expected {} to {}{unit}", about.low, about.high));
         }
         self.library.set(id, parameter, value);
         Ok(())
@@ -138,12 +139,6 @@ pub fn known() -> String {
     let library = CATALOGUE.iter().filter(|info| form_on_a_rover(info).is_some()).map(|info| info.id);
     let own = OWN.iter().map(|own| own.id).filter(|id| effect_info(id).is_none());
     library.chain(own).collect::<Vec<_>>().join(", ")
-}
-
-/// Effects of sensors and drives alone, which may be of any size.
-fn acts_on_sensors(id: &str) -> bool {
-    ["drive-friction", "torque-scale", "force-bias", "force-drift", "crosstalk", "guide-friction", "pitch-misalignment"]
-        .contains(&id)
 }
 
 /// Why a parameter means nothing on a rover; none where it does something.

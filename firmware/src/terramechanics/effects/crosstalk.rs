@@ -82,6 +82,7 @@ impl<S: Scalar> Effect<S> for Crosstalk<S> {
             needs: &[Column::Torque, Column::DrawbarPull],
         },
     ];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         let (pull_n, load_n, side_n) = (truth.drawbar_pull_n, truth.load_n, truth.side_force_n);

@@ -46,6 +46,7 @@ impl<S: Scalar> Effect<S> for DriveFriction<S> {
             needs: &[Column::Torque, Column::WheelRate],
         },
     ];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         // A wheel of unknown rate turns forward, as the wheels of campaigns do; then only dry friction is known.

@@ -26,6 +26,7 @@ impl<S: Scalar> Effect<S> for ForceBias<S> {
         Form { name: "load", free: &["load_n"], set: &[], needs: &[Column::Load] },
         Form { name: "side force", free: &["side_force_n"], set: &[], needs: &[Column::SideForce] },
     ];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         readings.drawbar_pull_n += self.drawbar_pull_n;

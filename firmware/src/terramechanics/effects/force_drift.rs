@@ -108,6 +108,7 @@ impl<S: Scalar> Effect<S> for ForceDrift<S> {
             needs: &[Column::SideForce, Column::Temperature],
         },
     ];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         if let Some(hours) = at.conditions.hours_since_zero.map(|hours| saturated(hours, self.settling_per_h)) {

@@ -20,6 +20,7 @@ impl<S: Scalar> Effect<S> for GuideFriction<S> {
     const TEST: &'static str = "a horizontal force on the standing wheel, to both sides";
     const FORMS: &'static [Form] =
         &[Form { name: "load", free: &["mu"], set: &[], needs: &[Column::Load, Column::DrawbarPull] }];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         readings.load_n += -(self.coefficient * truth.drawbar_pull_n.abs());

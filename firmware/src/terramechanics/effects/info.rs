@@ -96,6 +96,8 @@ pub struct EffectInfo {
     pub parameters: &'static [ParameterInfo],
     /// Its forms.
     pub forms: &'static [Form],
+    /// Whether it may be of any size, as offsets and gains of sensors may: the bounds of its parameters are where to look for it, then.
+    pub any_size: bool,
 }
 
 impl EffectInfo {

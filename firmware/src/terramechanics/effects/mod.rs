@@ -85,6 +85,8 @@ pub trait Effect<S: Scalar>: Parameters<S> {
     const TEST: &'static str;
     /// The forms in which it may come.
     const FORMS: &'static [Form];
+    /// Whether it may be of any size, as offsets and gains of sensors may: the bounds of its parameters are where to look for it, then.
+    const ANY_SIZE: bool = false;
 
     /// Changes the soil that this wheel meets at this instant.
     fn soil(&self, _soil: &mut Soil<S>, _at: &Circumstances<'_, S>) {}
@@ -122,6 +124,7 @@ macro_rules! effects {
                 test: <$effect<f64> as Effect<f64>>::TEST,
                 parameters: <$effect<f64> as Parameters<f64>>::PARAMETERS,
                 forms: <$effect<f64> as Effect<f64>>::FORMS,
+                any_size: <$effect<f64> as Effect<f64>>::ANY_SIZE,
             }, )+
         ];
 

@@ -37,6 +37,7 @@ impl<S: Scalar> Effect<S> for PitchMisalignment<S> {
             needs: &[Column::DrawbarPull, Column::Pitch],
         },
     ];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, truth: &WheelTruth<S>, at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         let pitch = at.conditions.pitch_rad.unwrap_or(S::zero());

@@ -18,6 +18,7 @@ impl<S: Scalar> Effect<S> for TorqueScale<S> {
     const SUMMARY: &'static str = "the torque channel has a gain error";
     const TEST: &'static str = "a known torque on the wheel: a weight on a lever";
     const FORMS: &'static [Form] = &[Form { name: "gain", free: &["gain"], set: &[], needs: &[Column::Torque] }];
+    const ANY_SIZE: bool = true;
 
     fn read(&self, readings: &mut Readings<S>, _truth: &WheelTruth<S>, _at: &Circumstances<'_, S>, _: &mut Memory<S>) {
         readings.torque_nm = readings.torque_nm * (S::one() + self.gain_error);
