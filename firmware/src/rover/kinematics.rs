@@ -30,6 +30,14 @@ pub struct BodyMotion<S> {
     pub turn_rad_s: Axes<S>,
 }
 
+impl<S: Scalar> LinkAngles<S> {
+    /// Rates of rocker and bogie against inertial space while the body moves so, rad/s, nose-up.
+    pub fn inertial_rates_rad_s(&self, body: &BodyMotion<S>) -> [S; 2] {
+        let rocker = self.rocker.rate_rad_s - body.turn_rad_s.y;
+        [rocker, rocker + self.bogie.rate_rad_s]
+    }
+}
+
 /// Hubs and bogie pivot of a side in the body's axes, m from the midpoint of the differential axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SideLayout<S> {
@@ -64,9 +72,7 @@ impl<S: Scalar> SideLayout<S> {
     /// Velocities of the hubs in the body's axes, m/s, in the plane of the side.
     pub fn hub_velocities_m_s(&self, motion: &BodyMotion<S>, angles: &LinkAngles<S>) -> PerAxle<Planar<S>> {
         let axis = self.axis_velocity_m_s(motion);
-        // The rates against inertial space, nose-up.
-        let rocker = angles.rocker.rate_rad_s - motion.turn_rad_s.y;
-        let bogie = rocker + angles.bogie.rate_rad_s;
+        let [rocker, bogie] = angles.inertial_rates_rad_s(motion);
         let pivot = axis + self.bogie_pivot.swept(rocker);
         PerAxle {
             front: axis + self.hubs.front.swept(rocker),

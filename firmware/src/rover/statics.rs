@@ -15,7 +15,11 @@ pub struct HubContact<S> {
 impl<S: Scalar> HubContact<S> {
     /// A contact at an angle, in the coordinates that the angle is measured in, rad, positive uphill.
     pub fn at(angle_rad: S) -> Self {
-        let tangent = Planar::direction(angle_rad.sin_cos());
+        Self::along(Planar::direction(angle_rad.sin_cos()))
+    }
+
+    /// A contact along a direction of length one, forward.
+    pub fn along(tangent: Planar<S>) -> Self {
         Self { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
     }
 

@@ -115,9 +115,8 @@ impl World {
         let joints = motion.pose.joints(&motion.rates, side);
         let body = motion.pose.motion(&motion.rates);
         let velocities = layout.hub_velocities_m_s(&body, &joints);
-        // Nose-up against inertial space: a wheel held on its link turns back with it.
-        let rocker_rate = joints.rocker.rate_rad_s - body.turn_rad_s.y;
-        let bogie_rate = rocker_rate + joints.bogie.rate_rad_s;
+        let [rocker_rate, bogie_rate] = joints.inertial_rates_rad_s(&body);
+        // A wheel held on its link turns back with it.
         let link_rates = PerAxle { front: rocker_rate, middle: bogie_rate, rear: bogie_rate };
         let place = |axle: Axle| {
             let rim_speed = *rim_speeds.of(axle) - self.rover.wheel.radius_m * *link_rates.of(axle);
@@ -157,6 +156,18 @@ impl World {
         }
     }
 
+    /// Where a hub at this place in the body is over the ground.
+    pub fn hub_over_ground(&self, (side, axle): (Side, Axle), pose: &Pose, hub_m: Axes<f64>) -> HubOverGround {
+        let from_axis = pose.into_world(hub_m);
+        let x_m = pose.x + from_axis.x;
+        let ground = self.terrain.at(side, axle, x_m);
+        let contact = contact_in_wheel_plane(pose, &ground);
+        let normal = pose.into_world(Axes { x: contact.normal.x, y: 0.0, z: contact.normal.z });
+        let above_m = pose.z + from_axis.z - ground.height_m;
+        let distance_m = above_m / (normal.z - ground.slope * normal.x);
+        HubOverGround { x_m, ground, contact, normal, above_m, distance_m }
+    }
+
     fn wheel(
         &self,
         (side, axle): (Side, Axle),
@@ -166,14 +177,10 @@ impl World {
         velocity_m_s: Planar<f64>,
         rim_speed_m_s: f64,
     ) -> Result<WheelInstant, ForceError> {
-        let from_axis = pose.into_world(hub_m);
-        let ground = self.terrain.at(side, axle, pose.x + from_axis.x);
-        let contact = contact_in_wheel_plane(pose, &ground);
+        let HubOverGround { x_m, ground, contact, normal, above_m, distance_m } =
+            self.hub_over_ground((side, axle), pose, hub_m);
         let in_world = |v: Planar<f64>| pose.into_world(Axes { x: v.x, y: 0.0, z: v.z });
-        let (normal, velocity) = (in_world(contact.normal), in_world(velocity_m_s));
-        // The hub's distance from the terrain's tangent, measured along the normal that lies in the wheel's plane.
-        let above_m = pose.z + from_axis.z - ground.height_m;
-        let distance_m = above_m / (normal.z - ground.slope * normal.x);
+        let velocity = in_world(velocity_m_s);
         // On ground that curves the tangent turns under the hub, which is no sinking.
         let turned_m_s = above_m * normal.x * normal.z * normal.z * ground.slope_change_1_m * velocity.x;
         let motion = WheelMotion {
@@ -182,7 +189,7 @@ impl World {
             sinkage_m: self.rover.wheel.radius_m - distance_m,
             sinking_m_s: -velocity_m_s.dot(contact.normal) - turned_m_s,
         };
-        let soil = self.soils.under(side, pose.x + from_axis.x);
+        let soil = self.soils.under(side, x_m);
         let forces = motion.forces(&self.on(&soil), conditions)?;
         let contact_angle_rad = libm::asin(in_world(contact.tangent).z.clamp(-1.0, 1.0));
         Ok(WheelInstant { hub_m, contact, contact_angle_rad, motion, forces, side_force_n: 0.0 })
@@ -265,11 +272,27 @@ impl WheelInstant {
     }
 }
 
+/// A hub over the ground.
+#[derive(Debug, Clone, Copy)]
+pub struct HubOverGround {
+    /// Where along the way, m.
+    pub x_m: f64,
+    /// The ground there.
+    pub ground: Ground,
+    /// The ground in the plane of the wheel, in the body's axes.
+    pub contact: HubContact<f64>,
+    /// Its normal in the world's axes.
+    pub normal: Axes<f64>,
+    /// How far the hub is above the ground, m, straight up.
+    pub above_m: f64,
+    /// How far it is from the terrain's tangent, m, along that normal.
+    pub distance_m: f64,
+}
+
 /// Tangent and normal of the ground in the plane of the wheels (x and z of the body). The ground rises along the world's x
 /// and is level across; the tangent is where that surface cuts the wheel's plane.
 fn contact_in_wheel_plane(pose: &Pose, ground: &Ground) -> HubContact<f64> {
     let (sine, cosine) = libm::sincos(pose.pitch);
     let along = Planar { x: libm::cos(pose.roll) * (cosine + ground.slope * sine), z: ground.slope * cosine - sine };
-    let tangent = along.scaled(1.0 / along.length());
-    HubContact { tangent, normal: Planar { x: -tangent.z, z: tangent.x } }
+    HubContact::along(along.scaled(1.0 / along.length()))
 }

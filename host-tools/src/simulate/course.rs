@@ -50,7 +50,7 @@ impl Default for Demand {
 }
 
 /// How deep a wheel may sink under its share of the weight, over its radius.
-const DEEPEST: f64 = 0.45;
+const DEEPEST_AT_REST: f64 = 0.45;
 /// A rover on the level slips at least as much: on cohesive soils with small K it would brake to go at steady speed, which the
 /// equations allow and the networks never saw.
 const LEAST_SLIP: f64 = 0.02;
@@ -61,7 +61,7 @@ pub const HARD_SLIP: f64 = 0.6;
 
 /// Pull over load and sinkage over radius of a wheel on level ground that carries its share of the weight.
 pub fn pull_ratio(rover: &Rover<f64>, soil: &Soil<f64>, slip: f64) -> Option<(f64, f64)> {
-    let load_n = rover.mass_kg * rover.gravity_m_s2 / 6.0;
+    let load_n = rover.load_at_rest_n();
     let sinkage_m = sinkage_for_load(&rover.wheel, soil, slip, load_n).ok()?;
     let forces = wheel_forces(&rover.wheel, soil, slip, sinkage_m).ok()?;
     Some((forces.drawbar_pull_n / load_n, sinkage_m / rover.wheel.radius_m))
@@ -82,7 +82,7 @@ impl Demand {
         let pull_at = |slip: f64| pull_ratio(rover, soil, slip).map(|(pull, _)| pull);
         let (least_slip, most_slip) = self.level_slip;
         hard >= self.pull_ratio
-            && depth <= DEEPEST
+            && depth <= DEEPEST_AT_REST
             && pull_at(EASY_SLIP).is_some_and(|easy| !self.spread || 5.0 * easy + hard <= 0.0)
             && pull_at(least_slip).is_some_and(|pull| pull < 0.0)
             && pull_at(most_slip).is_some_and(|pull| pull > 0.0)

@@ -32,6 +32,7 @@ pub mod programme;
 mod scenario;
 mod sensors;
 mod sliding;
+mod standing;
 mod stepper;
 pub mod terrain;
 mod traverse;

@@ -2,11 +2,12 @@
 
 use kapvik_firmware::rover::{Axes, PerWheel};
 
-use super::balance::{Instant, Motion, World};
+use super::balance::{Instant, Motion, WheelInstant, World};
 use super::felt_slip::felt_slip_after;
 use super::newton::{Newton, Residual};
 use super::pose::{Coordinates, Pose};
-use super::wheel_soil::{WheelMotion, standing_conditions};
+use super::standing::{about_standing, standing_on_hubs};
+use super::wheel_soil::WheelMotion;
 
 /// The longest step, s.
 const LONGEST_STEP_S: f64 = 0.05;
@@ -120,11 +121,14 @@ impl Residual for Step<'_> {
 }
 
 impl Stepper {
-    /// The rover standing at rest with its differential axis at x = 0; `None` where the ground does not hold it.
+    /// The rover standing at rest on all its wheels with its differential axis at x = 0; `None` where the ground does not hold it so.
     pub fn at_rest(world: &World) -> Option<(Self, Instant)> {
-        let start = Coordinates::from(standing(world)?);
-        let solved = Newton::default().solve(&AtRest { world, x_m: 0.0 }, start)?;
-        let instant = solved.state;
+        let instant = [about_standing, standing_on_hubs].into_iter().find_map(|pose| {
+            let solved = Newton::default().solve(&AtRest { world, x_m: 0.0 }, pose(world)?.into())?;
+            // What balances on some of its wheels falls over.
+            let bears = |wheel: &WheelInstant| wheel.forces.load_n > 0.0;
+            solved.state.wheels.iter_wheels().all(bears).then_some(solved.state)
+        })?;
         let past = Past { pose: instant.motion.pose.into(), centre_velocity_m_s: Axes::default() };
         let stepper = Self {
             newton: Newton::default(),
@@ -170,7 +174,7 @@ impl Stepper {
         Ok(reached)
     }
 
-    /// One step; `None` where no balance is found.
+    /// One step; `None` where no balance is found: the next try makes its slopes anew, for those of this one have led nowhere.
     fn step(&mut self, world: &World, step_s: f64, rim_speed_m_s: PerWheel<f64>) -> Option<Instant> {
         let difference = BackwardDifference::new(step_s, self.between_s);
         let rim_way_m = self.rim_way_m(step_s, &rim_speed_m_s);
@@ -218,27 +222,4 @@ fn centre_velocity_m_s(world: &World, pose: &Pose, rates: &Pose) -> Axes<f64> {
         z: turn.x * centre.y - turn.y * centre.x,
     });
     Axes { x: rates.x + swept.x, y: swept.y, z: rates.z + swept.z }
-}
-
-/// About where the rover stands: on the plane through the ground under its outer hubs, sunk as a wheel with its share of
-/// the weight. The sinkage is also what tells that the soil can carry it.
-fn standing(world: &World) -> Option<Pose> {
-    use kapvik_firmware::rover::{Axle, Side};
-    let suspension = &world.rover.suspension;
-    let weight_n = world.rover.mass_kg * world.rover.gravity_m_s2;
-    let soil = world.soils.at(0.0);
-    let sinkage_m = world.on(&soil).at_load(&standing_conditions(), 0.0, weight_n / 6.0).ok()?.sinkage_m;
-    let rear = suspension.bogie_pivot + suspension.rear_hub;
-    let height = |side, axle, x| world.terrain.at(side, axle, x).height_m;
-    let front = Side::ALL.map(|side| height(side, Axle::Front, suspension.front_hub.x));
-    let back = Side::ALL.map(|side| height(side, Axle::Rear, rear.x));
-    let rise = 0.5 * (front.left + front.right - back.left - back.right);
-    let pitch = libm::atan2(rise, suspension.front_hub.x - rear.x);
-    let lean = 0.5 * (front.left + back.left - front.right - back.right);
-    let roll = libm::atan2(lean, 2.0 * suspension.half_track_m);
-    let mean = 0.25 * (front.left + front.right + back.left + back.right);
-    let middle_x = 0.5 * (suspension.front_hub.x + rear.x);
-    let up = world.rover.wheel.radius_m - sinkage_m - 0.5 * (suspension.front_hub.z + rear.z);
-    let z = mean - middle_x * libm::tan(pitch) + up / libm::cos(pitch);
-    Some(Pose { z, pitch, roll, ..Pose::default() })
 }

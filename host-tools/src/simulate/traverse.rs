@@ -60,7 +60,10 @@ pub enum SimulationError {
     #[error("rolling-radius: expected one that leaves the wheels a radius above 0 m")]
     NoRadius,
     /// The rover cannot stand where it should start.
-    #[error("the rover does not stand: the soil is too weak for its weight")]
+    #[error(
+        "the rover does not stand on all its wheels where it should start: the soil is too weak for its weight, or its suspension \
+         lifts a wheel"
+    )]
     Standing,
     /// No motion balances the forces.
     #[error(
