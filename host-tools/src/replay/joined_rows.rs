@@ -46,9 +46,10 @@ impl<I: Iterator<Item = Result<SensorFrame, HostError>>> Iterator for JoinedRows
             Err(error) => return Some(Err(error)),
         };
         let begins_us = frame.time_us;
+        let follows = |row: &SensorFrame| row.time_us.checked_sub(begins_us).is_some_and(|after| after <= APART_US);
         loop {
             match self.rows.next() {
-                Some(Ok(row)) if row.time_us.saturating_sub(begins_us) <= APART_US && add(&mut frame, &row) => {
+                Some(Ok(row)) if follows(&row) && add(&mut frame, &row) => {
                     self.joined.set(self.joined.get() + 1);
                 }
                 other => {
@@ -108,6 +109,8 @@ mod tests {
             [rocker(0), camera(100_000)],
             [rocker(0), SensorFrame { time_us: 5_000, ..SensorFrame::default() }],
             [SensorFrame::default(), rocker(5_000)],
+            // A clock that was set back.
+            [rocker(500_000), camera(100_000)],
         ];
         for rows in cases {
             assert_eq!(frames(&rows), (rows.to_vec(), 0));

@@ -123,7 +123,7 @@ impl Faults {
                 continue;
             }
             lost |= fault.failure == Failure::SkipFrames;
-            let before = values(held.as_ref().unwrap_or(frame));
+            let before = values(held.get_or_insert(*frame));
             for ((value, before), _) in
                 values_mut(&mut failed).zip(before).zip(&fault.columns).filter(|(_, fails)| **fails)
             {

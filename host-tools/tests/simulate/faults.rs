@@ -48,6 +48,15 @@ fn failures_change_their_columns_at_their_time_and_nothing_else() {
 }
 
 #[test]
+fn a_sensor_that_is_stuck_from_the_first_frame_on_repeats_that_one() {
+    let found = frames(vec![Fault::new(Failure::Stuck, "gyro_*", (0.0, 5.0)).expect("a fault")]);
+    let clean = frames(Vec::new());
+    assert_ne!(clean[50].gyro_rad_s, clean[0].gyro_rad_s);
+    assert!(found[..=50].iter().all(|frame| frame.gyro_rad_s == clean[0].gyro_rad_s));
+    assert_eq!(found[51], clean[51]);
+}
+
+#[test]
 fn skipped_frames_are_missing_and_repeated_ones_say_the_same() {
     let clean = frames(Vec::new());
     let skipped = frames(vec![Fault::parse(Failure::SkipFrames, "@2-3").expect("a fault")]);
