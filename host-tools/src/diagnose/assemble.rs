@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use kapvik_firmware::terramechanics::effects::effect_info;
+
 use crate::data::campaign::{Campaign, Channel};
 
+use super::candidates::is_by_load;
 use super::document::{
     Candidate, ChannelErrors, Diagnosis, EndsApart, ErrorPair, Estimate, FoundEffect, LevelsLeftOut, RunnerUp,
     Unexplained, Verdict,
@@ -14,6 +17,7 @@ use super::forward::Selected;
 use super::held_out_errors::HeldOutErrors;
 use super::left_over::{LeftOver, left_over};
 use super::measurements::{Measurements, column_name};
+use super::noise::Noise;
 use super::selection::Judged;
 use super::trial::Trial;
 
@@ -63,6 +67,7 @@ pub fn assemble(
         caveats: super::caveats::caveats(campaign, measurements, selected),
     };
     document.caveats.extend(by_themselves.caveats.iter().cloned());
+    document.caveats.extend(error_of_load(selected, by_themselves));
     document.caveats.extend(without_answer(measurements, &document.held_out_runs));
     document.caveats.extend(no_error_falls(&document));
     super::sentence::tell(&mut document, campaign, errors);
@@ -147,8 +152,13 @@ fn channels(
     errors: &HeldOutErrors,
 ) -> BTreeMap<String, ChannelErrors> {
     let noise_of = |reading: Reading| {
-        let noise = measurements.noise[reading.index()];
-        noise.std * if noise.stated { 1.0 } else { selected.model().fit.noise_scale[reading.index()] }
+        let Noise { std, stated, of_repeats } = measurements.noise[reading.index()];
+        if stated {
+            return std;
+        }
+        // A model that lacks something takes that for noise: what repeats scatter by tells better.
+        let by_fit = std * selected.model().fit.noise_scale[reading.index()];
+        of_repeats.map_or(by_fit, |of_repeats| of_repeats.min(by_fit))
     };
     // As many newtons as a metre of sinkage is worth.
     let by_sinkage = || {
@@ -195,6 +205,20 @@ fn without_answer(measurements: &Measurements, predicted: &[String]) -> Option<S
             runs.join(", ")
         )
     })
+}
+
+/// What is said where something found follows a load whose readings show an error of their own.
+fn error_of_load(selected: &Selected<'_>, by_themselves: &ForceChannels) -> Option<String> {
+    let is_of_load =
+        |effect: &&FoundEffect| effect.parameters.keys().any(|name| name.starts_with(Channel::Load.name()));
+    let error = by_themselves.effects.iter().find(is_of_load)?;
+    let follows_load = |id: &&str| effect_info(id).is_some_and(is_by_load);
+    let found = selected.found.iter().map(|found| found.winner.id()).find(follows_load)?;
+    Some(format!(
+        "{found} may be nothing but the {} that the readings of the load show by themselves: a load that is read wrong, and a soil that answers \
+         to the load, look alike to the other channels.",
+        error.id
+    ))
 }
 
 /// What is said where something was found and no channel is predicted the better for it.

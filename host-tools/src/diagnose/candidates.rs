@@ -27,7 +27,7 @@ pub fn candidates(campaign: &Campaign, measurements: &Measurements, model: &Spec
 }
 
 /// Whether an effect is what a load makes of the soil against another load.
-fn is_by_load(info: &EffectInfo) -> bool {
+pub fn is_by_load(info: &EffectInfo) -> bool {
     info.parameters.iter().any(|parameter| parameter.name == "reference_load_n")
 }
 

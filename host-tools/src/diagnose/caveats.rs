@@ -31,62 +31,69 @@ const REMEMBERS: &str = "What is left of a channel goes together from row to row
 
 /// The caveats, sentence by sentence: those of the campaign's own notes, then what the data cannot decide.
 pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Vec<String> {
-    let mut said = campaign.notes.clone();
-    said.extend(campaign.remarks());
+    let model = selected.model();
+    let found = selected.found.iter();
+    let ends = found.clone().flat_map(|found| at_an_end(model, found.winner.id()));
+    let untold_by_verdict = found.enumerate().filter(|(place, found)| *place > 0 || !found.also_near.is_empty());
+    let noted = campaign.notes.iter().cloned().chain(campaign.remarks());
+    noted
+        .chain(of_data(campaign, measurements).into_iter().flatten())
+        .chain(of_fit(model).into_iter().flatten())
+        .chain(off_by_run(measurements, selected))
+        .chain(ends)
+        .chain(untold_by_verdict.filter_map(|(_, found)| left_open(found)))
+        .chain(untold(selected))
+        .collect()
+}
+
+/// What these data cannot tell, whatever the model.
+fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>; 8] {
     let runs = measurements.runs.len();
-    if runs < 5 && campaign.runs().len() > 1 {
-        said.push(format!("Only {runs} runs: what is found rests on few independent observations."));
-    }
-    said.extend((measurements.has(Reading::Load) && !loads_differ(measurements)).then(|| {
-        "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load; an \
-         offset of the drawbar pull, a tilt and a share of the load look alike."
-            .to_owned()
-    }));
-    if measurements.is_load_set {
-        said.push(SET_LOAD.to_owned());
-    }
-    if !measurements.has(Reading::Load) {
-        said.push(NO_LOAD.to_owned());
-    }
-    said.extend(
-        spread(measurements, Reading::Slip)
+    let has = |reading| measurements.has(reading);
+    let slips = spread(measurements, Reading::Slip);
+    [
+        (runs < 5 && campaign.runs().len() > 1)
+            .then(|| format!("Only {runs} runs: what is found rests on few independent observations.")),
+        (has(Reading::Load) && !loads_differ(measurements)).then(|| {
+            "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load; an \
+             offset of the drawbar pull, a tilt and a share of the load look alike."
+                .to_owned()
+        }),
+        measurements.is_load_set.then(|| SET_LOAD.to_owned()),
+        (!has(Reading::Load)).then(|| NO_LOAD.to_owned()),
+        slips
             .filter(|(low, high)| high - low < ONE_SLIP)
             .map(|_| "Constant slip: the shear modulus and every effect of slip are beyond these data.".to_owned()),
-    );
-    if !measurements.has(Reading::Torque) {
-        said.push("No torque: what resists the wheel and what drives it are seen only in their difference.".to_owned());
-    }
-    if !measurements.has(Reading::Sinkage) {
-        said.push("No sinkage: the stiffness of the soil is known only through the forces.".to_owned());
-    }
-    let guessed = Reading::JUDGED
-        .into_iter()
-        .filter(|reading| measurements.has(*reading) && !measurements.noise[reading.index()].stated);
-    let guessed: Vec<_> = guessed.map(column_name).collect();
-    if !guessed.is_empty() {
-        said.push(format!(
-            "The noise of {} is not stated; it is estimated from what the model leaves.",
-            guessed.join(", ")
-        ));
-    }
-    let dispersion = selected.model().fit.dispersion;
-    if dispersion > MISFIT {
-        said.push(format!(
-            "The model misses the data by {:.1} times the stated noise in the mean: stated uncertainties are widened by as much, \
-             and what it lacks besides is not known.",
-            dispersion.sqrt()
-        ));
-    }
-    if selected.model().fit.rows_per_reading() > 1.0 {
-        said.push(REMEMBERS.to_owned());
-    }
-    said.extend(off_by_run(measurements, selected));
-    said.extend(selected.found.iter().flat_map(|found| at_an_end(selected.model(), found.winner.id())));
-    let untold_by_verdict =
-        selected.found.iter().enumerate().filter(|(place, found)| *place > 0 || !found.also_near.is_empty());
-    said.extend(untold_by_verdict.filter_map(|(_, found)| left_open(found)));
-    said.extend(untold(selected));
-    said
+        (!has(Reading::Torque)).then(|| {
+            "No torque: what resists the wheel and what drives it are seen only in their difference.".to_owned()
+        }),
+        (!has(Reading::Sinkage))
+            .then(|| "No sinkage: the stiffness of the soil is known only through the forces.".to_owned()),
+        guessed_noise(measurements),
+    ]
+}
+
+fn guessed_noise(measurements: &Measurements) -> Option<String> {
+    let is_guessed = |reading: &Reading| measurements.has(*reading) && !measurements.noise[reading.index()].stated;
+    let guessed: Vec<_> = Reading::JUDGED.into_iter().filter(is_guessed).map(column_name).collect();
+    (!guessed.is_empty()).then(|| {
+        format!("The noise of {} is not stated; it is estimated from what the model leaves.", guessed.join(", "))
+    })
+}
+
+/// How far what is stated of a fit is to be believed.
+fn of_fit(model: &Trial<'_>) -> [Option<String>; 2] {
+    let dispersion = model.fit.dispersion;
+    [
+        (dispersion > MISFIT).then(|| {
+            format!(
+                "The model misses the data by {:.1} times their noise in the mean: stated uncertainties are widened by as much, and \
+                 what it lacks besides is not known.",
+                dispersion.sqrt()
+            )
+        }),
+        (model.fit.rows_per_reading() > 1.0).then(|| REMEMBERS.to_owned()),
+    ]
 }
 
 /// The channels that are off by another amount in each run, by far more than their stated noise.
@@ -113,7 +120,7 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
         let coordinate = &coordinates[place];
         let info = effect.info.parameters.iter().find(|info| info.name == *name)?;
         let (value, (low, high)) = (trial.fit.parameters[place], (coordinate.low, coordinate.high));
-        let std = trial.fit.covariance[(place, place)].max(0.0).sqrt();
+        let std = trial.std(place);
         let is_near = |end: f64| (value - end).abs() <= std || value == end;
         let end = [low, high].into_iter().find(|end| *end != info.neutral && is_near(*end))?;
         let unit = if info.unit == "-" { String::new() } else { format!(" {}", info.unit) };
@@ -140,8 +147,7 @@ fn untold(selected: &Selected<'_>) -> Option<String> {
     let is_untold = |(place, _): &(usize, &SoilParameter)| {
         let coordinate = &coordinates[*place];
         let width = coordinate.prior.map_or((coordinate.high - coordinate.low) / f64::sqrt(12.0), |(_, std)| std);
-        let std = trial.fit.covariance[(*place, *place)].max(0.0).sqrt();
-        std > TOLD * width || trial.fit.on_bound.get(*place).copied().unwrap_or(false)
+        trial.std(*place) > TOLD * width || trial.fit.on_bound.get(*place).copied().unwrap_or(false)
     };
     let free = trial.model.soil_parameters().iter().enumerate();
     let names: Vec<_> = free.filter(is_untold).map(|(_, parameter)| parameter.key()).collect();

@@ -179,7 +179,8 @@ pub struct ChannelErrors {
     pub rmse_before: f64,
     /// Root mean square error with the effects found.
     pub rmse_after: f64,
-    /// One standard deviation of a reading; of a load that is held against a sinkage, with what the sinkage's noise is worth.
+    /// One standard deviation of a reading; of a load that is held against a sinkage, with what the sinkage's noise is worth. Where it is not
+    /// stated, what the last fit takes it for, or what like rows of two runs scatter by where that is less.
     pub noise: f64,
     /// Whether that was stated by the campaign, or estimated.
     #[serde(default)]

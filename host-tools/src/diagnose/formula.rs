@@ -134,7 +134,7 @@ fn shapes(group: &Group) -> Vec<Shape> {
     shapes
 }
 
-/// Three digits that mean something, without zeros at the end.
+/// At least three digits that mean something, without zeros at the end; all of those before the point up to a million.
 pub fn figure(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return "0".to_owned();

@@ -8,12 +8,10 @@ use super::bench::Bench;
 use super::fit::Reading;
 use super::formula::{Group, figure, rounded};
 use super::linearised::Linearised;
-use super::measurements::median;
-use super::regressors::{correlation, is_scatter, values};
+use super::measurements::{KNOWN_SHARE, median};
+use super::regressors::{causes, correlation, other_causes, values};
 use super::trial::Trial;
 
-/// Share of the rows that must have a column.
-const KNOWN_SHARE: f64 = 0.8;
 /// Spread over size below which a column does not vary.
 const FLAT: f64 = 1e-3;
 /// Correlation beyond which two groups say the same.
@@ -44,11 +42,10 @@ pub fn scale(bench: &Bench<'_>, trial: &Trial<'_>, channel: Reading) -> Scale {
 /// Every group that the campaign's columns allow, those of the columns in `first` before all others.
 pub fn groups(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>, first: &[&str]) -> Vec<Group> {
     let mut all = of_contact(bench, trial, linearised);
-    let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
     let contact = [Channel::Slip, Channel::Load, Channel::Sinkage];
-    let known = Channel::ALL.into_iter().filter(|channel| !results.contains(channel) && !contact.contains(channel));
-    all.extend(known.flat_map(|channel| of_channel(bench, linearised, channel)));
-    let others = bench.campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name));
+    let beside = causes().filter(|channel| !contact.contains(channel));
+    all.extend(beside.flat_map(|channel| of_channel(bench, linearised, channel)));
+    let others = other_causes(bench.campaign);
     all.extend(others.filter_map(|name| of_unknown(name, &column(bench, linearised, name)?)));
     all.sort_by_key(|group| !first.contains(&group.column.as_str()));
     let mut found: Vec<Group> = Vec::new();

@@ -16,6 +16,7 @@ use super::selection::SIGNIFICANT;
 use super::term_screen::Screen;
 use super::trial::Trial;
 use super::unseen_runs::{gains, groups as folds, summed};
+use crate::statistics::root_mean_square;
 
 /// Most terms of a law.
 const MOST_TERMS: usize = 2;
@@ -130,7 +131,7 @@ impl Search<'_, '_> {
         let mut sizes = Vec::new();
         for place in &chosen {
             let values = self.terms[*place].values(&self.groups, &self.scale.values);
-            let size = (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt();
+            let size = root_mean_square(values.iter().copied());
             let unit = self.unit();
             if !(size.is_finite() && size > 0.0 && unit > 0.0) {
                 return None;

@@ -128,11 +128,11 @@ impl Measurements {
             places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
         }
         runs.retain(|(_, places)| !places.is_empty());
-        let runs: Vec<_> = evenly(&runs, MOST_ROWS).collect();
+        let runs: Vec<_> = scattered(&runs, MOST_ROWS, 0).collect();
         let rows = runs.iter().map(|(_, places)| places.len()).sum();
-        for (name, places) in runs {
+        for (number, (name, places)) in runs.into_iter().enumerate() {
             let mut of_run = Vec::new();
-            for place in thinned(places, rows) {
+            for place in thinned(places, rows, number) {
                 let readings = by_place[&place];
                 of_run.push(found.rows.len());
                 found.places.push(place);
@@ -209,16 +209,26 @@ impl Measurements {
     }
 }
 
-/// The rows of a run that stay, evenly along it, where all runs together have `all` rows.
-fn thinned(run: &[usize], all: usize) -> impl Iterator<Item = usize> {
+/// The rows of a run that stay, over all of it, where all runs together have `all` rows.
+fn thinned(run: &[usize], all: usize, number: usize) -> impl Iterator<Item = usize> {
     let share = (run.len() * MOST_ROWS + all / 2) / all;
-    evenly(run, share.max(1)).copied()
+    scattered(run, share.max(1), number).copied()
 }
 
-/// So many of some things, evenly along them; all where there are fewer.
-fn evenly<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+/// Share of the rows that must have a column for something to be said to follow it.
+pub const KNOWN_SHARE: f64 = 0.8;
+
+/// So many of some things, one of each of as many equal parts of them; all where there are fewer. Which one of a part changes from part to
+/// part by the golden section, and so it does from one number to the next: what comes round in step, as six wheels at each instant do, would
+/// else be seen at one and the same place of it.
+fn scattered<T>(all: &[T], most: usize, number: usize) -> impl Iterator<Item = &T> {
+    const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
     let stay = most.min(all.len());
-    (0..stay).map(move |place| &all[place * all.len() / stay])
+    (0..stay).map(move |part| {
+        let [begin, end] = [part, part + 1].map(|part| part * all.len() / stay);
+        let within = (GOLDEN_SECTION * (part + number) as f64).fract();
+        &all[begin + (within * (end - begin) as f64) as usize]
+    })
 }
 
 /// The middle of some numbers; none of none.
@@ -280,21 +290,35 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_many_runs_some_stay_evenly() {
+    fn of_many_runs_some_of_every_part_stay() {
         let rows: Vec<usize> = (0..1000).collect();
-        let kept: Vec<_> = evenly(&rows, MOST_ROWS).copied().collect();
-        assert_eq!((kept.len(), kept[0], kept[1], kept[MOST_ROWS - 1]), (MOST_ROWS, 0, 4, 995));
-        assert_eq!(evenly(&rows[..7], MOST_ROWS).count(), 7);
+        let kept: Vec<_> = scattered(&rows, MOST_ROWS, 0).copied().collect();
+        assert!(kept.len() == MOST_ROWS && kept.windows(2).all(|pair| (1..9).contains(&(pair[1] - pair[0]))));
+        assert_eq!(scattered(&rows[..7], MOST_ROWS, 3).count(), 7);
     }
 
     #[test]
-    fn runs_are_thinned_evenly_and_none_is_lost() {
+    fn runs_are_thinned_and_none_is_lost() {
         let rows: Vec<usize> = (10..20).collect();
-        let stay = |run: &[usize], all: usize| thinned(run, all).collect::<Vec<_>>();
+        let stay = |run: &[usize], all: usize| thinned(run, all, 5).collect::<Vec<_>>();
         assert_eq!(stay(&rows, MOST_ROWS), rows);
-        assert_eq!(stay(&rows, 2 * MOST_ROWS), [10, 12, 14, 16, 18]);
-        assert_eq!(stay(&rows, 4 * MOST_ROWS / 3), [10, 11, 12, 13, 15, 16, 17, 18]);
+        assert_eq!(stay(&rows, 2 * MOST_ROWS).len(), 5);
+        assert_eq!(stay(&rows, 4 * MOST_ROWS / 3).len(), 8);
         assert_eq!(stay(&rows[..1], 1000 * MOST_ROWS), [10]);
         assert!(stay(&[], MOST_ROWS).is_empty());
+    }
+
+    /// Six wheels at each instant: whether the instants of a run, or runs of one instant, are too many.
+    #[test]
+    fn what_comes_round_in_step_is_seen_at_all_its_places() {
+        let of_wheel = |wheel: usize, kept: &[usize]| kept.iter().filter(|row| *row % 6 == wheel).count();
+        let instants: Vec<usize> = (0..6 * MOST_ROWS).collect();
+        let of_one_run: Vec<_> = thinned(&instants, instants.len(), 0).collect();
+        let runs: Vec<Vec<usize>> = instants.chunks(6).map(<[usize]>::to_vec).collect();
+        let of_each: Vec<_> =
+            runs.iter().enumerate().flat_map(|(number, run)| thinned(run, instants.len(), number)).collect();
+        for kept in [of_one_run, of_each] {
+            assert!((0..6).all(|wheel| of_wheel(wheel, &kept).abs_diff(MOST_ROWS / 6) < 8), "{kept:?}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use crate::data::campaign::Campaign;
 
 use super::fit::{CHANNELS, Reading};
 use super::measurements::{COLUMNS, median};
-use crate::statistics::sorted;
+use crate::statistics::{robust_std, sorted};
 
 /// Noise of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Noise {
     pub std: f64,
     /// Whether the campaign states it.
     pub stated: bool,
+    /// Where it is not stated, what runs that repeat each other scatter by, whatever a model makes of them; none where few do.
+    pub of_repeats: Option<f64>,
 }
 
 /// Slip of a campaign that does not say how well it is known.
@@ -21,6 +23,10 @@ const SLIP_STD: f64 = 0.002;
 const LOAD_SHARE: f64 = 0.005;
 /// Fewest rows with one before and one after from which scatter is known.
 const LEAST_BENDS: usize = 8;
+/// Fewest pairs of like rows from which a first guess is made.
+const LEAST_LIKE: usize = 3;
+/// Fewest pairs of like rows of two runs from which noise is known.
+const LEAST_REPEATS: usize = 8;
 /// Rows alike in slip.
 const LIKE_SLIP: f64 = 0.01;
 /// Rows alike in load, as a share of it.
@@ -33,8 +39,12 @@ pub fn channel_noise(campaign: &Campaign, rows: &[(usize, [Option<f64>; CHANNELS
         let channel = COLUMNS[reading.index()];
         let values = || rows.iter().filter_map(|(_, readings)| readings[reading.index()]).collect::<Vec<_>>();
         match campaign.noise.of(channel) {
-            Some(std) if std > 0.0 => Noise { std, stated: true },
-            _ => Noise { std: guess(campaign, reading, rows).max(1e-9 + 1e-4 * spread(values())), stated: false },
+            Some(std) if std > 0.0 => Noise { std, stated: true, of_repeats: None },
+            _ => Noise {
+                std: guess(campaign, reading, rows).max(1e-9 + 1e-4 * spread(values())),
+                stated: false,
+                of_repeats: of_repeats(campaign, reading, rows),
+            },
         }
     })
 }
@@ -63,31 +73,51 @@ fn within_runs(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f6
         let [(before, _), (at, _), (after, _)] = three else { return None };
         let runs = [before, at, after].map(|row| &campaign.rows()[*row].run);
         let [before, at, after] = [three[0].1, three[1].1, three[2].1].map(|readings| readings[reading.index()]);
-        (runs[0] == runs[1] && runs[1] == runs[2]).then_some((before? - 2.0 * at? + after?).abs())
+        (runs[0] == runs[1] && runs[1] == runs[2]).then_some(before? - 2.0 * at? + after?)
     };
-    let sizes: Vec<f64> = rows.windows(3).filter_map(bend).collect();
-    // The median of |N(0, 6σ²)| is 0.6745 √6 σ.
-    let std = (sizes.len() >= LEAST_BENDS).then(|| median(sizes).unwrap_or(0.0) / (0.6745 * f64::sqrt(6.0)));
+    let bends: Vec<f64> = rows.windows(3).filter_map(bend).collect();
+    // Their variance is 6σ².
+    (bends.len() >= LEAST_BENDS).then(|| robust_std(bends) / f64::sqrt(6.0)).filter(|std| *std > 0.0)
+}
+
+/// From the middle size of the differences of like rows.
+fn from_like_rows(reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
+    let differences: Vec<f64> = like_rows(reading, rows).into_iter().map(|(_, difference)| difference).collect();
+    of_differences(differences, LEAST_LIKE)
+}
+
+/// The same of like rows of two runs.
+fn of_repeats(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
+    let run = |row: usize| &campaign.rows()[row].run;
+    let of_two_runs = like_rows(reading, rows).into_iter().filter(|([one, other], _)| run(*one) != run(*other));
+    of_differences(of_two_runs.map(|(_, difference)| difference).collect(), LEAST_REPEATS)
+}
+
+/// Differences have twice the variance of a reading.
+fn of_differences(differences: Vec<f64>, least: usize) -> Option<f64> {
+    let std = (differences.len() >= least).then(|| robust_std(differences) / std::f64::consts::SQRT_2);
     std.filter(|std| *std > 0.0)
 }
 
-/// From the middle size of the differences between rows that follow each other in slip and are alike.
-fn from_like_rows(reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
-    let at = |readings: &[Option<f64>; CHANNELS], reading: Reading| readings[reading.index()];
-    let mut known: Vec<_> = rows
-        .iter()
-        .filter_map(|(_, row)| {
-            Some((at(row, Reading::Slip)?, at(row, Reading::Load).unwrap_or(0.0), at(row, reading)?))
-        })
-        .collect();
-    known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let like = |a: &(f64, f64, f64), b: &(f64, f64, f64)| {
-        (b.0 - a.0).abs() <= LIKE_SLIP && (b.1 - a.1).abs() <= LIKE_LOAD * a.1.abs()
+/// The rows that follow each other in slip and are alike, by their places in the campaign, and by how much their readings differ.
+fn like_rows(reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Vec<([usize; 2], f64)> {
+    struct State {
+        row: usize,
+        slip: f64,
+        load_n: f64,
+        reading: f64,
+    }
+    let state = |(row, readings): &(usize, [Option<f64>; CHANNELS])| {
+        let at = |reading: Reading| readings[reading.index()];
+        let load_n = at(Reading::Load).unwrap_or(0.0);
+        Some(State { row: *row, slip: at(Reading::Slip)?, load_n, reading: at(reading)? })
     };
-    let pairs = known.windows(2).filter(|pair| like(&pair[0], &pair[1]));
-    let sizes: Vec<f64> = pairs.map(|pair| (pair[1].2 - pair[0].2).abs()).collect();
-    // The median of |N(0, 2σ²)| is 0.6745 √2 σ.
-    (sizes.len() >= 3)
-        .then(|| median(sizes).unwrap_or(0.0) / (0.6745 * std::f64::consts::SQRT_2))
-        .filter(|std| *std > 0.0)
+    let mut states: Vec<State> = rows.iter().filter_map(state).collect();
+    states.sort_by(|a, b| a.slip.total_cmp(&b.slip));
+    let pairs = states.windows(2).filter_map(|pair| {
+        let [a, b] = pair else { return None };
+        let is_like = (b.slip - a.slip).abs() <= LIKE_SLIP && (b.load_n - a.load_n).abs() <= LIKE_LOAD * a.load_n.abs();
+        is_like.then_some(([a.row, b.row], b.reading - a.reading))
+    });
+    pairs.collect()
 }

@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
-use crate::data::campaign::Channel;
+use nalgebra::{DMatrix, DVector};
+
+use crate::data::campaign::{Campaign, Channel};
 
 use super::bench::Bench;
 use super::candidates::{loads_differ, rates_differ};
 use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
-use super::measurements::column_name;
+use super::measurements::{KNOWN_SHARE, column_name};
 use super::rates::speed_ratio;
 use crate::statistics::sorted;
 
@@ -26,35 +28,68 @@ pub struct Regressor {
     pub turns: Option<[Term; 2]>,
     /// Different values that it takes: a power as high or higher says nothing more than the lower ones.
     pub values: usize,
-    parts: Vec<String>,
+    parts: Vec<Part>,
 }
 
-/// Share of the rows that must have a column.
-const KNOWN_SHARE: f64 = 0.8;
+/// A column that a regressor is made of.
+#[derive(Debug, Clone, PartialEq)]
+struct Part {
+    name: String,
+    /// Whether it is slip, load or sinkage, or says no more than these do, as the rate of a wheel whose carriage keeps its speed.
+    is_of_contact: bool,
+}
+
 /// Values that a column must take.
 const LEAST_VALUES: usize = 2;
 /// Correlation beyond which two columns say the same.
 const SAME: f64 = 0.999;
+/// Share of a column's variance which slip and load make, beyond which it says no more than they do.
+const SAYS_NO_MORE: f64 = 0.99;
+/// Least v/(rω) that counts there: a wheel may spin on the spot.
+const LEAST_RATIO: f64 = 0.02;
 
 impl Regressor {
     /// Whether it is made of what a channel reads.
     pub fn contains(&self, reading: Reading) -> bool {
-        self.parts.iter().any(|part| part == column_name(reading))
+        self.parts.iter().any(|part| part.name == column_name(reading))
     }
 
-    /// Whether it is made of slip, load and sinkage alone.
+    /// Whether it is made of slip, load and sinkage alone, or of what says no more than they do.
     pub fn is_of_contact(&self) -> bool {
-        self.parts.iter().all(|part| is_contact(part))
+        self.parts.iter().all(|part| part.is_of_contact)
     }
 
-    /// Of a product, those factors that are slip, load or sinkage.
+    /// Of a product, those factors that are so.
     pub fn contact_factors(&self) -> impl Iterator<Item = &Term> {
-        self.factors.iter().zip(&self.parts).filter(|(_, part)| is_contact(part)).map(|(term, _)| term)
+        self.factors.iter().zip(&self.parts).filter(|(_, part)| part.is_of_contact).map(|(term, _)| term)
     }
 }
 
-fn is_contact(part: &str) -> bool {
-    CONTACT.iter().any(|reading| part == column_name(*reading))
+impl Part {
+    fn of(name: &str, values: &[Option<f64>], latents: &[Latent]) -> Self {
+        let is_contact = CONTACT.iter().any(|reading| name == column_name(*reading));
+        Self { name: name.to_owned(), is_of_contact: is_contact || says_no_more(values, latents) }
+    }
+}
+
+/// Whether a column is a smooth function of slip and load in these rows: a straight line in the load, and in the slip a parabola and what
+/// rates and speeds go with, 1/(1 − i). The share of its variance counts by degrees of freedom.
+fn says_no_more(values: &[Option<f64>], latents: &[Latent]) -> bool {
+    let of_state = |Latent { slip, load_n, .. }: &Latent| {
+        [1.0, *slip, slip * slip, speed_ratio(*slip).0.max(LEAST_RATIO).recip(), *load_n]
+    };
+    let known = values.iter().zip(latents).filter_map(|(value, latent)| Some(((*value)?, of_state(latent))));
+    let (known, states): (Vec<f64>, Vec<[f64; 5]>) = known.filter(|(value, _)| value.is_finite()).unzip();
+    let terms = states.first().map_or(0, |state| state.len());
+    if known.len() < 2 * terms || terms == 0 {
+        return false;
+    }
+    let states = DMatrix::from_fn(known.len(), terms, |row, term| states[row][term]);
+    let known = DVector::from(known);
+    let singular = 1e-9 * states.amax();
+    let Ok(factors) = states.clone().svd(true, true).solve(&known, singular) else { return false };
+    let left = (&known - states * factors).norm_squared() / (known.len() - terms) as f64;
+    left < (1.0 - SAYS_NO_MORE) * known.variance()
 }
 
 /// What the contact itself is made of.
@@ -62,12 +97,8 @@ const CONTACT: [Reading; 3] = [Reading::Slip, Reading::Load, Reading::Sinkage];
 
 /// The columns of a campaign that vary, the ones that the format names first, about a fitted model.
 pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor> {
-    let campaign = bench.campaign;
-    // Other forces are results of the same contact, not causes.
-    let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
-    let causes = Channel::ALL.iter().filter(|channel| !results.contains(channel));
-    let mut names: Vec<&str> = causes.map(|channel| channel.name()).collect();
-    names.extend(campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name)));
+    let mut names: Vec<&str> = causes().map(Channel::name).collect();
+    names.extend(other_causes(bench.campaign));
     // About one level they scatter by their errors.
     let one_level =
         [(Channel::WheelRate, !rates_differ(bench.measurements)), (Channel::Load, !loads_differ(bench.measurements))];
@@ -79,7 +110,8 @@ pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor>
         let new = |regressor: &Regressor| {
             !found.iter().any(|other| correlation(&other.term.values, &regressor.term.values).abs() > SAME)
         };
-        if let Some(regressor) = standardised(name.to_owned(), vec![name.to_owned()], &column, &at).filter(new) {
+        let part = Part::of(name, &column.values, linearised.latents());
+        if let Some(regressor) = standardised(name.to_owned(), vec![part], &column, &at).filter(new) {
             let turns = (name == Channel::WheelAngle.name()).then(|| turns(&column.values));
             found.push(Regressor { turns, ..regressor });
         }
@@ -160,7 +192,7 @@ pub fn products(columns: &[Regressor]) -> Vec<Regressor> {
                 values: product.values.into_iter().map(Some).collect(),
                 by: product.slopes.map(|slopes| slopes.by),
             };
-            let parts = vec![one.name.clone(), other.name.clone()];
+            let parts = [one.parts.clone(), other.parts.clone()].concat();
             let factors = vec![one.term.clone(), other.term.clone()];
             let product = standardised(format!("{}*{}", one.name, other.name), parts, &column, &at);
             found.extend(product.map(|product| Regressor { factors, ..product }));
@@ -184,12 +216,23 @@ fn product(one: &Term, other: &Term) -> Term {
     }
 }
 
-/// Columns that say how a channel scattered within a window are results, not causes.
-pub(super) fn is_scatter(name: &str) -> bool {
-    name.contains("_sd") || name.contains("std")
+/// The channels on which others may depend: forces are results of the same contact.
+pub(super) fn causes() -> impl Iterator<Item = Channel> {
+    let results = [Channel::DrawbarPull, Channel::Torque, Channel::SideForce];
+    Channel::ALL.into_iter().filter(move |channel| !results.contains(channel))
 }
 
-fn standardised(name: String, parts: Vec<String>, column: &Column, at: &Arc<[[f64; 2]]>) -> Option<Regressor> {
+/// The columns that the format does not know on which channels may depend.
+pub(super) fn other_causes(campaign: &Campaign) -> impl Iterator<Item = &str> {
+    campaign.columns().filter(|name| Channel::from_name(name).is_none() && !is_scatter(name))
+}
+
+/// Columns that say how a channel scattered within a window are results, too.
+fn is_scatter(name: &str) -> bool {
+    name.split('_').any(|part| matches!(part, "sd" | "std"))
+}
+
+fn standardised(name: String, parts: Vec<Part>, column: &Column, at: &Arc<[[f64; 2]]>) -> Option<Regressor> {
     let values = &column.values;
     let known: Vec<f64> = values.iter().flatten().copied().filter(|value| value.is_finite()).collect();
     let mut distinct = sorted(known.iter().copied());
@@ -230,11 +273,32 @@ mod tests {
     fn a_column_of_two_values_counts() {
         let regressor = |values: [f64; 4]| {
             let column = Column { values: values.map(Some).into(), by: None };
-            standardised("pass".to_owned(), vec!["pass".to_owned()], &column, &Arc::from([]))
+            standardised("pass".to_owned(), Vec::new(), &column, &Arc::from([]))
         };
         let two = regressor([1.0, 2.0, 1.0, 2.0]).expect("a column that varies");
         assert_eq!((two.values, two.term.values), (2, vec![-1.0, 1.0, -1.0, 1.0]));
         assert!(regressor([1.0; 4]).is_none());
+    }
+
+    #[test]
+    fn a_column_is_scatter_by_a_word_of_its_name_and_not_by_letters_within_one() {
+        assert!(["side_force_sd_n", "sinkage_std_m", "std"].into_iter().all(is_scatter));
+        assert!(!["westdrift_m", "dustdepth_m", "x_sdepth", "standing_s"].into_iter().any(is_scatter));
+    }
+
+    #[test]
+    fn the_rate_of_a_wheel_says_no_more_than_its_slip_where_its_carriage_keeps_its_speed() {
+        let slips = (0..15).map(|row| 0.1 + 0.2 * f64::from(row % 5));
+        let latents: Vec<Latent> = slips.map(|slip| Latent { slip, load_n: 25.0, sinkage_m: 0.01 }).collect();
+        let values = |of: &dyn Fn(usize, f64) -> f64| -> Vec<Option<f64>> {
+            latents.iter().enumerate().map(|(row, latent)| Some(of(row, latent.slip))).collect()
+        };
+        let at_one_speed = values(&|row, slip| (0.16 + 0.001 * (row % 2) as f64) / (1.0 - slip));
+        let at_two_speeds = values(&|row, slip| if row < 7 { 0.16 } else { 0.32 } / (1.0 - slip));
+        let with_the_hours = values(&|row, _| row as f64);
+        let of = |values: &[Option<f64>]| says_no_more(values, &latents);
+        assert_eq!([at_one_speed, at_two_speeds, with_the_hours].map(|values| of(&values)), [true, false, false]);
+        assert!(!says_no_more(&[Some(1.0); 3], &latents[..3]), "of three rows nobody knows");
     }
 
     /// d(ab) = a db + b da, for a of slip and b of slip and load.

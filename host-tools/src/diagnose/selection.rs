@@ -31,7 +31,7 @@ const IN_QUESTION: f64 = 15.0;
 const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;
 /// The chance below which any gain on runs that were not seen is enough.
-const BEYOND_DOUBT: f64 = 1e-4;
+pub const BEYOND_DOUBT: f64 = 1e-4;
 /// The chance below which an effect must be of a size that is beyond doubt, too; and the standard deviations that are.
 const BY_FAR: f64 = 1e-6;
 const NEUTRAL_ERRORS: f64 = 2.5;

@@ -58,10 +58,8 @@ impl Trial<'_> {
 
     /// ln of the Gaussian priors at some parameters, up to a constant. Flat priors, whose bounds are wide, count nothing.
     pub fn log_prior(&self, parameters: &[f64]) -> f64 {
-        let penalty = |(coordinate, value): (&Coordinate, &f64)| {
-            coordinate.prior.map_or(0.0, |(mean, std)| -0.5 * ((value - mean) / std).powi(2))
-        };
-        self.model.coordinates().iter().zip(parameters).map(penalty).sum()
+        let penalty = |(coordinate, value): (&Coordinate, &f64)| coordinate.penalty(*value);
+        -self.model.coordinates().iter().zip(parameters).map(penalty).sum::<f64>()
     }
 
     /// Whether its last effect is pushed out of its range. A size that the data push out of it, by more than they leave open, is

@@ -12,7 +12,7 @@ effect_parameters! {
         /// Part of the soil that has a peak.
         share: "share" ["-"] = 0.0, 0.0 to 1.5, about 1.0;
         /// K_r: residual over peak.
-        residual: "residual" ["-"] = 0.7, 0.1 to 1.2, about 0.7;
+        residual: "residual" ["-"] = 0.7, 0.1 to 1.0, about 0.7;
     }
 }
 

@@ -8,26 +8,41 @@ use super::{Campaign, Channel};
 /// Greatest force at the rim over the load, or over the campaign's typical load where that is greater. A soil's shear
 /// strength is of the order of the pressure that it carries; a dragged, locked wheel in sand feels twice its load.
 const GREATEST_FORCE: f64 = 5.0;
-/// Greatest load over the campaign's typical one. A load of nothing, or one that pulls at the soil, is no wheel's on a soil.
+/// Greatest load over the campaign's typical one, and typical one over the least. A load of nothing, or one that pulls at the soil, is no
+/// wheel's on a soil; nor is what a sensor reads about nothing while the wheel is in the air.
 const GREATEST_LOAD: f64 = 20.0;
+/// Where the load's noise is stated, so many standard deviations about nothing are that as well, up to this share of the typical load.
+const ABOUT_NOTHING: f64 = 3.0;
+const LIGHTEST: f64 = 0.25;
 
 /// What a campaign's numbers are held against.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plausible {
     /// Median of the loads, N; none where the campaign has none.
     load_n: Option<f64>,
+    /// Noise of the load's sensor, N; 0 where it is not stated.
+    load_std_n: f64,
 }
 
 impl Plausible {
     /// Before a campaign has been looked at.
     pub const fn unknown() -> Self {
-        Self { load_n: None }
+        Self { load_n: None, load_std_n: 0.0 }
     }
 
     /// From a campaign's own loads.
     pub fn of(campaign: &Campaign) -> Self {
         let loads = campaign.column(Channel::Load.name()).unwrap_or(&[]).iter().flatten();
-        Self { load_n: Some(median(loads.map(|load| load.abs()))).filter(|load| *load > 0.0) }
+        Self {
+            load_n: Some(median(loads.map(|load| load.abs()))).filter(|load| *load > 0.0),
+            load_std_n: campaign.noise.of(Channel::Load).unwrap_or(0.0),
+        }
+    }
+
+    /// What every load is above, N.
+    fn least_load_n(self) -> f64 {
+        let of_noise = |load_n: f64| (ABOUT_NOTHING * self.load_std_n).min(LIGHTEST * load_n);
+        self.load_n.map_or(0.0, |load_n| of_noise(load_n).max(load_n / GREATEST_LOAD))
     }
 
     /// A number that cannot be what a wheel felt, and the greatest size that could.
@@ -42,7 +57,7 @@ impl Plausible {
             Channel::Torque => GREATEST_FORCE * load_n * radius_m,
             _ => GREATEST_FORCE * load_n,
         };
-        let is_lifted = channel == Channel::Load && value <= 0.0;
+        let is_lifted = channel == Channel::Load && value <= self.least_load_n();
         (value.abs() > limit || is_lifted).then_some((value, limit))
     }
 }
@@ -57,7 +72,10 @@ impl Campaign {
         JUDGED.into_iter().find_map(|channel| {
             let (value, limit) = self.plausible.beyond(self, row, channel)?;
             let (name, unit) = (channel.name(), unit(channel));
-            let least = if channel == Channel::Load { "more than 0 and " } else { "" };
+            let least = match channel {
+                Channel::Load => format!("more than {:.3} {unit} and ", self.plausible.least_load_n()),
+                _ => String::new(),
+            };
             Some(format!("{name} of {value} {unit} is a gross error: {least}at most {limit:.3} {unit} can be"))
         })
     }

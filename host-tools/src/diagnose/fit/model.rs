@@ -18,6 +18,11 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
+    /// Half the square of a value by the prior; nothing by a flat one, whose bounds are wide.
+    pub fn penalty(&self, value: f64) -> f64 {
+        self.prior.map_or(0.0, |(mean, std)| 0.5 * ((value - mean) / std).powi(2))
+    }
+
     /// Precision that the bounds add to the prior's, so that together they have at least that of the flat distribution on the
     /// bounds, 12 / width²; 0 where a bound is infinite.
     pub(super) fn box_precision(&self) -> f64 {

@@ -53,8 +53,6 @@ pub struct Fit {
     pub log_likelihood: f64,
     /// The same plus the ln density of the prior: what the best of many starts is chosen by.
     pub log_posterior: f64,
-    /// ln density of the readings with the parameters integrated out too (Laplace; flat priors count by their bounds).
-    pub log_evidence: f64,
     /// Residuals at the mode, offsets taken off, in units of noise.
     pub standardised: Vec<[Option<f64>; CHANNELS]>,
     /// Share of each reading in its own prediction, 0 to 1; 1 − this is the expected square of its standardised residual.
@@ -170,8 +168,6 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
     let leverages = leverages(problem, &state, &equations, &free);
     let likelihood = log_likelihood(problem, &state, &scales, objective, &equations);
     let posterior = likelihood + log_prior(problem, &state);
-    let ln_det =
-        covariance.clone().cholesky().map_or(0.0, |factor| 2.0 * factor.l_dirty().diagonal().map(f64::ln).sum());
     let by_row = ByRow::new(problem, &state, &scales, &leverages);
     Fit {
         on_bound: held_on_bound(problem, &state.parameters, &equations.pull),
@@ -181,7 +177,6 @@ fn describe(problem: &Problem<'_>, optimum: Optimum) -> Fit {
         noise_scale: scales.noise,
         log_likelihood: likelihood,
         log_posterior: posterior,
-        log_evidence: posterior + 0.5 * (count as f64 * (2.0 * std::f64::consts::PI).ln() + ln_det),
         degrees_of_freedom: by_row.freedom,
         dispersion: 2.0 * by_row.bulk_loss(problem) / by_row.freedom.max(f64::MIN_POSITIVE),
         latents: by_row.latents,

@@ -54,7 +54,6 @@ pub(super) fn judge(
                 let variance = fresh.variance(&direction, noise);
                 seen.std[c] = Some(variance.sqrt());
                 seen.std_within_run[c] = Some((variance - fresh.of_offsets(&direction, &offset)).max(0.0).sqrt());
-                judged.log_score_by_channel[c] += score;
                 judged.judged[c] += 1;
                 total += score;
             }

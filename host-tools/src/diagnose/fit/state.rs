@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::{DVector, Vector2};
 
-use super::model::{Derivatives, Latent};
+use super::model::{Coordinate, Derivatives, Latent};
 use super::observation::{CHANNELS, Channels, Row};
 use super::problem::{Problem, within};
 
@@ -162,10 +162,8 @@ impl Place {
 
     /// Half the squares of the parameters by their priors.
     pub(super) fn parameter_penalty(&self, problem: &Problem<'_>) -> f64 {
-        let penalty = |(&value, prior): (&f64, Option<(f64, f64)>)| {
-            prior.map_or(0.0, |(mean, std)| 0.5 * ((value - mean) / std).powi(2))
-        };
-        self.parameters.iter().zip(problem.coordinates().iter().map(|coordinate| coordinate.prior)).map(penalty).sum()
+        let penalty = |(coordinate, value): (&Coordinate, &f64)| coordinate.penalty(*value);
+        problem.coordinates().iter().zip(&self.parameters).map(penalty).sum()
     }
 
     fn run_objective(&self, problem: &Problem<'_>, scales: &Scales, run: usize) -> f64 {

@@ -8,6 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::regression::{Problem, Term};
+use crate::statistics::root_mean_square;
 
 /// Singular values below this share of the largest count as none.
 const SINGULAR: f64 = 1e-10;
@@ -50,7 +51,7 @@ struct Solution {
 impl Jackknife {
     /// Fits the chosen terms; none where they are too many for the runs, or the same.
     pub fn fit(problem: &Problem, chosen: &[&Term]) -> Option<Self> {
-        let scales: Vec<f64> = chosen.iter().map(|term| size(&term.values)).collect();
+        let scales: Vec<f64> = chosen.iter().map(|term| root_mean_square(term.values.iter().copied())).collect();
         if scales.iter().any(|scale| *scale <= 0.0 || !scale.is_finite()) {
             return None;
         }
@@ -207,11 +208,6 @@ fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 
 fn at(columns: &[Vec<f64>], row: usize) -> DVector<f64> {
     DVector::from_iterator(columns.len(), columns.iter().map(|column| column[row]))
-}
-
-/// Root mean square.
-pub fn size(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
 fn divided(values: &[f64], by: f64) -> Vec<f64> {

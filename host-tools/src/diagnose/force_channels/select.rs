@@ -7,7 +7,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::super::chance::over_all;
 use super::super::document::{Estimate, FoundEffect};
-use super::super::selection::TELLS_APART;
+use super::super::selection::{BEYOND_DOUBT, TELLS_APART};
 use super::super::unseen_runs::summed;
 use super::ForceChannels;
 use super::jackknife::{Jackknife, first_stage_strength};
@@ -38,7 +38,8 @@ struct Tried<'a> {
 
 impl Tried<'_> {
     fn is_significant(&self) -> bool {
-        self.p_value < SIGNIFICANT && self.gain > HELD_OUT_ERRORS * self.gain_std
+        let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { HELD_OUT_ERRORS };
+        self.p_value < SIGNIFICANT && self.gain > errors * self.gain_std
     }
 }
 

@@ -3,9 +3,7 @@
 use std::collections::HashMap;
 
 use crate::data::campaign::{Campaign, Channel};
-
-/// Share of the rows that must have a column.
-const KNOWN_SHARE: f64 = 0.8;
+use crate::diagnose::measurements::KNOWN_SHARE;
 
 /// A column that an effect makes a force channel follow.
 #[derive(Debug, Clone, Copy)]

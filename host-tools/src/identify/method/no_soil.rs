@@ -31,7 +31,7 @@ fn why(finding: &Finding) -> Option<String> {
         (said(c) && (c.value.is_nan() || c.value < -EXCUSED * c.std), "c is below zero"),
         (said(phi) && !(0.0..=STEEPEST_RAD).contains(&phi.value), "φ is not from 0 to 60°"),
         (said(k) && (k.value.is_nan() || k.value <= 0.0), "K is not above zero"),
-        (lacks_spread, "a standard deviation is missing or zero"),
+        (lacks_spread, "a standard deviation of the method's own is missing or zero"),
     ];
     let wrong: Vec<&str> = wrong.into_iter().filter(|(is_wrong, _)| *is_wrong).map(|(_, words)| words).collect();
     (!wrong.is_empty()).then(|| wrong.join(", "))
