@@ -1,15 +1,16 @@
 //! What can go wrong on the host, in words that a person can act on.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+
+use crate::printable::on_one_line;
 
 /// An error of a host command. Its text is the one line that the command prints.
 #[derive(Debug, Error)]
 pub enum HostError {
     /// A file could not be read or written.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", on_one_line(&path.to_string_lossy()))]
     File {
         /// The file.
         path: PathBuf,
@@ -17,7 +18,7 @@ pub enum HostError {
         source: std::io::Error,
     },
     /// A place in a file does not hold what was expected.
-    #[error("{}:{line}:{column}: {}", path.display(), on_one_line(message))]
+    #[error("{}:{line}:{column}: {}", on_one_line(&path.to_string_lossy()), on_one_line(message))]
     Input {
         /// The file.
         path: PathBuf,
@@ -38,19 +39,6 @@ impl HostError {
     pub fn file(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
         move |source| Self::File { path: path.to_path_buf(), source }
     }
-}
-
-/// Text of a file, safe to print: what would break the line or command a terminal is escaped.
-fn on_one_line(text: &str) -> impl fmt::Display + '_ {
-    fmt::from_fn(move |line| {
-        text.chars().try_for_each(|character| {
-            if character.is_control() {
-                write!(line, "{}", character.escape_debug())
-            } else {
-                write!(line, "{character}")
-            }
-        })
-    })
 }
 
 #[cfg(test)]

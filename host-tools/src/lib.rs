@@ -14,6 +14,7 @@ pub mod identifiability;
 pub mod identify;
 pub mod limit;
 pub mod parameter;
+mod printable;
 pub mod prior;
 pub mod process;
 pub mod progress;

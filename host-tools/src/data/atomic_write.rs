@@ -1,11 +1,12 @@
 //! Output that is there whole or not at all.
 
 use std::fs::{self, File, Permissions};
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use tempfile::Builder;
 
+use super::outputs::is_standard_output;
 use super::unfinished::Unfinished;
 use crate::error::HostError;
 
@@ -19,6 +20,12 @@ pub fn write_atomically(
     write: impl FnOnce(&mut dyn Write) -> Result<(), HostError>,
 ) -> Result<(), HostError> {
     let failed = |source| HostError::File { path: path.to_path_buf(), source };
+    // It may lead to a file that others write to as well: that one goes on.
+    if is_standard_output(path) {
+        let mut out = BufWriter::new(io::stdout().lock());
+        write(&mut out)?;
+        return out.flush().map_err(failed);
+    }
     let there = fs::metadata(path).ok();
     if there.as_ref().is_some_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
         let mut out = BufWriter::new(File::options().write(true).open(path).map_err(failed)?);

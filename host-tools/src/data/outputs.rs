@@ -34,14 +34,19 @@ pub fn is_pipe(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
 }
 
-/// Names of standard output among files.
-const STANDARD_OUTPUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+/// Whether a file is standard output by another name.
+pub fn is_standard_output(path: &Path) -> bool {
+    ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
+}
 
 /// Tells people what came of a command, on standard output; on standard error where one of the outputs is standard output itself, which a
 /// program reads then.
 pub fn tell(summary: &str, outputs: &[Option<&Path>]) {
-    let is_taken = |output: &&Path| STANDARD_OUTPUT.iter().any(|name| *output == Path::new(name));
-    if outputs.iter().flatten().any(is_taken) { eprintln!("{summary}") } else { println!("{summary}") }
+    if outputs.iter().flatten().any(|output| is_standard_output(output)) {
+        eprintln!("{summary}")
+    } else {
+        println!("{summary}")
+    }
 }
 
 /// Where a regular file stands, or one that is yet to be written would; none of anything else.

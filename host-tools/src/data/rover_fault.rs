@@ -5,7 +5,7 @@ use kapvik_firmware::rover::{GeometryError, Rover, Suspension};
 use super::wheel_file::Grousers;
 
 /// Gravity that no place has where a rover drives, m/s².
-const STRONGEST_M_S2: f64 = 30.0;
+pub(super) const STRONGEST_M_S2: f64 = 30.0;
 
 /// Why there is no such rover.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

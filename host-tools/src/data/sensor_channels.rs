@@ -1,6 +1,7 @@
 //! The columns of a sensor frame: their names in the files, and where each stands in [`SensorFrame`].
 
-use kapvik_firmware::rover::{Axes, PerAxle, PerSide, SensorNoise};
+use kapvik_firmware::estimator::{Axis, Sensor};
+use kapvik_firmware::rover::{Axes, Axle, PerAxle, PerSide, SensorNoise, Side};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 
 /// The wheels as the files name them, in the order of the flight library.
@@ -8,13 +9,40 @@ pub const WHEEL_NAMES: [&str; 6] = ["fl", "ml", "rl", "fr", "mr", "rr"];
 
 /// The names of the columns, in the order of [`values`].
 pub fn names() -> Vec<String> {
-    let wheels = WHEEL_NAMES.into_iter().flat_map(|wheel| {
-        [format!("wheel_rate_{wheel}_rad_s"), format!("motor_torque_{wheel}_nm"), format!("load_cell_{wheel}_n")]
-    });
-    let joints = ["bogie_angle_l_rad", "bogie_angle_r_rad", "rocker_angle_rad"].map(str::to_owned);
-    let axes = [("accel", "m_s2"), ("gyro", "rad_s"), ("velocity", "m_s")];
-    let body = axes.into_iter().flat_map(|(name, unit)| ["x", "y", "z"].map(|axis| format!("{name}_{axis}_{unit}")));
-    wheels.chain(joints).chain(body).collect()
+    let of_wheel = [Sensor::WheelRate, Sensor::MotorTorque, Sensor::LoadCell];
+    let wheels = Side::ALL.map(|side| Axle::ALL.map(|axle| of_wheel.map(|sensor| sensor(side, axle))));
+    let joints = [Sensor::BogieAngle(Side::Left), Sensor::BogieAngle(Side::Right), Sensor::RockerAngle];
+    let body = [Sensor::Accel, Sensor::Gyro, Sensor::Velocity].map(|sensor| [Axis::X, Axis::Y, Axis::Z].map(sensor));
+    wheels.iter_wheels().flatten().chain(&joints).chain(body.as_flattened()).copied().map(sensor_name).collect()
+}
+
+/// The name of a sensor's column.
+pub fn sensor_name(sensor: Sensor) -> String {
+    match sensor {
+        Sensor::WheelRate(side, axle) => format!("wheel_rate_{}_rad_s", wheel(side, axle)),
+        Sensor::MotorTorque(side, axle) => format!("motor_torque_{}_nm", wheel(side, axle)),
+        Sensor::LoadCell(side, axle) => format!("load_cell_{}_n", wheel(side, axle)),
+        Sensor::BogieAngle(Side::Left) => "bogie_angle_l_rad".to_owned(),
+        Sensor::BogieAngle(Side::Right) => "bogie_angle_r_rad".to_owned(),
+        Sensor::RockerAngle => "rocker_angle_rad".to_owned(),
+        Sensor::Accel(axis) => format!("accel_{}_m_s2", letter(axis)),
+        Sensor::Gyro(axis) => format!("gyro_{}_rad_s", letter(axis)),
+        Sensor::Velocity(axis) => format!("velocity_{}_m_s", letter(axis)),
+    }
+}
+
+fn wheel(side: Side, axle: Axle) -> &'static str {
+    let [left @ .., front, middle, rear] = WHEEL_NAMES;
+    let right = [front, middle, rear];
+    PerSide { left, right }.map(PerAxle::from_array).of_wheel(side, axle)
+}
+
+fn letter(axis: Axis) -> char {
+    match axis {
+        Axis::X => 'x',
+        Axis::Y => 'y',
+        Axis::Z => 'z',
+    }
 }
 
 /// The values of a frame, in the order of [`names`].

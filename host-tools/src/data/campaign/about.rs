@@ -9,6 +9,7 @@ use toml::Spanned;
 
 use crate::error::HostError;
 
+use super::super::rover_fault::STRONGEST_M_S2;
 use super::super::soil_file::SoilTable;
 use super::super::toml_file::{TomlFile, UnusedKeys};
 use super::super::wheel_file::WheelTable;
@@ -90,8 +91,8 @@ impl About {
             file.whole_and_more(&[serde_introspect::<WheelTable>(), serde_introspect::<SoilTable>()])?;
         about.wheel.check(file)?;
         let gravity = *about.gravity_m_s2.get_ref();
-        if !(gravity > 0.0 && gravity.is_finite()) {
-            let message = format!("gravity_m_s2 = {gravity}: expected a number above 0 m/s²");
+        if !(gravity > 0.0 && gravity <= STRONGEST_M_S2) {
+            let message = format!("gravity_m_s2 = {gravity}: expected a number above 0 m/s², at most {STRONGEST_M_S2}");
             return Err(file.error_at(&about.gravity_m_s2, message));
         }
         Ok((about, unused))

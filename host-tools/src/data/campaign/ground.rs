@@ -2,10 +2,11 @@
 
 use std::cmp::Ordering;
 
-use kapvik_firmware::terramechanics::Wheel;
+use kapvik_firmware::terramechanics::{Soil, Wheel};
 use toml::Spanned;
 
 use crate::error::HostError;
+use crate::prior::{self, Range};
 
 use super::super::soil_file::{Bounds, Known, Parameter, SoilRange, SoilTable};
 use super::super::toml_file::TomlFile;
@@ -152,6 +153,23 @@ impl Ground {
         match (cohesive, self.frictional_modulus?) {
             (None, k_phi) => Some(k_phi),
             (Some(k_c), k_phi) => Some(k_c.plus(k_phi)),
+        }
+    }
+
+    /// The middle of what is known under a wheel, its stiffness all in k_φ. What nobody knows is the middle of what the networks were trained
+    /// with, and a rebound that nobody speaks of none.
+    pub fn middle(&self, wheel: &Wheel<f64>) -> Soil<f64> {
+        let or_middle = |known: Option<Knowledge>, range: Range| known.map_or_else(|| range.at(0.5), Knowledge::middle);
+        Soil {
+            sinkage_exponent: or_middle(self.sinkage_exponent, prior::SINKAGE_EXPONENT),
+            cohesive_modulus: 0.0,
+            frictional_modulus: or_middle(self.stiffness(wheel), prior::STIFFNESS),
+            cohesion_pa: or_middle(self.cohesion_pa, prior::COHESION_PA),
+            friction_angle_rad: or_middle(self.friction_angle_rad, prior::FRICTION_ANGLE_RAD),
+            shear_modulus_m: or_middle(self.shear_modulus_m, prior::SHEAR_MODULUS_M),
+            peak_stress_c1: or_middle(self.peak_stress_c1, prior::PEAK_STRESS_C1),
+            peak_stress_c2: or_middle(self.peak_stress_c2, prior::PEAK_STRESS_C2),
+            rebound_ratio: self.rebound_ratio.map_or(0.0, Knowledge::middle),
         }
     }
 }

@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use kapvik_firmware::terramechanics::Wheel;
 
 use crate::error::HostError;
+use crate::printable::{on_one_line, paragraph};
 
 use super::table::{Column, Table};
 use super::text::TextFile;
@@ -126,10 +127,10 @@ impl Campaign {
             ground: Ground::read(&about.soil, toml)?,
             noise: ChannelNoise::read(&about.noise, toml, &names)?,
             declared: Declared::read(about.declared, toml)?,
-            name: about.name,
+            name: paragraph(&about.name),
             provenance: about.kind,
-            source: about.source,
-            notes: about.notes.into(),
+            source: paragraph(&about.source),
+            notes: Vec::from(about.notes).iter().map(|note: &String| paragraph(note)).collect(),
             gravity_m_s2: about.gravity_m_s2.into_inner(),
             header: table.header().to_vec(),
             rows,
@@ -256,7 +257,7 @@ fn row_ids(table: &Table) -> Result<Vec<RowId>, HostError> {
         let t_s = table.number(row, t_s)?.ok_or_else(|| {
             table.error_at(row, t_s, "nothing here: expected the time in s, 0 for the mean over a window")
         })?;
-        Ok(RowId { run: name.to_owned(), t_s, line: table.line(row) })
+        Ok(RowId { run: on_one_line(name).to_string(), t_s, line: table.line(row) })
     };
     (0..table.len()).map(id).collect()
 }
