@@ -1,6 +1,7 @@
 //! Order statistics of samples, and how series hang together.
 
 pub mod autocorrelation;
+pub mod running;
 
 /// The values in rising order.
 pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
@@ -29,6 +30,12 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
     quantile(&sorted(values), 0.5)
 }
 
+/// The root of the mean square; not a number of none.
+pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
+    let (sum, count) = values.into_iter().fold((0.0, 0.0), |(sum, count), value| (sum + value * value, count + 1.0));
+    f64::sqrt(sum / count)
+}
+
 /// A standard deviation over the median of absolute values, of a normal distribution.
 pub const PER_MEDIAN: f64 = 1.482_6;
 
@@ -39,7 +46,7 @@ pub fn robust_std(errors: impl IntoIterator<Item = f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ends, median, quantile, sorted};
+    use super::{ends, median, quantile, root_mean_square, sorted};
 
     #[test]
     fn quantiles_lie_between_neighbours() {
@@ -48,6 +55,8 @@ mod tests {
         assert_eq!([0.0, 0.5, 0.75, 1.0].map(|share| quantile(&values, share)), [1.0, 2.5, 3.5, 5.0]);
         assert_eq!(median([4.0, 1.0, 9.0]), 4.0);
         assert!(median([]).is_nan());
+        assert_eq!(root_mean_square([3.0, -4.0, 0.0, 0.0]), 2.5);
+        assert!(root_mean_square([]).is_nan());
         assert_eq!(ends([3.0, 1.0, 2.0]), Some((1.0, 3.0)));
         assert_eq!(ends([]), None);
     }

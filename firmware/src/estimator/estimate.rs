@@ -53,6 +53,13 @@ pub struct WheelEstimate {
     pub drawbar_pull_by_load_n: f32,
 }
 
+impl WheelEstimate {
+    /// What of the torque moves the soil and not the rover, T/r − DP, N.
+    pub fn resistance_n(&self, radius_m: f32) -> f32 {
+        self.resistive_torque_nm.value / radius_m - self.drawbar_pull_n.value
+    }
+}
+
 /// Forces and motion of one side.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SideEstimate {

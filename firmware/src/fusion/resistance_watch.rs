@@ -52,8 +52,7 @@ pub fn motion_resistance(wheel: &WheelEstimate, radius_m: f32) -> Option<Estimat
     }
     let torque_std = wheel.resistive_torque_nm.std / radius_m;
     let spread = torque_std * torque_std + wheel.drawbar_pull_n.std * wheel.drawbar_pull_n.std;
-    let resistance = wheel.resistive_torque_nm.value / radius_m - wheel.drawbar_pull_n.value;
-    let value = resistance / load - SLOPE_IN_SLIP * slip.value;
+    let value = wheel.resistance_n(radius_m) / load - SLOPE_IN_SLIP * slip.value;
     Some(Estimate { value, std: math::sqrt(spread) / load })
 }
 

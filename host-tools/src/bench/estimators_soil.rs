@@ -2,6 +2,7 @@
 
 use crate::identifiability::bound::Bound;
 use crate::parameter::Parameter;
+use crate::statistics::root_mean_square;
 use crate::trial::{Drive, SOIL_LOOK_S, SoilPoint, Trial};
 
 /// Errors of one drive's estimate, with what it stated and the bound on what any could reach.
@@ -55,7 +56,7 @@ impl SoilErrors {
     }
 
     fn root_mean_square(&self, pick: fn(&Errors) -> f64) -> f64 {
-        (self.drives.iter().map(|row| pick(row).powi(2)).sum::<f64>() / self.drives.len().max(1) as f64).sqrt()
+        root_mean_square(self.drives.iter().map(pick))
     }
 }
 

@@ -10,6 +10,7 @@ use crate::limit::case::{Case, KAPVIK_LOADS, cases};
 use crate::limit::coordinates::Targets;
 use crate::limit::summary::EFFORT;
 use crate::progress::bar;
+use crate::statistics::root_mean_square;
 use crate::train::dataset::prior_scale;
 use crate::train::scene::Design;
 
@@ -87,8 +88,8 @@ fn print(cases: &[Case], instants: u32, sinkage: bool, estimator: &Estimator<'_>
     let prior = prior_scale();
     for (target, (name, factor)) in TARGETS.iter().enumerate() {
         let rmse = limit.rmse(target);
-        let std = root_mean(cases, |case| case.summary.targets[target].std);
-        let sampling = root_mean(cases, |case| case.summary.targets[target].standard_error());
+        let std = root_mean_square(cases.iter().map(|case| case.summary.targets[target].std));
+        let sampling = root_mean_square(cases.iter().map(|case| case.summary.targets[target].standard_error()));
         let ranks = cases.iter().map(|case| case.summary.ranks(&case.truth)[target]).collect();
         let explained = 1.0 - (rmse.value / f64::from(prior.std[target])).powi(2);
         print!("  {name:<6}{:>16}{:>14.3}{explained:>8.2}", text(rmse, *factor), std * factor);
@@ -116,10 +117,6 @@ fn print_trust(cases: &[Case]) {
         distance_bound(cases.len(), 1.0 - CONFIDENCE),
         100.0 * CONFIDENCE
     );
-}
-
-fn root_mean(cases: &[Case], value: impl Fn(&Case) -> f64) -> f64 {
-    libm::sqrt(cases.iter().map(|case| value(case) * value(case)).sum::<f64>() / cases.len() as f64)
 }
 
 fn text(measured: Measured, factor: f64) -> String {

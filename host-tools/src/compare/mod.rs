@@ -20,7 +20,7 @@ pub use case::{Case, case};
 pub use contender::{CONTENDERS, Contender};
 pub use measured::{MeasuredRow, measured};
 pub use score::{ParameterScore, Score, Timed, is_beaten};
-pub use situation::{SITUATIONS, Situation, SlipSinkage, Truth};
+pub use situation::{SITUATIONS, SLIPS, Situation, SlipSinkage, Truth};
 
 /// What is to be compared.
 #[derive(Debug, Clone)]

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::identify::method::{Finding, Statement};
 use crate::parameter::Parameter;
-use crate::statistics::{median, quantile, sorted};
+use crate::statistics::{median, quantile, root_mean_square, sorted};
 
 /// What a contender reached in a situation.
 #[derive(Debug, Clone, Serialize)]
@@ -133,7 +133,7 @@ impl ParameterScore {
             low_quartile: quantile(&values, 0.25),
             high_quartile: quantile(&values, 0.75),
             median_error: quantile(&sizes, 0.5),
-            rmse: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
+            rmse: root_mean_square(errors.iter().copied()),
             bias: quantile(&errors, 0.5),
             within_68: share(&|truth, statement| inside(truth, statement.interval_68)),
             within_95: share(&|truth, statement| inside(truth, statement.interval_95)),

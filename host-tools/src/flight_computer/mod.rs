@@ -126,6 +126,18 @@ impl FlightComputer {
         }
     }
 
+    /// The same of one that is to be believed.
+    ///
+    /// # Errors
+    /// Where the computer does not answer or has not passed its self-test.
+    pub fn passed_boot_report(&mut self) -> Result<BootReport, HostError> {
+        let boot = self.boot_report()?;
+        match boot.self_test.passed() {
+            true => Ok(boot),
+            false => Err(HostError::Failed(format!("the flight computer's self-test failed: {:?}", boot.self_test))),
+        }
+    }
+
     /// The soil under the wheels of one query.
     ///
     /// # Errors

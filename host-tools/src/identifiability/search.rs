@@ -4,6 +4,8 @@
 //! says grows in proportion to its time, so that the time that an accuracy takes is found without driving it again. The first
 //! seconds of every leg, until drives and wheels have settled, count for nothing.
 
+use std::cmp::Reverse;
+
 use kapvik_firmware::rover::{Axle, PerAxle, Rover};
 use kapvik_firmware::terramechanics::Soil;
 use rayon::prelude::*;
@@ -208,14 +210,16 @@ impl Question {
             .min_by(|a, b| logarithm(a).total_cmp(&logarithm(b)))
     }
 
-    /// The largest set of the targets asked for that a manoeuvre of the longest time makes known.
+    /// The largest set of the targets asked for that a manoeuvre of the longest time makes known; of sets as large, that of targets named first.
     pub fn within_reach(&self, manoeuvres: &[Manoeuvre<'_>]) -> Vec<Parameter> {
-        let known = |manoeuvre: &Manoeuvre<'_>| -> Vec<Parameter> {
+        let places_known = |manoeuvre: &Manoeuvre<'_>| -> Vec<usize> {
             let bound = self.times_s(manoeuvre).and_then(|(_, longest_s)| self.bound(manoeuvre, longest_s));
-            let met = |target: &&Parameter| bound.is_some_and(|bound| self.is_met(&bound, &[**target]));
-            self.targets.iter().filter(met).copied().collect()
+            let met = |place: &usize| bound.is_some_and(|bound| self.is_met(&bound, &[self.targets[*place]]));
+            (0..self.targets.len()).filter(met).collect()
         };
-        manoeuvres.par_iter().map(known).max_by_key(Vec::len).unwrap_or_default()
+        let sets = manoeuvres.par_iter().map(places_known);
+        let largest = sets.max_by_key(|places| (places.len(), Reverse(places.clone()))).unwrap_or_default();
+        largest.into_iter().map(|place| self.targets[place]).collect()
     }
 
     /// A finding made cheaper by small changes of its rim speeds.

@@ -75,7 +75,7 @@ pub struct MeanState {
 }
 
 /// At most `most` mean states: the samples as they are and in their order where they are no more than that, else means by
-/// slip. `slip_std` and `load_std_n` are the noise of one row.
+/// slip and load. `slip_std` and `load_std_n` are the noise of one row.
 pub fn combine(samples: &[Sample], most: usize, slip_std: f64, load_std_n: f64) -> Vec<MeanState> {
     if samples.len() <= most {
         return samples.iter().map(MeanState::of_row).collect();

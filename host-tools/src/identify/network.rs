@@ -7,7 +7,7 @@ use kapvik_firmware::wheel_state::{SoilQuery, WheelNoise, WheelState};
 
 use crate::data::campaign::{Campaign, Ground};
 use crate::error::HostError;
-use crate::prior::{self, Range};
+use crate::prior::Range;
 
 use super::bend::Bends;
 use super::combine::MeanState;
@@ -131,19 +131,11 @@ fn has_sinkage(query: &SoilQuery) -> bool {
 
 /// The estimated c, φ and K, with all else as the campaign knows it, or else from the middle of the prior.
 pub fn assumed_soil(ground: &Ground, campaign: &Campaign, estimate: &SoilEstimate) -> Soil<f64> {
-    let or_middle = |known: Option<crate::data::campaign::Knowledge>, range: Range| {
-        known.map_or_else(|| range.at(0.5), |known| known.middle())
-    };
     Soil {
-        sinkage_exponent: or_middle(ground.sinkage_exponent, prior::SINKAGE_EXPONENT),
-        cohesive_modulus: 0.0,
-        frictional_modulus: or_middle(ground.stiffness(&campaign.wheel), prior::STIFFNESS),
         cohesion_pa: estimate.cohesion_pa.value.into(),
         friction_angle_rad: estimate.friction_angle_rad.value.into(),
         shear_modulus_m: estimate.shear_modulus_m.value.into(),
-        peak_stress_c1: or_middle(ground.peak_stress_c1, prior::PEAK_STRESS_C1),
-        peak_stress_c2: or_middle(ground.peak_stress_c2, prior::PEAK_STRESS_C2),
-        rebound_ratio: ground.rebound_ratio.map_or(0.0, |known| known.middle()),
+        ..ground.middle(&campaign.wheel)
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel};
 use crate::prior::{AVERAGING, INSTANT_NOISE};
-use crate::statistics::robust_std;
+use crate::statistics::{robust_std, root_mean_square};
 
 use super::combine::MeanState;
 
@@ -98,11 +98,10 @@ impl SensorNoise {
 /// No channel is held to be better than the mean of 400 instants of the flight sensors: the networks have seen little
 /// that is.
 pub fn noise_for_networks(noises: &[WheelNoise<f64>], mean_load_n: f64, radius_m: f64) -> WheelNoise {
-    let root_mean_square = |of: fn(&WheelNoise<f64>) -> f64| {
-        (noises.iter().map(|noise| of(noise).powi(2)).sum::<f64>() / noises.len() as f64).sqrt()
-    };
     let least = INSTANT_NOISE.on(mean_load_n, radius_m);
-    let told = |of, least: f64| root_mean_square(of).max(AVERAGING.low * least) as f32;
+    let told = |of: fn(&WheelNoise<f64>) -> f64, least: f64| {
+        root_mean_square(noises.iter().map(of)).max(AVERAGING.low * least) as f32
+    };
     WheelNoise {
         drawbar_pull_n: told(|noise| noise.drawbar_pull_n, least.drawbar_pull_n),
         load_n: told(|noise| noise.load_n, least.load_n),

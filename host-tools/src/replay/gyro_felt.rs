@@ -37,8 +37,9 @@ const STANDING: f64 = 5.0;
 pub struct GyroFelt {
     rover: Rover<f64>,
     before: Option<(u64, f64)>,
-    /// Time since the first frame, s, pitch by the gyro since then, and by the accelerometer, rad.
+    /// So long the gyro's rate has been added up, s.
     time_s: f64,
+    /// And so far it says that the rover has pitched, rad.
     turned_rad: f64,
     stretch: Moments,
     all: Moments,

@@ -1,7 +1,8 @@
 //! Which sensors gave trouble, and what kind.
 
-use kapvik_firmware::estimator::{Axis, EstimatorHealth, Sensor, SensorHealth};
-use kapvik_firmware::rover::{Axle, Side};
+use kapvik_firmware::estimator::{EstimatorHealth, Sensor, SensorHealth};
+
+use crate::data::sensor_channels::sensor_name;
 
 /// A sensor whose readings were not all used.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,57 +45,9 @@ fn reasons(health: &SensorHealth) -> Vec<(&'static str, u16)> {
     REASONS.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect()
 }
 
-/// The column of a sensor in files of frames.
-pub fn sensor_name(sensor: Sensor) -> String {
-    match sensor {
-        Sensor::WheelRate(side, axle) => format!("wheel_rate_{}_rad_s", wheel(side, axle)),
-        Sensor::MotorTorque(side, axle) => format!("motor_torque_{}_nm", wheel(side, axle)),
-        Sensor::LoadCell(side, axle) => format!("load_cell_{}_n", wheel(side, axle)),
-        Sensor::BogieAngle(side) => format!("bogie_angle_{}_rad", letter(side)),
-        Sensor::RockerAngle => "rocker_angle_rad".to_owned(),
-        Sensor::Accel(axis) => format!("accel_{}_m_s2", axis_letter(axis)),
-        Sensor::Gyro(axis) => format!("gyro_{}_rad_s", axis_letter(axis)),
-        Sensor::Velocity(axis) => format!("velocity_{}_m_s", axis_letter(axis)),
-    }
-}
-
-fn wheel(side: Side, axle: Axle) -> String {
-    let axle = match axle {
-        Axle::Front => 'f',
-        Axle::Middle => 'm',
-        Axle::Rear => 'r',
-    };
-    format!("{axle}{}", letter(side))
-}
-
-fn letter(side: Side) -> char {
-    match side {
-        Side::Left => 'l',
-        Side::Right => 'r',
-    }
-}
-
-fn axis_letter(axis: Axis) -> char {
-    match axis {
-        Axis::X => 'x',
-        Axis::Y => 'y',
-        Axis::Z => 'z',
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::sensor_channels;
-
-    #[test]
-    fn sensors_have_the_names_of_their_columns() {
-        let mut ours: Vec<String> = Sensor::all().iter().map(|sensor| sensor_name(*sensor)).collect();
-        let mut columns = sensor_channels::names();
-        ours.sort();
-        columns.sort();
-        assert_eq!(ours, columns);
-    }
 
     #[test]
     fn only_trouble_is_told() {

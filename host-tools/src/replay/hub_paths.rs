@@ -2,6 +2,8 @@
 
 use kapvik_firmware::rover::{PerAxle, Planar};
 
+use crate::statistics::running::Running;
+
 /// So many heights of the front hub's path are kept.
 const KEPT: usize = 64;
 
@@ -13,32 +15,15 @@ pub struct HubPaths {
     before_m: Option<PerAxle<Planar<f64>>>,
     /// Heights of the front hub there, each with the number of its place.
     front_m: [Option<(i64, f64)>; KEPT],
-    middle: Spread,
-    rear: Spread,
-}
-
-/// How far numbers are from their mean, in running sums.
-#[derive(Debug, Clone, Copy, Default)]
-struct Spread {
-    count: f64,
-    mean: f64,
-    squares: f64,
-}
-
-impl Spread {
-    fn take(&mut self, number: f64) {
-        self.count += 1.0;
-        let before = number - self.mean;
-        self.mean += before / self.count;
-        self.squares += before * (number - self.mean);
-    }
+    middle: Running,
+    rear: Running,
 }
 
 impl HubPaths {
     /// Of a rover of this length, m, before its first frame.
     pub fn of_length(length_m: f64) -> Self {
         let step_m = length_m / (KEPT / 2) as f64;
-        Self { step_m, before_m: None, front_m: [None; KEPT], middle: Spread::default(), rear: Spread::default() }
+        Self { step_m, before_m: None, front_m: [None; KEPT], middle: Running::default(), rear: Running::default() }
     }
 
     /// What comes has nothing to do with what was.
@@ -46,7 +31,7 @@ impl HubPaths {
         *self = Self { before_m: None, front_m: [None; KEPT], ..self.clone() };
     }
 
-    /// Takes where the hubs are now, m. Where one goes back all begin anew.
+    /// Takes where the hubs are now, m. Where the front one goes back all begin anew.
     pub fn take(&mut self, hubs_m: PerAxle<Planar<f64>>) {
         let Some(before_m) = self.before_m.replace(hubs_m) else { return };
         if hubs_m.front.x < before_m.front.x - self.step_m {

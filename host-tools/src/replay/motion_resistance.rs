@@ -24,18 +24,16 @@ struct Resistance {
 /// What the wheels of a drive meet.
 #[derive(Debug, Clone)]
 pub struct MotionResistance {
-    radius_m: f64,
+    radius_m: f32,
     frames: u32,
     front: Resistance,
     bogies: Resistance,
 }
 
 impl Resistance {
-    fn take(&mut self, wheel: &WheelEstimate, radius_m: f64) {
-        let [torque_nm, pull_n, load_n] = [wheel.resistive_torque_nm, wheel.drawbar_pull_n, wheel.normal_load_n]
-            .map(|estimate| f64::from(estimate.value));
-        self.resistance_n += torque_nm / radius_m - pull_n;
-        self.load_n += load_n;
+    fn take(&mut self, wheel: &WheelEstimate, radius_m: f32) {
+        self.resistance_n += f64::from(wheel.resistance_n(radius_m));
+        self.load_n += f64::from(wheel.normal_load_n.value);
     }
 
     fn share(&self) -> f64 {
@@ -47,7 +45,7 @@ impl MotionResistance {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
         let [front, bogies] = [Resistance::default(); 2];
-        Self { radius_m: f64::from(rover.wheel.radius_m), frames: 0, front, bogies }
+        Self { radius_m: rover.wheel.radius_m, frames: 0, front, bogies }
     }
 
     /// Takes the estimates of a frame, where all wheels drive forward.

@@ -6,11 +6,12 @@ use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::raw_sensors::{DRIVING_M_S, links, rockers, wide};
+use crate::statistics::running::Running;
 
 /// Frames of so long are taken as one number, µs: over rough ground the errors of one frame are those of the next.
 const BLOCK_US: u64 = 5_000_000;
 /// Fewest such numbers that tell how far they scatter.
-const LEAST_BLOCKS: u32 = 4;
+const LEAST_BLOCKS: f64 = 4.0;
 /// Share of the weight by which the cells may be off.
 const TOLERATED: f64 = 0.01;
 /// Standard errors of the mean beyond which that is no chance.
@@ -21,11 +22,9 @@ const BEYOND_CHANCE: f64 = 3.0;
 pub struct Weighing {
     weight_n: f64,
     block: Block,
-    blocks: u32,
-    borne_n: f64,
-    due_n: f64,
-    excess_n: f64,
-    excess_squared_n2: f64,
+    due_n: Running,
+    /// What is borne beyond that.
+    excess_n: Running,
 }
 
 /// The sums of some seconds.
@@ -50,9 +49,8 @@ impl Weighing {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
         let weight_n = f64::from(rover.mass_kg) * f64::from(rover.gravity_m_s2);
-        let sums = [0.0; 4];
-        let [borne_n, due_n, excess_n, excess_squared_n2] = sums;
-        Self { weight_n, block: Block::default(), blocks: 0, borne_n, due_n, excess_n, excess_squared_n2 }
+        let [due_n, excess_n] = Default::default();
+        Self { weight_n, block: Block::default(), due_n, excess_n }
     }
 
     /// Takes a frame: one in which the rover drives, and all that is needed says something.
@@ -87,25 +85,19 @@ impl Weighing {
         let Block { frames, borne_n, due_n, .. } = std::mem::take(&mut self.block);
         if frames > 0 {
             let [borne_n, due_n] = [borne_n, due_n].map(|sum| sum / f64::from(frames));
-            self.blocks += 1;
-            self.borne_n += borne_n;
-            self.due_n += due_n;
-            self.excess_n += borne_n - due_n;
-            self.excess_squared_n2 += (borne_n - due_n).powi(2);
+            self.due_n.take(due_n);
+            self.excess_n.take(borne_n - due_n);
         }
     }
 
     /// What came of it, where the cells are off by more than is tolerated and than chance does.
     pub fn misfit(mut self) -> Option<Misfit> {
         self.close_block();
-        if self.blocks < LEAST_BLOCKS {
-            return None;
-        }
-        let count = f64::from(self.blocks);
-        let [borne_n, due_n, excess_n] = [self.borne_n, self.due_n, self.excess_n].map(|sum| sum / count);
-        let variance = (self.excess_squared_n2 - count * excess_n * excess_n).max(0.0) / (count - 1.0);
-        let is_off = excess_n.abs() > TOLERATED * due_n && excess_n.abs() > BEYOND_CHANCE * (variance / count).sqrt();
-        is_off.then_some(Misfit { borne_n, due_n })
+        let (due_n, excess_n) = (self.due_n.mean, self.excess_n.mean);
+        let is_off = self.excess_n.count >= LEAST_BLOCKS
+            && excess_n.abs() > TOLERATED * due_n
+            && excess_n.abs() > BEYOND_CHANCE * self.excess_n.standard_error();
+        is_off.then_some(Misfit { borne_n: due_n + excess_n, due_n })
     }
 }
 

@@ -50,7 +50,7 @@ pub fn soil_cells(soil: &SoilDocument) -> [String; 3] {
 
 fn cell(parameter: Option<&ParameterDocument>, kind: Parameter) -> String {
     let Some(told) = parameter else { return "–".to_owned() };
-    let digits = usize::from(kind != Parameter::Cohesion);
+    let digits = kind.decimals();
     let figure = |value: f64| number(kind.shown(value), digits, false);
     let spread = told.std.map_or_else(String::new, |std| format!(" ± {}", figure(std)));
     let text = format!("{}{spread}", figure(told.value));

@@ -2,8 +2,8 @@
 
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
-use crate::data::campaign::{Campaign, Channel, Knowledge};
-use crate::prior;
+use crate::data::campaign::{Campaign, Channel};
+use crate::statistics::root_mean_square;
 
 /// The equations beside the measurements.
 #[derive(Debug, Clone)]
@@ -79,12 +79,8 @@ impl ModelCheck {
     /// Over all rows.
     pub fn rms(&self) -> Rms {
         let over = |measured: fn(&ModelRow) -> Option<f64>, model: fn(&ModelState) -> f64| {
-            let squares: Vec<f64> = self
-                .rows
-                .iter()
-                .filter_map(|row| Some((measured(row)? - model(row.model.as_ref()?)).powi(2)))
-                .collect();
-            (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+            let left = self.rows.iter().filter_map(|row| Some(measured(row)? - model(row.model.as_ref()?)));
+            Some(root_mean_square(left)).filter(|rms| !rms.is_nan())
         };
         Rms {
             drawbar_pull_n: over(|row| row.drawbar_pull_n, |model| model.drawbar_pull_n),
@@ -106,17 +102,13 @@ impl ModelState {
 /// The soil of the equations from what other means have measured. Where the stress peaks is rarely known: the middle of
 /// what the networks were trained with, then.
 fn known_soil(campaign: &Campaign) -> Option<Soil<f64>> {
-    let ground = &campaign.ground;
-    let middle = |known: Knowledge| known.middle();
-    Some(Soil {
-        sinkage_exponent: ground.sinkage_exponent.map(middle)?,
-        cohesive_modulus: 0.0,
-        frictional_modulus: ground.stiffness(&campaign.wheel).map(middle)?,
-        cohesion_pa: ground.cohesion_pa.map(middle)?,
-        friction_angle_rad: ground.friction_angle_rad.map(middle)?,
-        shear_modulus_m: ground.shear_modulus_m.map(middle)?,
-        peak_stress_c1: ground.peak_stress_c1.map_or_else(|| prior::PEAK_STRESS_C1.at(0.5), middle),
-        peak_stress_c2: ground.peak_stress_c2.map_or_else(|| prior::PEAK_STRESS_C2.at(0.5), middle),
-        rebound_ratio: ground.rebound_ratio.map_or(0.0, middle),
-    })
+    let (ground, wheel) = (&campaign.ground, &campaign.wheel);
+    let needed = [
+        ground.sinkage_exponent,
+        ground.stiffness(wheel),
+        ground.cohesion_pa,
+        ground.friction_angle_rad,
+        ground.shear_modulus_m,
+    ];
+    needed.iter().all(Option::is_some).then(|| ground.middle(wheel))
 }

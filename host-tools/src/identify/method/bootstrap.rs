@@ -13,7 +13,7 @@ use crate::statistics::{quantile, sorted};
 use super::{Evidence, Finding};
 
 /// Redraws of the noise.
-const REDRAWS: usize = 200;
+pub const REDRAWS: usize = 200;
 /// Share of them that must have an answer.
 const LEAST_SHARE: f64 = 0.5;
 

@@ -23,6 +23,7 @@ use kapvik_firmware::wheel_state::WHEELS;
 use crate::data::campaign::{Campaign, Channel};
 
 pub use answer::{Finding, Fit, Statement};
+pub use bootstrap::REDRAWS;
 pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
 pub use knowledge::{soil_prior, training_prior};
 pub use map::most_probable_soil;

@@ -69,5 +69,5 @@ fn axis_title(parameter: Parameter) -> String {
 
 /// A share in percent.
 pub fn percent(share: f64) -> String {
-    if share.is_nan() { "–".to_owned() } else { number(100.0 * share, 0, false) }
+    number(100.0 * share, 0, false)
 }

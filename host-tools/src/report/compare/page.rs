@@ -1,9 +1,12 @@
 //! The page: who is to be trusted where.
 
+use kapvik_firmware::identification::SoilPrior;
 use maud::{DOCTYPE, Markup, html};
 
-use crate::compare::{Compared, Comparison, Score};
+use crate::compare::{Compared, Comparison, SLIPS, Score};
+use crate::identify::method::REDRAWS;
 use crate::parameter::Parameter;
+use crate::prior;
 use crate::report::draw::number;
 use crate::report::page::head;
 
@@ -13,15 +16,37 @@ use super::verdict::{to_limit, verdicts};
 use super::{COMPARE_CSS, overview};
 
 /// What the reader has to know of how it was done.
-const METHOD: [&str; 4] = [
-    "Six wheels of Kapvik's assumed size at slips 0.05–0.60; noise of one instant 0.5 N (drawbar pull), 1 N (load), 0.05 N·m, \
-     0.01 of slip, 2 mm of sinkage. All methods see the same numbers.",
-    "Every method that takes a prior is told the one that the networks were trained with, whatever is true; map stands in the \
-     tables once more with the usual one: c about 400 Pa, φ about 32 ± 6°, K about 13 mm.",
-    "Methods that take part of the soil as given have the middle of the prior for it; some stand in the tables once more with the \
-     truth, and are named so. Standard deviations are the method's own; where it gives none, by redrawing the noise 200 times.",
-    "The limit is the mean of the exact posterior, by sampling. Nothing beats its root mean square error where its prior is true.",
-];
+fn method() -> [String; 4] {
+    let noise = &prior::KAPVIK_INSTANT_NOISE;
+    let [least_slip, greatest_slip] = SLIPS;
+    let usual = SoilPrior::<f64>::usual();
+    [
+        format!(
+            "Six wheels of Kapvik's assumed size at slips {least_slip:.2}–{greatest_slip:.2}; noise of one instant {} N (drawbar pull), {} N (load), {} N·m, \
+             {} of slip, {} mm of sinkage. All methods see the same numbers.",
+            noise.drawbar_pull_n,
+            noise.load_n,
+            noise.torque_nm,
+            noise.slip,
+            1e3 * noise.sinkage_m
+        ),
+        format!(
+            "Every method that takes a prior is told the one that the networks were trained with, whatever is true; map stands in the \
+             tables once more with the usual one: c about {}, φ about {:.0} ± {:.0}°, K about {}.",
+            Parameter::Cohesion.quantity(usual.ln_cohesion.mean.exp()),
+            usual.friction_angle_rad.mean.to_degrees(),
+            usual.friction_angle_rad.spread().to_degrees(),
+            Parameter::ShearModulus.quantity(usual.ln_shear_modulus.mean.exp()),
+        ),
+        format!(
+            "Methods that take part of the soil as given have the middle of the prior for it; some stand in the tables once more with \
+             the truth, and are named so. Standard deviations are the method's own; where it gives none, by redrawing the noise \
+             {REDRAWS} times."
+        ),
+        "The limit is the mean of the exact posterior, by sampling. Nothing beats its root mean square error where its prior is true."
+            .to_owned(),
+    ]
+}
 
 /// The page.
 pub fn page(comparison: &Comparison) -> String {
@@ -45,7 +70,7 @@ pub fn page(comparison: &Comparison) -> String {
                     p class="note" { "The darker, the further from the least error of the column (rust: tenfold). Bold: least of the methods \
                         that are told no more than the others." }
                     (limit_section(comparison))
-                    section { h2 { "How it was done" } ul class="caveats" { @for line in METHOD { li { (line) } } } }
+                    section { h2 { "How it was done" } ul class="caveats" { @for line in method() { li { (line) } } } }
                     @for compared in &comparison.situations { (situation(compared)) }
                     @if !comparison.measured.is_empty() { (measured_section(comparison)) }
                 }
@@ -96,7 +121,7 @@ fn row(score: &Score) -> Markup {
             td title=(score.reason.as_deref().unwrap_or("")) { (label(score.contender)) }
             @for parameter in Parameter::ALL {
                 @let of = score.parameter(parameter);
-                @let digits = usize::from(parameter != Parameter::Cohesion);
+                @let digits = parameter.decimals();
                 @if of.assumed || of.median.is_nan() {
                     td class="untold" { @if of.assumed { "given" } @else { "–" } } td {} td {}
                 } @else {

@@ -8,6 +8,7 @@ use crate::report::draw::number;
 use crate::report::identified::{remark, soil_cells};
 use crate::terminal_table::{align_right, plain_table};
 
+use super::error_chart::percent;
 use super::verdict::{is_best, to_limit, verdicts};
 
 /// What direct tests of the sand of Ding et al. 2011 found.
@@ -54,7 +55,7 @@ fn table(compared: &Compared) -> Table {
         for parameter in Parameter::ALL {
             row.extend(cells(compared, score, parameter));
         }
-        row.push(format!("{} %", number(100.0 * score.refused, 0, false)));
+        row.push(format!("{} %", percent(score.refused)));
         row.push(duration(score.seconds));
         table.add_row(row);
     }
@@ -78,8 +79,7 @@ fn cells(compared: &Compared, score: &Score, parameter: Parameter) -> [String; 3
     if of.median.is_nan() {
         return ["–", "", ""].map(str::to_owned);
     }
-    let digits = usize::from(parameter != Parameter::Cohesion);
-    let figure = |value: f64| number(value, digits, false);
+    let figure = |value: f64| number(value, parameter.decimals(), false);
     if of.assumed {
         return [format!("({})", figure(of.median)), String::new(), String::new()];
     }
@@ -92,7 +92,7 @@ fn cells(compared: &Compared, score: &Score, parameter: Parameter) -> [String; 3
 }
 
 fn coverage(score: &ParameterScore) -> String {
-    format!("{}, {}", number(100.0 * score.within_68, 0, false), number(100.0 * score.within_95, 0, false))
+    format!("{}, {}", percent(score.within_68), percent(score.within_95))
 }
 
 fn limit_table(rows: Vec<[String; 5]>) -> Table {

@@ -85,7 +85,7 @@ fn wins(comparison: &Comparison, parameter: Parameter) -> Option<String> {
 
 fn loss(compared: &Compared, parameter: Parameter) -> Option<String> {
     let best = winner(compared, parameter)?;
-    let digits = usize::from(parameter != Parameter::Cohesion) * 2;
+    let digits = 2 * parameter.decimals();
     let error = |score: &Score| number(score.parameter(parameter).median_error, digits, false);
     let map = compared.scores.iter().find(|score| score.contender == "map")?;
     if best.contender == "map" || !is_beaten(map.parameter(parameter), best.parameter(parameter)) {

@@ -22,13 +22,11 @@ fn row(quantity: Quantity, errors: &Errors) -> [String; 6] {
     let shown = |value: f64| {
         if value.is_finite() { format!("{}{unit}", number(factor * value, digits, false)) } else { "–".to_owned() }
     };
-    let ratio = tally.over_naive();
     let [one, two] = tally.coverage().map(|share| match quantity.states_std() {
         true => format!("{:.0} %", 100.0 * share),
         false => "–".to_owned(),
     });
-    let ratio = if ratio.is_finite() { number(ratio, 2, false) } else { "–".to_owned() };
-    [name.to_owned(), shown(tally.rmse()), shown(tally.naive_rmse()), ratio, one, two]
+    [name.to_owned(), shown(tally.rmse()), shown(tally.naive_rmse()), number(tally.over_naive(), 2, false), one, two]
 }
 
 /// Name, unit, factor from SI units, and digits.

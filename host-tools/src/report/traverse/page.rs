@@ -93,7 +93,7 @@ fn answers(findings: &TraverseFindings) -> Markup {
         Ok(soil) => &soil.estimate,
         Err(reason) => return html! { p { "No estimate at the end: " (network_refusal(*reason)) "." } },
     };
-    let last = findings.samples.kept().last();
+    let last = findings.samples.last();
     html! {
         div class="answers" {
             @for parameter in Parameter::ALL {

@@ -27,22 +27,25 @@ impl Sample {
 #[derive(Debug, Clone)]
 pub struct Samples {
     kept: Vec<Sample>,
+    last: Option<Sample>,
     stride: u64,
     frames: u64,
 }
 
 impl Default for Samples {
     fn default() -> Self {
-        Self { kept: Vec::new(), stride: 1, frames: 0 }
+        Self { kept: Vec::new(), last: None, stride: 1, frames: 0 }
     }
 }
 
 impl Samples {
     /// Takes the next frame.
     pub fn push(&mut self, estimate: &FrameEstimate, truth: Option<&Truth>) {
+        let sample = Sample { estimate: *estimate, truth: truth.copied() };
         if self.frames.is_multiple_of(self.stride) {
-            self.kept.push(Sample { estimate: *estimate, truth: truth.copied() });
+            self.kept.push(sample.clone());
         }
+        self.last = Some(sample);
         self.frames += 1;
         if self.kept.len() > MOST {
             let mut place = 0;
@@ -59,10 +62,15 @@ impl Samples {
         &self.kept
     }
 
+    /// That of the last frame, which may not be among those.
+    pub fn last(&self) -> Option<&Sample> {
+        self.last.as_ref()
+    }
+
     /// First and last time, s.
     pub fn span_s(&self) -> (f64, f64) {
         let first = self.kept.first().map_or(0.0, Sample::time_s);
-        (first, self.kept.last().map_or(first, Sample::time_s))
+        (first, self.last.as_ref().map_or(first, Sample::time_s))
     }
 }
 
@@ -86,6 +94,7 @@ mod tests {
             estimate.time_us = 100_000 * frame;
             samples.push(&estimate, None);
         }
+        assert_eq!(samples.span_s(), (0.0, 999.9), "the last frame, though it is none of those kept");
         let times: Vec<u64> = samples.kept().iter().map(|sample| sample.estimate.time_us).collect();
         assert!((MOST / 2..=MOST).contains(&times.len()), "{}", times.len());
         let step = times[1] - times[0];

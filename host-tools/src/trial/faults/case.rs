@@ -2,8 +2,8 @@
 
 use kapvik_firmware::estimator::{Sensor, SensorHealth};
 
+use crate::data::sensor_channels::sensor_name;
 use crate::error::HostError;
-use crate::replay::health::sensor_name;
 use crate::simulate::faults::{Failure, Fault, Faults};
 
 /// The failures of a single sensor.

@@ -10,9 +10,9 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::case::Case;
 use super::deviations::{Deviations, Excess};
+use crate::data::sensor_channels::sensor_name;
 use crate::data::truth_file::Truth;
 use crate::error::HostError;
-use crate::replay::health::sensor_name;
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
 use crate::trial::flight_pipeline;
 
