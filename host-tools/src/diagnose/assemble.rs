@@ -70,7 +70,9 @@ pub fn assemble(
     document.caveats.extend(error_of_load(selected, by_themselves));
     document.caveats.extend(without_answer(measurements, &document.held_out_runs));
     document.caveats.extend(no_error_falls(&document));
-    super::sentence::tell(&mut document, campaign, errors);
+    let off_by_run = measurements.off_by_run(&selected.model().fit.offset_std);
+    let off_by_run: Vec<&str> = off_by_run.map(|(reading, _)| column_name(reading)).collect();
+    super::sentence::tell(&mut document, campaign, errors, &off_by_run);
     document
 }
 

@@ -12,9 +12,10 @@ use super::measurements::column_name;
 /// Times what the stated noise allows from which errors on held-out runs are not that noise.
 const BEYOND_NOISE: f64 = 2.0;
 
-/// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document.
-pub fn tell(document: &mut Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) {
-    document.sentence = sentence(document, campaign, errors);
+/// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document; `off_by_run` are the channels that are off by
+/// another amount in each run.
+pub fn tell(document: &mut Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, off_by_run: &[&str]) {
+    document.sentence = sentence(document, campaign, errors, off_by_run);
     if document.verdict == Verdict::Ambiguous {
         let ids = document.effects.iter().take(1).map(|effect| &effect.id).chain(&document.ambiguous_with);
         let tests: Vec<_> = ids.filter_map(|id| effect_info(id).map(|info| format!("{id}: {}", info.test))).collect();
@@ -22,7 +23,7 @@ pub fn tell(document: &mut Diagnosis, campaign: &Campaign, errors: &HeldOutError
     }
 }
 
-fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) -> String {
+fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, off_by_run: &[&str]) -> String {
     let model = if document.declared.is_empty() {
         "the seed's equations".to_owned()
     } else {
@@ -40,6 +41,11 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) -
         Verdict::None if let Some((channel, times)) = beyond_noise(document, campaign, errors) => format!(
             "{of}: {model} miss {channel} by {times:.1} times its stated noise and that of slip and load, and no candidate and no column \
              explains that: the noise is larger, or a law is missing that follows nothing measured."
+        ),
+        Verdict::None if !off_by_run.is_empty() => format!(
+            "{of}: within each run {model} explain the data as well as their noise allows, and no candidate earns a place; but from run to run \
+             {} differs by more than its noise, which nothing measured explains.",
+            off_by_run.join(" and ")
         ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
