@@ -1,8 +1,12 @@
 //! How well torques tell the way two wheels of a bogie share their drawbar pull, over the soils of the prior.
 
 use kapvik_firmware::estimator::drawbar_split::{BogieWheel, DrawbarSplit};
+use kapvik_firmware::terramechanics::{sinkage_for_load, wheel_forces};
 use kapvik_firmware::wheel_state::WheelState;
+use kapvik_host::prior::{DEEPEST, KAPVIK_WHEEL, any_soil};
 use kapvik_host::train::scene::{Design, Scene, scenes};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 fn wheel(scene: &Scene, state: &WheelState) -> BogieWheel<f64> {
     BogieWheel {
@@ -39,6 +43,36 @@ fn the_split_by_torque_is_as_good_as_it_states_and_far_better_than_the_split_by_
     println!("by torque {by_torque:.2} N, by load {by_load:.2} N, {normalised:.2} stated standard deviations");
     assert!(by_torque < 0.2 * by_load, "{by_torque} {by_load}");
     assert!((0.7..=1.3).contains(&normalised), "{normalised}");
+}
+
+/// A bogie whose pivot is not in its middle: one wheel bears up to four times as much as the other.
+#[test]
+fn the_split_states_its_errors_where_one_wheel_bears_far_more_than_the_other() {
+    const MEAN_LOAD_N: f64 = 65.0;
+    let mut random = ChaCha8Rng::seed_from_u64(91);
+    for unevenness in [0.3, 0.6, 0.9, 1.2] {
+        let mut squares = Vec::new();
+        for _ in 0..1000 {
+            let soil = any_soil(|| random.random());
+            let slips = [0, 1].map(|_| random.random_range(0.03..0.5));
+            let loads_n = [1.0, -1.0].map(|sign| MEAN_LOAD_N * (1.0 + 0.5 * sign * unevenness));
+            let wheel = |place: usize| {
+                let (load_n, slip) = (loads_n[place], slips[place]);
+                let sinkage_m = sinkage_for_load(&KAPVIK_WHEEL, &soil, slip, load_n).ok()?;
+                let forces = wheel_forces(&KAPVIK_WHEEL, &soil, slip, sinkage_m).ok()?;
+                let rim_force_n = forces.torque_nm / KAPVIK_WHEEL.radius_m;
+                let carries = sinkage_m <= DEEPEST * KAPVIK_WHEEL.radius_m;
+                let wheel = BogieWheel { load_n, rim_force_n, slip, direction: 1.0 };
+                carries.then_some((wheel, forces.drawbar_pull_n))
+            };
+            let Some(((middle, pull_n), (rear, other_n))) = wheel(0).zip(wheel(1)) else { continue };
+            let split = DrawbarSplit::by_torque(&middle, &rear, pull_n + other_n);
+            squares.push(((split.difference_n - (pull_n - other_n)) / split.std_n).powi(2));
+        }
+        let normalised = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        println!("ΔW/W̄ {unevenness}: {normalised:.2} stated standard deviations, {} pairs", squares.len());
+        assert!(squares.len() > 800 && (0.5..=1.3).contains(&normalised), "{unevenness}: {normalised}");
+    }
 }
 
 /// Errors of filter 2 may make a load negative.

@@ -4,21 +4,23 @@
 //! proportion to load. But the pull of a wheel follows its torque (Ding et al. 2009 give DP as a sum of M/r and W with
 //! factors of the contact's shape alone), so the torques tell how the two differ.
 //!
-//! The form is ours: DP₂ − DP₃ = a ΔT/r + (b ΣDP − c ΣT/r) ΔW/ΣW − d Δs W̄, fitted to equations 1–11 over the soils that
-//! the networks are trained for. The host's test `drawbar_split` draws other soils, and finds the spread that is stated here.
+//! The form is ours: DP₂ − DP₃ = a ΔT/r + (b ΣDP − c ΣT/r) ΔW/ΣW − d Δs W̄ + 4e ((ΔW/ΣW)² − f) ΔW, fitted to equations 1–11 over
+//! the soils that the networks are trained for. The host's test `drawbar_split` draws other soils, and finds the spread that is stated here.
 
 use crate::rover::Planar;
 use crate::scalar::Scalar;
 
-/// The factors a, b, c, d.
+/// The factors a, b, c, d, e, and f.
 pub(super) const OF_TORQUE: f64 = 1.065;
 const OF_PULL: f64 = 1.362;
 const OF_TORQUES: f64 = 1.395;
 const OF_SLIP: f64 = 0.0549;
-/// One standard deviation of what the form leaves, per newton of ΔW and of Δs W̄, and what is left of two equal wheels, N. It grows no
-/// more where ΔW is beyond this share of the mean load. Below slip 0 the form was not fitted: there, per newton of skid times W̄.
+const OF_LOAD_CUBED: f64 = 0.0309;
+/// f: (ΔW/ΣW)² where the last term is none.
+const EVEN_SHARE: f64 = 0.0549;
+/// One standard deviation of what the form leaves, per newton of ΔW and of Δs W̄, and what is left of two equal wheels, N. Below slip 0 the
+/// form was not fitted: there, per newton of skid times W̄.
 const SPREAD_OF_LOAD: f64 = 0.0125;
-const LOADS_FAR_APART: f64 = 0.45;
 const SPREAD_OF_SLIP: f64 = 0.042;
 const SPREAD_OF_SKID: f64 = 0.15;
 const LEAST_SPREAD_N: f64 = 0.08;
@@ -65,14 +67,16 @@ impl<S: Scalar> DrawbarSplit<S> {
         let mean_load = loads * S::constant(0.5);
         let unequal_slip = (middle.slip - rear.slip) * mean_load * middle.direction;
         let per_load = if loads > S::one() {
+            // Where one bears all it is 1; errors of filter 2 may make a load negative.
+            let uneven = unequal_load / loads;
             (S::constant(OF_PULL) * sum_n - S::constant(OF_TORQUES) * torques) / loads
+                + S::constant(4.0 * OF_LOAD_CUBED) * ((uneven * uneven).min(S::one()) - S::constant(EVEN_SHARE))
         } else {
             S::zero()
         };
         let difference_n = S::constant(OF_TORQUE) * (middle.rim_force_n - rear.rim_force_n) + unequal_load * per_load
             - S::constant(OF_SLIP) * unequal_slip;
-        let far_apart = S::constant(LOADS_FAR_APART) * mean_load;
-        let load = S::constant(SPREAD_OF_LOAD) * unequal_load.abs().min(far_apart);
+        let load = S::constant(SPREAD_OF_LOAD) * unequal_load;
         let slip = S::constant(SPREAD_OF_SLIP) * unequal_slip;
         let skid = S::constant(SPREAD_OF_SKID) * middle.slip.min(rear.slip).min(S::zero()) * mean_load;
         let least = S::constant(LEAST_SPREAD_N);
