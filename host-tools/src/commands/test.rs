@@ -35,8 +35,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
 }
 
 fn checks(toolchain: &Toolchain) -> Vec<Check> {
-    let mut format = command("cargo");
-    format.args(["fmt", "--all", "--check"]);
+    let format = |of: &[&str]| {
+        let mut format = command("cargo");
+        format.args(["fmt", "--check"]).args(of);
+        format
+    };
     let mut lint = command("cargo");
     lint.args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
     let mut tests = command("cargo");
@@ -44,7 +47,9 @@ fn checks(toolchain: &Toolchain) -> Vec<Check> {
     let mut docs = command("cargo");
     docs.args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
     vec![
-        Check::new("formatting", format),
+        Check::new("formatting", format(&["--all"])),
+        // A workspace of its own, so that what they need is not the product's.
+        Check::new("formatting, contenders", format(&["--manifest-path", "tests/contenders/Cargo.toml"])),
         Check::new("lints, host", lint),
         lint_image(toolchain),
         Check::new("tests, host and QEMU", tests),

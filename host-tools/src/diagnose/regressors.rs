@@ -229,7 +229,7 @@ pub(super) fn other_causes(campaign: &Campaign) -> impl Iterator<Item = &str> {
 
 /// Columns that say how a channel scattered within a window are results, too.
 fn is_scatter(name: &str) -> bool {
-    name.split('_').any(|part| matches!(part, "sd" | "std"))
+    name.split('_').any(|part| matches!(part, "sd" | "std" | "stdev" | "sigma"))
 }
 
 fn standardised(name: String, parts: Vec<Part>, column: &Column, at: &Arc<[[f64; 2]]>) -> Option<Regressor> {
