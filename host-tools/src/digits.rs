@@ -6,9 +6,19 @@ pub fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.after_first$e}").parse().unwrap_or(value)
 }
 
+/// A unit as it follows a number; nothing of a number without one, whose unit is `-`.
+pub fn spaced_unit(unit: &str) -> String {
+    if unit == "-" { String::new() } else { format!(" {unit}") }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::significant;
+    use super::{significant, spaced_unit};
+
+    #[test]
+    fn a_number_without_unit_stands_alone() {
+        assert_eq!(["N", "-"].map(spaced_unit), [" N", ""]);
+    }
 
     #[test]
     fn numbers_keep_so_many_digits() {

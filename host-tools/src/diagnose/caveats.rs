@@ -1,6 +1,7 @@
 //! What a reader of a diagnosis should know about its data.
 
 use crate::data::campaign::Campaign;
+use crate::digits::spaced_unit;
 use crate::statistics::ends;
 
 use super::candidates::loads_differ;
@@ -123,7 +124,7 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
         let std = trial.std(place);
         let is_near = |end: f64| (value - end).abs() <= std || value == end;
         let end = [low, high].into_iter().find(|end| *end != info.neutral && is_near(*end))?;
-        let unit = if info.unit == "-" { String::new() } else { format!(" {}", info.unit) };
+        let unit = spaced_unit(info.unit);
         Some(format!(
             "{id}: {name} = {value:.3}{unit} is at the end of its range, {low:.3} to {high:.3}{unit}, or no further from it \
              than it is uncertain. What lies at {end:.3} is where the search ended, not what the data tell: another law may \

@@ -22,6 +22,8 @@ pub const COLUMNS: [Channel; CHANNELS] =
 /// Rows to which the runs are thinned together, but for at least one of each run; of more runs, as of rows that are runs of their own, so many
 /// stay.
 const MOST_ROWS: usize = 240;
+/// Share of the rows that must have a column for something to be said to follow it.
+pub const KNOWN_SHARE: f64 = 0.8;
 /// Times the stated noise from which runs are far off.
 const OFF: f64 = 2.0;
 /// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
@@ -215,9 +217,6 @@ fn thinned(run: &[usize], all: usize, number: usize) -> impl Iterator<Item = usi
     scattered(run, share.max(1), number).copied()
 }
 
-/// Share of the rows that must have a column for something to be said to follow it.
-pub const KNOWN_SHARE: f64 = 0.8;
-
 /// So many of some things, one of each of as many equal parts of them; all where there are fewer. Which one of a part changes from part to
 /// part by the golden section, and so it does from one number to the next: what comes round in step, as six wheels at each instant do, would
 /// else be seen at one and the same place of it.
@@ -293,7 +292,8 @@ mod tests {
     fn of_many_runs_some_of_every_part_stay() {
         let rows: Vec<usize> = (0..1000).collect();
         let kept: Vec<_> = scattered(&rows, MOST_ROWS, 0).copied().collect();
-        assert!(kept.len() == MOST_ROWS && kept.windows(2).all(|pair| (1..9).contains(&(pair[1] - pair[0]))));
+        assert_eq!((kept.len(), kept[0], kept[1], kept[MOST_ROWS - 1]), (MOST_ROWS, 0, 6, 998));
+        assert!(kept.windows(2).all(|pair| (1..9).contains(&(pair[1] - pair[0]))));
         assert_eq!(scattered(&rows[..7], MOST_ROWS, 3).count(), 7);
     }
 
@@ -302,8 +302,8 @@ mod tests {
         let rows: Vec<usize> = (10..20).collect();
         let stay = |run: &[usize], all: usize| thinned(run, all, 5).collect::<Vec<_>>();
         assert_eq!(stay(&rows, MOST_ROWS), rows);
-        assert_eq!(stay(&rows, 2 * MOST_ROWS).len(), 5);
-        assert_eq!(stay(&rows, 4 * MOST_ROWS / 3).len(), 8);
+        assert_eq!(stay(&rows, 2 * MOST_ROWS), [10, 13, 14, 17, 19]);
+        assert_eq!(stay(&rows, 4 * MOST_ROWS / 3), [10, 11, 12, 14, 15, 16, 17, 18]);
         assert_eq!(stay(&rows[..1], 1000 * MOST_ROWS), [10]);
         assert!(stay(&[], MOST_ROWS).is_empty());
     }

@@ -4,8 +4,6 @@
 //! says grows in proportion to its time, so that the time that an accuracy takes is found without driving it again. The first
 //! seconds of every leg, until drives and wheels have settled, count for nothing.
 
-use std::cmp::Reverse;
-
 use kapvik_firmware::rover::{Axle, PerAxle, Rover};
 use kapvik_firmware::terramechanics::Soil;
 use rayon::prelude::*;
@@ -218,7 +216,8 @@ impl Question {
             (0..self.targets.len()).filter(met).collect()
         };
         let sets = manoeuvres.par_iter().map(places_known);
-        let largest = sets.max_by_key(|places| (places.len(), Reverse(places.clone()))).unwrap_or_default();
+        let largest =
+            sets.max_by(|one, other| one.len().cmp(&other.len()).then_with(|| other.cmp(one))).unwrap_or_default();
         largest.into_iter().map(|place| self.targets[place]).collect()
     }
 

@@ -10,6 +10,8 @@ use std::ops::RangeInclusive;
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Effects, Form, effect_info};
 use thiserror::Error;
 
+use crate::digits::spaced_unit;
+
 /// Effects on soil, sensors and drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoverEffects {
@@ -103,7 +105,7 @@ impl RoverEffects {
             return refused(format!("{name} means nothing on a rover: {reason}. What does: {}", known()));
         }
         if !info.any_size && !(about.low..=about.high).contains(&value) {
-            let unit = if about.unit == "-" { String::new() } else { format!(" {}", about.unit) };
+            let unit = spaced_unit(about.unit);
             return refused(format!("{parameter} = {value}: expected {} to {}{unit}", about.low, about.high));
         }
         self.library.set(id, parameter, value);

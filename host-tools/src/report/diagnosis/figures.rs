@@ -20,17 +20,11 @@ pub fn with_std(Estimate { value, std }: Estimate, factor: f64) -> String {
 
 /// A number to so many digits that mean something.
 pub fn significant(value: f64, digits: i32) -> String {
-    if !value.is_finite() {
-        return "–".to_owned();
-    }
     number(value, decimals(value, digits), false)
 }
 
 /// An error beside its noise, both to the second digit of the noise.
 pub fn beside_noise(error: f64, noise: f64) -> String {
-    if !error.is_finite() {
-        return "–".to_owned();
-    }
     if noise > 0.0 { number(error, decimals(noise, 2), false) } else { significant(error, 3) }
 }
 

@@ -9,6 +9,7 @@ use super::figures::{probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
 use crate::diagnose::document::{DeclaredFit, Diagnosis, Estimate, FoundEffect, Unexplained};
+use crate::digits::spaced_unit;
 
 /// Below the verdict: each effect found, rivals, a law without a name.
 pub fn cards(findings: &DiagnosisFindings) -> Markup {
@@ -68,7 +69,7 @@ fn with_units(id: &str, parameters: &BTreeMap<String, Estimate>) -> String {
     let info = effect_info(id);
     let each = parameters.iter().map(|(name, estimate)| {
         let unit = info.and_then(|info| info.parameter(name)).map_or("-", |parameter| parameter.unit);
-        let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+        let unit = spaced_unit(unit);
         format!("{name} = {}{unit}", with_std(*estimate, 1.0))
     });
     each.collect::<Vec<_>>().join(", ")
