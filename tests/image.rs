@@ -30,9 +30,9 @@ fn a_thousand_queries_give_the_bits_of_the_host() {
     let mut host = FlightComputer::in_process().expect("the library answers in this process");
     let mut target = flight_computer();
     let start = Instant::now();
-    let on_target = target.query_all(&asked, |_| ()).expect("the image answers");
+    let on_target = target.query_all(&asked).expect("the image answers");
     println!("{} queries in {:?}", asked.len(), start.elapsed());
-    let on_host = host.query_all(&asked, |_| ()).expect("the library answers");
+    let on_host = host.query_all(&asked).expect("the library answers");
     for ((query, target), host) in asked.iter().zip(&on_target).zip(&on_host) {
         assert_eq!(bits(target), bits(host), "{query:?}: {target:?}, and {host:?} on the host");
         assert_eq!(target.wheels.len(), query.wheels.len());
@@ -46,7 +46,7 @@ fn a_thousand_queries_give_the_bits_of_the_host() {
 fn one_query_at_a_time_gives_the_same_as_many() {
     let asked = queries(20, &mut random(21));
     let mut computer = flight_computer();
-    let many = computer.query_all(&asked, |_| ()).expect("the image answers");
+    let many = computer.query_all(&asked).expect("the image answers");
     for (query, expected) in asked.iter().zip(&many) {
         assert_eq!(bits(&computer.query(query).expect("the image answers")), bits(expected));
     }
@@ -60,7 +60,7 @@ fn memory_is_within_its_budget() {
     let asked: Vec<_> =
         queries(200, &mut random(22)).into_iter().filter(|query| query.wheels.len() == WHEELS).collect();
     assert!(!asked.is_empty());
-    computer.query_all(&asked, |_| ()).expect("the image answers");
+    computer.query_all(&asked).expect("the image answers");
     computer.self_test().expect("the image tests itself");
     estimates_of_the_recorded_drive(&mut computer);
     computer.send_bytes(&[0x55; 2000]).expect("the image listens");

@@ -1,4 +1,4 @@
-//! Numbers rounded for people.
+//! Numbers for people.
 
 /// A number rounded to so many significant digits.
 pub fn significant(value: f64, digits: usize) -> f64 {
@@ -11,13 +11,23 @@ pub fn spaced_unit(unit: &str) -> String {
     if unit == "-" { String::new() } else { format!(" {unit}") }
 }
 
+/// So many of something: `1 frame`, `2 frames`.
+pub fn counted(number: u64, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{significant, spaced_unit};
+    use super::{counted, significant, spaced_unit};
 
     #[test]
     fn a_number_without_unit_stands_alone() {
         assert_eq!(["N", "-"].map(spaced_unit), [" N", ""]);
+    }
+
+    #[test]
+    fn one_is_no_plural() {
+        assert_eq!([0, 1, 2].map(|number| counted(number, "query", "queries")), ["0 queries", "1 query", "2 queries"]);
     }
 
     #[test]

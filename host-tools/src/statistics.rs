@@ -1,7 +1,16 @@
-//! Order statistics of samples, and how series hang together.
+//! Statistics of samples, and how series hang together.
 
 pub mod autocorrelation;
 pub mod running;
+
+/// A number and its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// The number.
+    pub value: f64,
+    /// One standard error.
+    pub standard_error: f64,
+}
 
 /// The values in rising order.
 pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {

@@ -324,3 +324,22 @@ fn strength_grows_with_passes() {
     let expected = WheelOnSoil { soil: &soil, ..on_sand(&nothing) }.at_load(&conditions, 0.3, LOAD_N).expect("carried");
     assert!((stronger.drawbar_pull_n - expected.drawbar_pull_n).abs() < 1e-9);
 }
+
+/// An effect under which forces at a sinkage hang on the load says so: who simulates it at a given sinkage has to look for the load, then.
+#[test]
+fn effects_say_whether_they_follow_the_load() {
+    let mut following = 0;
+    for info in CATALOGUE {
+        for form in info.forms {
+            let typical = form.free.iter().map(|name| (info.id, *name, info.parameter(name).expect("known").typical));
+            let settings: Vec<_> =
+                form.set.iter().map(|(name, value)| (info.id, *name, *value)).chain(typical).collect();
+            let effects = with(&settings);
+            let under = |load_n| on_sand(&effects).forces(&EVERYTHING_KNOWN, 0.3, load_n, 0.01).expect("forces");
+            let hangs_on_it = under(40.0) != under(90.0);
+            assert!(effects.follow_load() || !hangs_on_it, "{} {}", info.id, form.name);
+            following += usize::from(hangs_on_it);
+        }
+    }
+    assert_eq!(following, 3, "two forms of load-stiffening, and the blades of grousers");
+}

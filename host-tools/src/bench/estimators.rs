@@ -5,6 +5,7 @@ use kapvik_firmware::rover::Rover;
 
 use super::estimators_soil;
 use crate::simulate::Scenario;
+use crate::statistics::Measured;
 use crate::trial::consistency::WILD;
 use crate::trial::pulls_seen::MeanSquare;
 use crate::trial::tally::Tally;
@@ -55,7 +56,8 @@ fn print(trial: &Trial) {
     }
     print_pulls(trial);
     let names = ["NEES filter 1", "NEES filter 2", "NIS filter 1", "NIS angles", "NIS forces"];
-    for ((name, squares), (mean, error)) in names.into_iter().zip(trial.squares()).zip(trial.mean_squares()) {
+    for ((name, squares), mean) in names.into_iter().zip(trial.squares()).zip(trial.mean_squares()) {
+        let Measured { value: mean, standard_error: error } = mean;
         let inside = 100.0 * squares.share_inside();
         print!("  {name:16} {mean:9.3} ±{error:5.3} of 1, inside 95 % bounds {inside:5.1} %");
         let (share, weight) = squares.wild();
@@ -101,8 +103,9 @@ fn print_tally(trial: &Trial, quantity: Quantity, tally: &Tally) {
         Quantity::SplitPull => ("split by torque", 1.0),
         Quantity::LoadSplitPull => ("split by load", 1.0),
     };
-    let (ratio, error) = trial.over_naive(quantity);
-    let covered = trial.coverage(quantity).map(|(share, error)| format!("{:5.1} ±{:.1}", 100.0 * share, 100.0 * error));
+    let Measured { value: ratio, standard_error: error } = trial.over_naive(quantity);
+    let percent = |share: Measured| format!("{:5.1} ±{:.1}", 100.0 * share.value, 100.0 * share.standard_error);
+    let covered = trial.coverage(quantity).map(percent);
     let covered = if quantity.states_std() { covered.join(", ") } else { "–".to_owned() };
     let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
     let bias = unit * tally.bias();

@@ -4,13 +4,13 @@ use clap::{Args, ValueEnum};
 use kapvik_firmware::wheel_state::SoilQuery;
 
 use crate::error::HostError;
-use crate::limit::accuracy::{Errors, Measured};
+use crate::limit::accuracy::Errors;
 use crate::limit::calibration::{distance_bound, distance_from_uniform};
 use crate::limit::case::{Case, KAPVIK_LOADS, cases};
 use crate::limit::coordinates::Targets;
 use crate::limit::summary::EFFORT;
 use crate::progress::bar;
-use crate::statistics::root_mean_square;
+use crate::statistics::{Measured, root_mean_square};
 use crate::train::dataset::prior_scale;
 use crate::train::scene::Design;
 

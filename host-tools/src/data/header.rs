@@ -1,22 +1,98 @@
 //! The header of a table: each column's name, once.
 
+use std::path::{Path, PathBuf};
+
+use crate::error::HostError;
+
+/// The header of a table, and the file that it stands in.
+#[derive(Debug, Clone)]
+pub struct Header {
+    path: PathBuf,
+    names: Vec<String>,
+}
+
+impl Header {
+    /// Of a table whose names are yet to be read.
+    pub fn unread(path: &Path) -> Self {
+        Self { path: path.to_path_buf(), names: Vec::new() }
+    }
+
+    /// Takes the names of the columns from the fields of a line, blanks around them taken off.
+    ///
+    /// # Errors
+    /// Where something else than commas seems to part the columns, there are remarks in place of names, a column without a name, or a name
+    /// twice.
+    pub fn take<'a>(&mut self, line: u64, fields: impl Iterator<Item = &'a str>) -> Result<(), HostError> {
+        self.names = column_names(fields).map_err(|wrong| self.error(line, wrong.column, wrong.message))?;
+        Ok(())
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The names of the columns; none before they are read.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Where the column of that name stands.
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|other| other == name)
+    }
+
+    /// Where the column of that name stands, which the caller cannot do without.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn required(&self, name: &str) -> Result<usize, HostError> {
+        let found = || format!("no column `{name}`: expected one in the header (found {})", self.names.join(", "));
+        self.position(name).ok_or_else(|| self.error(1, 1, found()))
+    }
+
+    /// Appends a column.
+    pub fn push(&mut self, name: &str) {
+        self.names.push(name.to_owned());
+    }
+
+    /// Refuses a row of so many fields where that is not as many as there are names.
+    ///
+    /// # Errors
+    /// At the first field that is missing or too many.
+    pub fn check_length(&self, line: u64, length: usize) -> Result<(), HostError> {
+        let expected = self.names.len();
+        if length == expected {
+            return Ok(());
+        }
+        let column = length.min(expected) as u64 + 1;
+        Err(self.error(line, column, format!("{length} fields in this row: expected {expected}, as in the header")))
+    }
+
+    /// An error at a field, which its message names by its column.
+    pub fn error_at(&self, line: u64, column: usize, message: impl AsRef<str>) -> HostError {
+        let name = self.names.get(column).map_or("", String::as_str);
+        self.error(line, column as u64 + 1, format!("{name}: {}", message.as_ref()))
+    }
+
+    /// An error at a place of the file.
+    pub fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
+        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
+    }
+}
+
 /// What is wrong with a header.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct HeaderError {
+struct HeaderError {
     /// The column, from 1.
-    pub column: u64,
+    column: u64,
     /// What was expected.
-    pub message: String,
+    message: String,
 }
 
 /// What parts columns in other tables, as it is told and as it is.
 const OTHER_SEPARATORS: [(&str, char); 2] = [("semicolons", ';'), ("tabs", '\t')];
 
-/// The names of the columns, blanks around them taken off.
-///
-/// # Errors
-/// Where something else than commas seems to part the columns, there are remarks in place of names, a column without a name, or a name twice.
-pub fn column_names<'a>(fields: impl Iterator<Item = &'a str>) -> Result<Vec<String>, HeaderError> {
+fn column_names<'a>(fields: impl Iterator<Item = &'a str>) -> Result<Vec<String>, HeaderError> {
     let names: Vec<String> = fields.map(|name| name.trim().to_owned()).collect();
     if let [all] = names.as_slice()
         && let Some((shown, _)) = OTHER_SEPARATORS.iter().find(|(_, separator)| all.contains(*separator))

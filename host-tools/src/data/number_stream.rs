@@ -2,12 +2,12 @@
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::str::FromStr;
 
 use csv::{ReaderBuilder, StringRecord};
 
-use super::header::column_names;
+use super::header::Header;
 use crate::error::HostError;
 
 /// A row longer than this many bytes is refused: such a file is not a table.
@@ -15,11 +15,10 @@ const LONGEST_ROW: u64 = 1 << 20;
 
 /// A table that is read from its start to its end.
 pub struct NumberStream {
-    path: PathBuf,
+    header: Header,
     input: Box<dyn BufRead>,
     line: u64,
     text: Vec<u8>,
-    header: Vec<String>,
 }
 
 /// A row of a table: its fields as they were written.
@@ -44,23 +43,22 @@ impl NumberStream {
     /// # Errors
     /// As [`Self::open`].
     pub fn new(path: &Path, input: Box<dyn BufRead>) -> Result<Self, HostError> {
-        let mut stream = Self { path: path.to_path_buf(), input, line: 0, text: Vec::new(), header: Vec::new() };
+        let mut stream = Self { header: Header::unread(path), input, line: 0, text: Vec::new() };
         let Some(row) = stream.next_row()? else {
             return Err(stream.error(1, 1, "the file is empty: expected a header with the names of the columns"));
         };
-        let names = column_names(row.fields.iter());
-        stream.header = names.map_err(|wrong| stream.error(row.line, wrong.column, wrong.message))?;
+        stream.header.take(row.line, row.fields.iter())?;
         Ok(stream)
     }
 
     /// The names of the columns.
     pub fn header(&self) -> &[String] {
-        &self.header
+        self.header.names()
     }
 
     /// Where the column of that name stands.
     pub fn column(&self, name: &str) -> Option<usize> {
-        self.header.iter().position(|other| other == name)
+        self.header.position(name)
     }
 
     /// Where the column of that name stands, which the caller cannot do without.
@@ -68,8 +66,7 @@ impl NumberStream {
     /// # Errors
     /// Where the header does not have it.
     pub fn required_column(&self, name: &str) -> Result<usize, HostError> {
-        let found = || format!("no column `{name}`: expected one in the header (found {})", self.header.join(", "));
-        self.column(name).ok_or_else(|| self.error(1, 1, found()))
+        self.header.required(name)
     }
 
     /// The next row; `None` at the end. Empty lines are passed over.
@@ -81,7 +78,7 @@ impl NumberStream {
         loop {
             self.text.clear();
             let read = (&mut self.input).take(LONGEST_ROW).read_until(b'\n', &mut self.text);
-            if read.map_err(HostError::file(&self.path))? == 0 {
+            if read.map_err(HostError::file(self.header.path()))? == 0 {
                 return Ok(None);
             }
             self.line += 1;
@@ -115,11 +112,8 @@ impl NumberStream {
         reader
             .read_record(&mut fields)
             .map_err(|error| self.error(self.line, 1, format!("not a row of a CSV table: {error}")))?;
-        let (length, expected) = (fields.len(), self.header.len());
-        if length != expected && !self.header.is_empty() {
-            let column = length.min(expected) as u64 + 1;
-            let message = format!("{length} fields in this row: expected {expected}, as in the header");
-            return Err(self.error(self.line, column, message));
+        if !self.header.names().is_empty() {
+            self.header.check_length(self.line, fields.len())?;
         }
         Ok(Row { line: self.line, fields })
     }
@@ -139,12 +133,11 @@ impl NumberStream {
 
     /// An error at a field, which its message names by its column.
     pub fn error_at(&self, row: &Row, column: usize, message: impl AsRef<str>) -> HostError {
-        let name = self.header.get(column).map_or("", String::as_str);
-        self.error(row.line, column as u64 + 1, format!("{name}: {}", message.as_ref()))
+        self.header.error_at(row.line, column, message)
     }
 
     /// An error at a place of this file.
     pub fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
-        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
+        self.header.error(line, column, message)
     }
 }

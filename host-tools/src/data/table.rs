@@ -1,20 +1,19 @@
 //! Tables in CSV: a header of column names with their units, then numbers, a field left empty where nothing was measured.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator, WriterBuilder};
 
 use super::atomic_write::write_atomically;
-use super::header::column_names;
+use super::header::Header;
 use super::text::TextFile;
 use crate::error::HostError;
 
 /// A CSV table, its fields as they were written.
 #[derive(Debug, Clone)]
 pub struct Table {
-    path: PathBuf,
-    header: Vec<String>,
+    header: Header,
     rows: Vec<Row>,
 }
 
@@ -48,22 +47,21 @@ impl Table {
         check_quotes(file)?;
         check_line_ends(file)?;
         let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(file.text().as_bytes());
-        let mut table = Self { path: file.path().to_path_buf(), header: Vec::new(), rows: Vec::new() };
+        let mut table = Self { header: Header::unread(file.path()), rows: Vec::new() };
         let mut record = StringRecord::new();
         let mut lines = Lines { text: file.text(), offset: 0, line: 1 };
         while table.read_record(&mut reader, &mut record)? {
             let line = lines.of_record(&record);
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
-            if table.header.is_empty() {
-                let names = column_names(fields.iter().map(String::as_str));
-                table.header = names.map_err(|wrong| table.error(line, wrong.column, wrong.message))?;
+            if table.header.names().is_empty() {
+                table.header.take(line, fields.iter().map(String::as_str))?;
             } else {
-                table.check_length(line, fields.len())?;
+                table.header.check_length(line, fields.len())?;
                 table.rows.push(Row { line, fields });
             }
         }
-        if table.header.is_empty() {
-            return Err(table.error(1, 1, "the file is empty: expected a header with the names of the columns"));
+        if table.header.names().is_empty() {
+            return Err(table.error_in_header("the file is empty: expected a header with the names of the columns"));
         }
         Ok(table)
     }
@@ -71,17 +69,8 @@ impl Table {
     fn read_record(&self, reader: &mut Reader<&[u8]>, record: &mut StringRecord) -> Result<bool, HostError> {
         reader.read_record(record).map_err(|error| {
             let line = error.position().map_or(1, csv::Position::line);
-            self.error(line, 1, format!("not a row of a CSV table: {error}"))
+            self.header.error(line, 1, format!("not a row of a CSV table: {error}"))
         })
-    }
-
-    fn check_length(&self, line: u64, length: usize) -> Result<(), HostError> {
-        let expected = self.header.len();
-        if length == expected {
-            return Ok(());
-        }
-        let column = length.min(expected) as u64 + 1;
-        Err(self.error(line, column, format!("{length} fields in this row: expected {expected}, as in the header")))
     }
 
     /// How many rows there are.
@@ -96,12 +85,12 @@ impl Table {
 
     /// The names of the columns.
     pub fn header(&self) -> &[String] {
-        &self.header
+        self.header.names()
     }
 
     /// The column of that name.
     pub fn column(&self, name: &str) -> Option<Column> {
-        self.header.iter().position(|other| other == name).map(Column)
+        self.header.position(name).map(Column)
     }
 
     /// The column of that name, which the caller cannot do without.
@@ -109,18 +98,15 @@ impl Table {
     /// # Errors
     /// Where the header does not have it.
     pub fn required_column(&self, name: &str) -> Result<Column, HostError> {
-        self.column(name).ok_or_else(|| {
-            let found = self.header.join(", ");
-            self.error(1, 1, format!("no column `{name}`: expected one in the header (found {found})"))
-        })
+        self.header.required(name).map(Column)
     }
 
     /// The column of that name, appended with empty fields if it is not there yet.
     pub fn column_or_append(&mut self, name: &str) -> Column {
         self.column(name).unwrap_or_else(|| {
-            self.header.push(name.to_owned());
+            self.header.push(name);
             self.rows.iter_mut().for_each(|row| row.fields.push(String::new()));
-            Column(self.header.len() - 1)
+            Column(self.header.names().len() - 1)
         })
     }
 
@@ -158,18 +144,12 @@ impl Table {
 
     /// An error at a field, which its message names by its column.
     pub fn error_at(&self, row: usize, column: Column, message: impl AsRef<str>) -> HostError {
-        let line = self.line(row);
-        let name = self.header.get(column.0).map_or("", String::as_str);
-        self.error(line, column.0 as u64 + 1, format!("{name}: {}", message.as_ref()))
+        self.header.error_at(self.line(row), column.0, message)
     }
 
     /// An error about the table as a whole, at its header.
     pub fn error_in_header(&self, message: impl Into<String>) -> HostError {
-        self.error(1, 1, message)
-    }
-
-    fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
-        HostError::Input { path: self.path.clone(), line, column, message: message.into() }
+        self.header.error(1, 1, message)
     }
 
     /// Writes the table: beside its place, then renamed there.
@@ -182,7 +162,7 @@ impl Table {
 
     fn write_to(&self, out: &mut dyn Write) -> Result<(), csv::Error> {
         let mut writer = WriterBuilder::new().terminator(Terminator::Any(b'\n')).from_writer(out);
-        writer.write_record(&self.header)?;
+        writer.write_record(self.header.names())?;
         for row in &self.rows {
             writer.write_record(&row.fields)?;
         }

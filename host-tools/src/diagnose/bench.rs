@@ -86,7 +86,7 @@ impl<'a> Bench<'a> {
         let rows = &self.measurements.rows;
         let from = |places: Range<usize>| {
             let starts = scattered_starts(&model, rows, places.end, SEED);
-            fit_from_many(&model, rows, &self.without, &starts[places], &self.options).map(|fits| fits.best)
+            fit_from_many(&model, rows, &self.without, &starts[places], &self.options)
         };
         let fit = match from(0..STARTS) {
             Err(FitError::NoPrediction) => from(STARTS..MORE_STARTS)?,

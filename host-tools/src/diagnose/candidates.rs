@@ -21,7 +21,7 @@ const SENSOR_EFFECTS: [&str; 3] = ["force-bias", "force-drift", "crosstalk"];
 pub fn candidates(campaign: &Campaign, measurements: &Measurements, model: &Specification) -> Vec<EffectForm> {
     let others = CATALOGUE.iter().filter(|info| !model.has(info.id));
     let others = others.filter(|info| !is_by_load(info) || loads_differ(measurements));
-    let forms = others.flat_map(|info| info.forms.iter().map(move |form| EffectForm::new(info, form)));
+    let forms = others.flat_map(EffectForm::each_of);
     let forms = forms.filter(|candidate| !is_of_load_sensor(candidate) || !measurements.is_load_set);
     forms.filter(|candidate| is_measured(campaign, measurements, candidate.form)).collect()
 }

@@ -110,6 +110,11 @@ impl EffectForm {
         Self { info, form, known: BTreeMap::new() }
     }
 
+    /// An effect in each of its forms, nothing known of it.
+    pub fn each_of(info: &'static EffectInfo) -> impl Iterator<Item = Self> {
+        info.forms.iter().map(move |form| Self::new(info, form))
+    }
+
     /// Id and form, which no two share.
     pub fn name(&self) -> (&'static str, &'static str) {
         (self.info.id, self.form.name)

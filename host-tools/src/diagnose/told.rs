@@ -57,7 +57,6 @@ fn add<'a>(bench: &Bench<'a>, trial: &Trial<'a>, id: &str) -> Option<Trial<'a>> 
 }
 
 fn forms(bench: &Bench<'_>, id: &str) -> Vec<EffectForm> {
-    let all =
-        effect_info(id).into_iter().flat_map(|info| info.forms.iter().map(move |form| EffectForm::new(info, form)));
+    let all = effect_info(id).into_iter().flat_map(EffectForm::each_of);
     all.filter(|effect| is_measured(bench.campaign, bench.measurements, effect.form)).collect()
 }

@@ -149,21 +149,16 @@ impl FlightComputer {
         }
     }
 
-    /// As [`Self::query`] for many, several under way at a time. `progress` hears how many are answered.
+    /// As [`Self::query`] for many, several under way at a time.
     ///
     /// # Errors
     /// Where the computer does not answer.
-    pub fn query_all(
-        &mut self,
-        queries: &[SoilQuery],
-        mut progress: impl FnMut(usize),
-    ) -> Result<Vec<QueryAnswer>, HostError> {
+    pub fn query_all(&mut self, queries: &[SoilQuery]) -> Result<Vec<QueryAnswer>, HostError> {
         let requests = queries.iter().cloned().map(|query| Ok(Request::Estimate(query)));
         let mut answers = Vec::new();
         self.ask_all(requests, |reply| match reply {
             Reply::Estimate(answer) => {
                 answers.push(answer);
-                progress(answers.len());
                 Ok(())
             }
             other => Err(unexpected(&other)),

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::statistics::median;
+use crate::statistics::{Measured, median, root_mean_square};
 
 use super::coordinates::Targets;
 
@@ -13,15 +13,6 @@ const RESAMPLINGS: usize = 2000;
 /// Estimates less truth, case by case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Errors(Vec<Targets>);
-
-/// A number and its standard error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measured {
-    /// The number.
-    pub value: f64,
-    /// One standard error, by resampling the cases.
-    pub standard_error: f64,
-}
 
 impl Errors {
     /// From estimates and truths of the same cases.
@@ -46,12 +37,7 @@ impl Errors {
 }
 
 fn rmse(errors: &[Targets], target: usize, cases: impl Iterator<Item = usize>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for error in cases.filter_map(|case| errors.get(case)) {
-        sum += error[target] * error[target];
-        count += 1.0;
-    }
-    libm::sqrt(sum / count)
+    root_mean_square(cases.filter_map(|case| errors.get(case)).map(|error| error[target]))
 }
 
 /// A statistic of some cases, and its standard deviation over resampled cases.

@@ -4,13 +4,14 @@ use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::soil::ParameterEstimate;
 
 use super::{Outcome, REASONS, troubles};
+use crate::digits::counted;
 use crate::identify::network_refusal;
 
 /// The outcome, line by line.
 pub fn lines(outcome: &Outcome) -> Vec<String> {
     let mut lines = vec![format!(
-        "{} frames, {:.1} s of driving, in {:.2} s: {:.0} frames/s, {:.0} times real time",
-        outcome.frames,
+        "{}, {:.1} s of driving, in {:.2} s: {:.0} frames/s, {:.0} times real time",
+        counted(outcome.frames, "frame", "frames"),
         outcome.driven_s(),
         outcome.took.as_secs_f64(),
         outcome.frames_per_second(),

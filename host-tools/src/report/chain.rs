@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::digits::counted;
 use crate::flight_computer::Computer;
 
 use super::findings::Findings;
@@ -17,7 +18,7 @@ pub fn chain(findings: &Findings) -> Markup {
     html! {
         ol class="chain" {
             (link("Wheel states", &format!("{used} rows, {}", findings.campaign.provenance), "DP, W, T, slip, sinkage"))
-            (link("Serial link", &count(queries, "query", "queries"), "postcard, COBS, CRC-32"))
+            (link("Serial link", &counted(queries.into(), "query", "queries"), "postcard, COBS, CRC-32"))
             (link(place, line, "frozen networks, 16-bit whole numbers"))
             (link("Soil", "c, φ, K", "each with its interval"))
         }
@@ -27,9 +28,4 @@ pub fn chain(findings: &Findings) -> Markup {
 /// A box.
 pub(super) fn link(title: &str, what: &str, how: &str) -> Markup {
     html! { li { strong { (title) } span { (what) } small { (how) } } }
-}
-
-/// `1 query`, `2 queries`.
-pub fn count(number: u32, one: &str, many: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { many })
 }

@@ -27,6 +27,6 @@ pub use findings::{EstimateRow, Findings, RowKind, fingerprint};
 pub use identified::identified;
 pub use page::page;
 pub use picture::picture;
-pub use residual::{ModelCheck, ModelRow, ModelState, Rms};
+pub use residual::{LeftOver, ModelCheck, ModelRow, ModelState};
 pub use terminal::terminal;
 pub use verdict::Verdict;

@@ -12,8 +12,8 @@ use super::estimates::Panel;
 use super::facts;
 use super::findings::{EstimateRow, Findings};
 use super::legend;
-use super::residual::{ModelCheck, ModelRow, Rms};
-use super::response::{QUANTITIES, Response};
+use super::residual::{LeftOver, ModelCheck, ModelRow};
+use super::response::{Response, SLIP_CURVES};
 use super::verdict::Verdict;
 use crate::parameter::Parameter;
 
@@ -150,7 +150,7 @@ fn model_section(findings: &Findings, check: &ModelCheck) -> Markup {
             p { "The wheel–soil equations 1–11 with the soil that direct tests measured, and with the soil that the networks "
                 "found. Close curves are no proof of the parameters behind them." }
             div class="panels" {
-                @for (quantity, std) in QUANTITIES.iter().zip(deviations) { (response.svg(quantity, std)) }
+                @for (curve, std) in SLIP_CURVES.iter().zip(deviations) { (response.svg(curve, std)) }
             }
             (legend::response(estimated.is_some()))
             (residual_table(check, estimated.map(|soil| ModelCheck::with(campaign, soil).rms())))
@@ -158,7 +158,7 @@ fn model_section(findings: &Findings, check: &ModelCheck) -> Markup {
     }
 }
 
-fn residual_table(check: &ModelCheck, estimated: Option<Rms>) -> Markup {
+fn residual_table(check: &ModelCheck, estimated: Option<LeftOver>) -> Markup {
     html! {
         div class="scroll" {
             table class="numbers" {
@@ -177,34 +177,12 @@ fn residual_table(check: &ModelCheck, estimated: Option<Rms>) -> Markup {
     }
 }
 
-fn rms_row(what: &str, rms: Rms) -> Markup {
-    html! {
-        tr class="sum" {
-            td { (what) }
-            td { (number(rms.drawbar_pull_n, 1, false)) }
-            td { (number(rms.torque_nm, 2, false)) }
-            td { (number(rms.sinkage_m.map(|z| 1e3 * z), 1, false)) }
-        }
-    }
+fn rms_row(what: &str, rms: LeftOver) -> Markup {
+    html! { tr class="sum" { td { (what) } @for cell in rms.cells(false) { td { (cell) } } } }
 }
 
 fn residual_row(row: &ModelRow) -> Markup {
-    let pull = row.drawbar_pull_n.zip(row.model).map(|(measured, model)| measured - model.drawbar_pull_n);
-    let torque = row.torque_nm.zip(row.model).map(|(measured, model)| measured - model.torque_nm);
-    let sinkage = row.sinkage_m.zip(row.model).map(|(measured, model)| 1e3 * (measured - model.sinkage_m));
     html! {
-        tr {
-            td { (number(Some(row.slip), 2, false)) }
-            td { (number(pull, 1, true)) }
-            td { (number(torque, 2, true)) }
-            td { (number(sinkage, 1, true)) }
-        }
-    }
-}
-
-fn number(value: Option<f64>, digits: usize, signed: bool) -> String {
-    match value {
-        Some(value) => draw::number(value, digits, signed),
-        None => "–".to_owned(),
+        tr { td { (draw::number(row.slip, 2, false)) } @for cell in row.left_over().cells(true) { td { (cell) } } }
     }
 }

@@ -2,6 +2,7 @@
 
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
+use super::draw::number;
 use crate::data::campaign::{Campaign, Channel};
 use crate::statistics::root_mean_square;
 
@@ -42,9 +43,9 @@ pub struct ModelRow {
     pub model: Option<ModelState>,
 }
 
-/// Root mean square of what is unexplained; none for a channel that was not measured.
+/// What the equations leave, of a row or as the root mean square over all; none for a channel that was not measured.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Rms {
+pub struct LeftOver {
     /// Of the drawbar pull, N.
     pub drawbar_pull_n: Option<f64>,
     /// Of the torque, N·m.
@@ -77,16 +78,38 @@ impl ModelCheck {
     }
 
     /// Over all rows.
-    pub fn rms(&self) -> Rms {
-        let over = |measured: fn(&ModelRow) -> Option<f64>, model: fn(&ModelState) -> f64| {
-            let left = self.rows.iter().filter_map(|row| Some(measured(row)? - model(row.model.as_ref()?)));
-            Some(root_mean_square(left)).filter(|rms| !rms.is_nan())
+    pub fn rms(&self) -> LeftOver {
+        let left: Vec<LeftOver> = self.rows.iter().map(ModelRow::left_over).collect();
+        let over = |of: fn(&LeftOver) -> Option<f64>| {
+            Some(root_mean_square(left.iter().filter_map(of))).filter(|rms| !rms.is_nan())
         };
-        Rms {
-            drawbar_pull_n: over(|row| row.drawbar_pull_n, |model| model.drawbar_pull_n),
-            torque_nm: over(|row| row.torque_nm, |model| model.torque_nm),
-            sinkage_m: over(|row| row.sinkage_m, |model| model.sinkage_m),
+        LeftOver {
+            drawbar_pull_n: over(|row| row.drawbar_pull_n),
+            torque_nm: over(|row| row.torque_nm),
+            sinkage_m: over(|row| row.sinkage_m),
         }
+    }
+}
+
+impl ModelRow {
+    /// Measured less computed.
+    pub fn left_over(&self) -> LeftOver {
+        let less =
+            |measured: Option<f64>, computed: fn(&ModelState) -> f64| Some(measured? - computed(self.model.as_ref()?));
+        LeftOver {
+            drawbar_pull_n: less(self.drawbar_pull_n, |model| model.drawbar_pull_n),
+            torque_nm: less(self.torque_nm, |model| model.torque_nm),
+            sinkage_m: less(self.sinkage_m, |model| model.sinkage_m),
+        }
+    }
+}
+
+impl LeftOver {
+    /// In N, N·m and mm; a dash for what is not known.
+    pub fn cells(&self, signed: bool) -> [String; 3] {
+        let shown =
+            |value: Option<f64>, digits| value.map_or_else(|| "–".to_owned(), |value| number(value, digits, signed));
+        [shown(self.drawbar_pull_n, 1), shown(self.torque_nm, 2), shown(self.sinkage_m.map(|z| 1e3 * z), 1)]
     }
 }
 

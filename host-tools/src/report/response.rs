@@ -26,7 +26,7 @@ pub struct Response<'a> {
 }
 
 /// One quantity over slip.
-pub struct Quantity {
+pub struct SlipCurve {
     title: &'static str,
     unit: &'static str,
     /// From SI units to the shown one.
@@ -36,22 +36,22 @@ pub struct Quantity {
 }
 
 /// Drawbar pull, torque and sinkage.
-pub const QUANTITIES: [Quantity; 3] = [
-    Quantity {
+pub const SLIP_CURVES: [SlipCurve; 3] = [
+    SlipCurve {
         title: "Drawbar pull",
         unit: "N",
         factor: 1.0,
         measured: |row| row.drawbar_pull_n,
         computed: |model| model.drawbar_pull_n,
     },
-    Quantity {
+    SlipCurve {
         title: "Torque",
         unit: "N·m",
         factor: 1.0,
         measured: |row| row.torque_nm,
         computed: |model| model.torque_nm,
     },
-    Quantity {
+    SlipCurve {
         title: "Sinkage",
         unit: "mm",
         factor: 1e3,
@@ -62,7 +62,7 @@ pub const QUANTITIES: [Quantity; 3] = [
 
 impl Response<'_> {
     /// The picture of one quantity; `std` is one standard deviation of a measurement, SI.
-    pub fn svg(&self, quantity: &Quantity, std: f64) -> Markup {
+    pub fn svg(&self, quantity: &SlipCurve, std: f64) -> Markup {
         let known = self.curve(&self.check.soil, quantity);
         let estimated = self.estimated.map(|soil| self.curve(soil, quantity)).unwrap_or_default();
         let measured: Vec<(f64, f64)> = self
@@ -101,7 +101,7 @@ impl Response<'_> {
     }
 
     /// At the mean load of the measurements. A slip where the soil does not carry the load is left out.
-    fn curve(&self, soil: &Soil<f64>, quantity: &Quantity) -> Vec<(f64, f64)> {
+    fn curve(&self, soil: &Soil<f64>, quantity: &SlipCurve) -> Vec<(f64, f64)> {
         let rows = &self.check.rows;
         let load_n = rows.iter().map(|row| row.load_n).sum::<f64>() / rows.len() as f64;
         let (low, high) = self.slips();

@@ -68,27 +68,11 @@ fn cell(findings: &Findings, parameter: Parameter, soil: &SoilEstimate, is_expla
 fn residuals(model: &ModelCheck) -> Table {
     let mut table = plain_table();
     table.set_header(["", "DP, N", "T, N·m", "z, mm"]);
-    let shown = |value: Option<f64>, factor: f64, digits: usize| {
-        value.map_or_else(|| "–".to_owned(), |value| number(factor * value, digits, true))
-    };
     for row in &model.rows {
-        let difference = |measured: Option<f64>, computed: Option<f64>| Some(measured? - computed?);
-        table.add_row([
-            format!("slip {}", number(row.slip, 2, false)),
-            shown(difference(row.drawbar_pull_n, row.model.map(|model| model.drawbar_pull_n)), 1.0, 1),
-            shown(difference(row.torque_nm, row.model.map(|model| model.torque_nm)), 1.0, 2),
-            shown(difference(row.sinkage_m, row.model.map(|model| model.sinkage_m)), 1e3, 1),
-        ]);
+        let slip = format!("slip {}", number(row.slip, 2, false));
+        table.add_row(std::iter::once(slip).chain(row.left_over().cells(true)));
     }
-    let rms = model.rms();
-    let plain =
-        |value: Option<f64>, digits: usize| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"));
-    table.add_row([
-        "root mean square".to_owned(),
-        plain(rms.drawbar_pull_n, 1),
-        plain(rms.torque_nm, 2),
-        plain(rms.sinkage_m.map(|z| 1e3 * z), 1),
-    ]);
+    table.add_row(std::iter::once("root mean square".to_owned()).chain(model.rms().cells(false)));
     align_right(&mut table);
     table
 }

@@ -112,10 +112,9 @@ fn at_own_load(
     const LEAST_LOAD_N: f64 = 1.0e-3;
     // Without such an effect the first answer is the last, whatever load is said.
     let at = |ln_load: f64| on_soil.forces(conditions, slip, libm::exp(ln_load), sinkage_m);
-    let follows = on_soil.effects.load_stiffening.is_some() || on_soil.effects.grouser_thrust.is_some();
     let mut ln_load = libm::log(50.0);
     let mut truth = at(ln_load)?;
-    if !follows {
+    if !on_soil.effects.follow_load() {
         return Ok(truth);
     }
     // By secants on what is missing in the logarithm of the load.

@@ -118,21 +118,15 @@ fn run(plan: &Plan, sets: &Sets, trainer: Trainer, name: &'static str) -> Row {
     match trainer {
         Trainer::BackPropagation => {
             let mut method = Momentum::new(&network);
-            by_batches(plan, &mut course, &mut network, 1e-2, |net, batch, rate| {
-                method.step(net, batch, rate);
-            });
+            by_batches(plan, &mut course, &mut network, 1e-2, |net, batch, rate| method.step(net, batch, rate));
         }
         Trainer::Adam => {
             let mut method = Adam::new(&network);
-            by_batches(plan, &mut course, &mut network, 5e-3, |net, batch, rate| {
-                method.step(net, batch, rate);
-            });
+            by_batches(plan, &mut course, &mut network, 5e-3, |net, batch, rate| method.step(net, batch, rate));
         }
         Trainer::Soap => {
             let mut method = Soap::new::<WheelWeights>();
-            by_batches(plan, &mut course, &mut network, 1e-2, |net, batch, rate| {
-                method.step(net, batch, rate);
-            });
+            by_batches(plan, &mut course, &mut network, 1e-2, |net, batch, rate| method.step(net, batch, rate));
         }
         Trainer::LevenbergMarquardt => {
             let mut method = LevenbergMarquardt::default();
@@ -176,7 +170,7 @@ fn by_batches(
     course: &mut Course<'_>,
     network: &mut WheelWeights,
     greatest_rate: f32,
-    mut step: impl FnMut(&mut WheelWeights, &[Example<WheelInput>], f32),
+    mut step: impl FnMut(&mut WheelWeights, &[Example<WheelInput>], f32) -> f32,
 ) {
     let mut examples = course.sets.training.clone();
     let epochs = 10 * plan.comparison_steps;
@@ -184,7 +178,7 @@ fn by_batches(
         shuffle(&mut examples, course.sets.order + 1 + epoch as u64);
         let share = epoch as f32 / epochs as f32;
         let rate = greatest_rate * cosine_fall(share);
-        examples.chunks(128).for_each(|batch| step(network, batch, rate));
+        examples.chunks(128).for_each(|batch| _ = step(network, batch, rate));
         course.watch(network, examples.len());
     }
 }

@@ -50,10 +50,17 @@ fn blocks(mut wheel: WheelTable, mut rover: RoverTable) -> Vec<Block> {
     blocks.0
 }
 
+/// A remark in a table's file: its key, then its words.
+type Note = (&'static str, String);
+
 fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
+    let notes = of_training(provenance).into_iter().chain(of_soils()).chain(of_scenes());
+    notes.map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+fn of_training(provenance: &Provenance<'_>) -> [Note; 10] {
     let Provenance { plan, world, fifth, losses } = provenance;
-    let noise = prior::INSTANT_NOISE;
-    let notes = [
+    [
         ("made by", format!("kapvik train {}", env!("CARGO_PKG_VERSION"))),
         ("seed", plan.seed.to_string()),
         ("scenes", format!("{} for training, {} held out", plan.scenes, plan.held_out)),
@@ -67,6 +74,11 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         (EFFECTS_NOTE, world.to_string()),
         ("fifth input", fifth.name().into()),
         ("targets", "ln c (Pa), phi (rad), ln K (m); means, then log-variances on the scale of the prior".into()),
+    ]
+}
+
+fn of_soils() -> [Note; 7] {
+    [
         ("prior c", range(prior::COHESION_PA, "Pa")),
         ("prior phi", range(prior::FRICTION_ANGLE_RAD, "rad")),
         ("prior K", range(prior::SHEAR_MODULUS_M, "m")),
@@ -74,6 +86,12 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
         ("prior k_eff", range(prior::STIFFNESS, "Pa/m^n")),
         ("prior c1", range(prior::PEAK_STRESS_C1, "")),
         ("prior c2", range(prior::PEAK_STRESS_C2, "")),
+    ]
+}
+
+fn of_scenes() -> [Note; 5] {
+    let noise = prior::INSTANT_NOISE;
+    [
         (
             "wheels",
             format!(
@@ -111,8 +129,7 @@ fn notes(provenance: &Provenance<'_>) -> Vec<(String, String)> {
                 range(prior::PRECISE_AVERAGING, "")
             ),
         ),
-    ];
-    notes.map(|(key, value)| (key.to_owned(), value)).to_vec()
+    ]
 }
 
 fn range(range: Range, unit: &str) -> String {

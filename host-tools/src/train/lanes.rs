@@ -29,15 +29,7 @@ fn add_weighted<S: Simd, const I: usize, const O: usize>(
     input: &[Lane; I],
     sums: &mut [Lane; O],
 ) {
-    let rows = &weights.0;
-    let (tiles, rest) = sums.as_chunks_mut::<TILE>();
-    for (place, tile) in tiles.iter_mut().enumerate() {
-        add_products(simd, tile, input, |i, t| rows[i][place * TILE + t]);
-    }
-    let done = TILE * tiles.len();
-    for (place, sum) in rest.iter_mut().enumerate() {
-        add_products(simd, std::array::from_mut(sum), input, |i, _| rows[i][done + place]);
-    }
+    add_in_tiles(simd, sums, input, |i, o| weights.0[i][o]);
 }
 
 /// Adds to `back`, the slope against the first inputs of a layer, what the slope behind the weights makes of it.
@@ -48,14 +40,19 @@ pub fn add_input_slope<S: Simd, const I: usize, const O: usize>(
     slope: &[Lane; O],
     back: &mut [Lane],
 ) {
-    let rows = &weights.0;
-    let (tiles, rest) = back.as_chunks_mut::<TILE>();
-    for (place, tile) in tiles.iter_mut().enumerate() {
-        add_products(simd, tile, slope, |o, t| rows[place * TILE + t][o]);
-    }
+    add_in_tiles(simd, back, slope, |o, i| weights.0[i][o]);
+}
+
+/// Adds to each sum s the products of the inputs k with `weight(k, s)`.
+#[inline(always)]
+fn add_in_tiles<S: Simd>(simd: S, sums: &mut [Lane], input: &[Lane], weight: impl Fn(usize, usize) -> f32) {
+    let (tiles, rest) = sums.as_chunks_mut::<TILE>();
     let done = TILE * tiles.len();
+    for (place, tile) in tiles.iter_mut().enumerate() {
+        add_products(simd, tile, input, |k, t| weight(k, place * TILE + t));
+    }
     for (place, sum) in rest.iter_mut().enumerate() {
-        add_products(simd, std::array::from_mut(sum), slope, |o, _| rows[done + place][o]);
+        add_products(simd, std::array::from_mut(sum), input, |k, _| weight(k, done + place));
     }
 }
 

@@ -12,6 +12,7 @@ use super::whiteness::ljung_box;
 use crate::error::HostError;
 use crate::progress::bar;
 use crate::simulate::{Options, Scenario};
+use crate::statistics::Measured;
 
 /// Drives of one scenario.
 #[derive(Debug, Clone)]
@@ -61,17 +62,17 @@ impl Trial {
     }
 
     /// Root mean square error in a quantity over that of the raw sensors, with one standard error.
-    pub fn over_naive(&self, quantity: Quantity) -> (f64, f64) {
+    pub fn over_naive(&self, quantity: Quantity) -> Measured {
         self.with_error(|drives| tally(drives, quantity).over_naive())
     }
 
     /// Shares of a quantity's errors within one and within two stated standard deviations, each with one standard error.
-    pub fn coverage(&self, quantity: Quantity) -> [(f64, f64); 2] {
+    pub fn coverage(&self, quantity: Quantity) -> [Measured; 2] {
         [0, 1].map(|stds| self.with_error(|drives| tally(drives, quantity).coverage()[stds]))
     }
 
     /// Mean of normalised squares over their degrees of freedom, in the order of [`Self::squares`], with one standard error.
-    pub fn mean_squares(&self) -> [(f64, f64); 5] {
+    pub fn mean_squares(&self) -> [Measured; 5] {
         let totals: Vec<[Sum; 5]> =
             self.drives.iter().map(|drive| parts(drive).map(NormalisedSquares::total)).collect();
         [0, 1, 2, 3, 4].map(|part| {
@@ -84,7 +85,7 @@ impl Trial {
         })
     }
 
-    fn with_error(&self, of: impl Fn(&mut dyn Iterator<Item = &Drive>) -> f64) -> (f64, f64) {
+    fn with_error(&self, of: impl Fn(&mut dyn Iterator<Item = &Drive>) -> f64) -> Measured {
         jackknife(self.drives.len(), |left_out| {
             let others = self.drives.iter().enumerate().filter(|(place, _)| Some(*place) != left_out);
             of(&mut others.map(|(_, drive)| drive))
@@ -126,12 +127,12 @@ fn tally(drives: &mut dyn Iterator<Item = &Drive>, quantity: Quantity) -> Tally 
 
 /// A figure of some drives, which `without` gives with one of them left out or with none, and one standard error of it: what other
 /// drives of the same kind would change (Tukey 1958). Frames of a drive belong together.
-fn jackknife(drives: usize, without: impl Fn(Option<usize>) -> f64) -> (f64, f64) {
+fn jackknife(drives: usize, without: impl Fn(Option<usize>) -> f64) -> Measured {
     let count = drives as f64;
     let figures: Vec<f64> = (0..drives).map(|place| without(Some(place))).collect();
     let mean = figures.iter().sum::<f64>() / count;
     let squares: f64 = figures.iter().map(|figure| (figure - mean).powi(2)).sum();
-    (without(None), (squares * (count - 1.0) / count).sqrt())
+    Measured { value: without(None), standard_error: (squares * (count - 1.0) / count).sqrt() }
 }
 
 #[cfg(test)]
@@ -140,6 +141,7 @@ mod tests {
 
     use super::{Drive, Quantity, Trial};
     use crate::simulate::Scenario;
+    use crate::statistics::Measured;
 
     /// Of a mean the jackknife gives the usual standard error. Here the raw sensors always err by 1 N, and the estimates of each drive
     /// by the root of 1, 2, 3, 4 N²: the squared ratio is a mean of these, 2.5 with a standard error of √(5/3)/2, and the ratio has
@@ -153,8 +155,8 @@ mod tests {
             drive
         };
         let drives = [1.0, 2.0, 3.0, 4.0].map(drive).to_vec();
-        let (ratio, error) =
-            Trial { scenario: Scenario::Slope, drives, failures: Vec::new() }.over_naive(Quantity::BogiePull);
+        let trial = Trial { scenario: Scenario::Slope, drives, failures: Vec::new() };
+        let Measured { value: ratio, standard_error: error } = trial.over_naive(Quantity::BogiePull);
         assert!((ratio - 2.5_f64.sqrt()).abs() < 1.0e-6, "{ratio}");
         let expected = (5.0_f64 / 3.0).sqrt() / 2.0 / (2.0 * ratio);
         assert!((error / expected - 1.0).abs() < 0.1, "{error} {expected}");

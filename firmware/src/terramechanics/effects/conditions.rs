@@ -88,12 +88,12 @@ pub struct Circumstances<'a, S> {
     pub gravity_m_s2: S,
 }
 
-impl<S: Scalar> Circumstances<'_, S> {
-    /// v/(rω): 1 − i when driving, 1/(1 + i) when braking.
-    fn speed_ratio(&self) -> S {
-        if self.slip < S::zero() { S::one() / (S::one() + self.slip) } else { S::one() - self.slip }
-    }
+/// v/(rω) at a slip, −1 … 1: 1 − i when driving, 1/(1 + i) when braking.
+pub fn speed_ratio<S: Scalar>(slip: S) -> S {
+    if slip < S::zero() { S::one() / (S::one() + slip) } else { S::one() - slip }
+}
 
+impl<S: Scalar> Circumstances<'_, S> {
     /// The slip that the soil under the wheel has felt: as stated, or the present one.
     pub fn felt_slip(&self) -> S {
         self.conditions.felt_slip.unwrap_or(self.slip)
@@ -102,14 +102,14 @@ impl<S: Scalar> Circumstances<'_, S> {
     /// Rate of the wheel, rad/s: as stated, or from the speed over the ground and the slip. None of a wheel that spins on
     /// the spot or is locked, where it does not follow.
     pub fn wheel_rate_rad_s(&self) -> Option<S> {
-        let ratio = self.speed_ratio();
+        let ratio = speed_ratio(self.slip);
         let followed = self.conditions.speed_m_s.map(|speed| speed / (self.wheel.radius_m * ratio));
         self.conditions.wheel_rate_rad_s.or(followed).filter(|rate| rate.is_finite())
     }
 
     /// Speed of the hub over the ground, m/s: as stated, or from the rate of the wheel and the slip.
     pub fn speed_m_s(&self) -> Option<S> {
-        let followed = self.conditions.wheel_rate_rad_s.map(|rate| rate * self.wheel.radius_m * self.speed_ratio());
+        let followed = self.conditions.wheel_rate_rad_s.map(|rate| rate * self.wheel.radius_m * speed_ratio(self.slip));
         self.conditions.speed_m_s.or(followed).filter(|speed| speed.is_finite())
     }
 

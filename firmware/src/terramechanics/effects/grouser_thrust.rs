@@ -29,6 +29,7 @@ impl<S: Scalar> Effect<S> for GrouserThrust<S> {
         Form { name: "shear radius", free: &["lambda"], set: &[], needs: &[Column::Grousers] },
         Form { name: "blades", free: &["blade"], set: &[], needs: &[Column::Grousers] },
     ];
+    const FOLLOWS_LOAD: bool = true;
 
     fn shear(&self, shear: &mut ShearConditions<S>, at: &Circumstances<'_, S>) {
         let height = at.grousers.height_m / at.wheel.radius_m;

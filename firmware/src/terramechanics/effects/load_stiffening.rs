@@ -27,6 +27,7 @@ impl<S: Scalar> Effect<S> for LoadStiffening<S> {
         Form { name: "stiffness", free: &["stiffness"], set: &[], needs: &[super::Column::Load] },
         Form { name: "exponent", free: &["exponent"], set: &[], needs: &[super::Column::Load] },
     ];
+    const FOLLOWS_LOAD: bool = true;
 
     fn soil(&self, soil: &mut Soil<S>, at: &Circumstances<'_, S>) {
         let ratio = (at.load_n / self.reference_load_n).max(S::constant(1e-3)).ln();

@@ -39,7 +39,7 @@ use super::wheel_on_soil::{Memory, Readings, WheelTruth};
 use super::{Contact, Soil};
 
 pub use bulldozing::Bulldozing;
-pub use conditions::{Circumstances, Conditions, Grousers};
+pub use conditions::{Circumstances, Conditions, Grousers, speed_ratio};
 pub use crosstalk::Crosstalk;
 pub use drive_friction::DriveFriction;
 pub use force_bias::ForceBias;
@@ -87,6 +87,8 @@ pub trait Effect<S: Scalar>: Parameters<S> {
     const FORMS: &'static [Form];
     /// Whether it may be of any size, as offsets and gains of sensors may: the bounds of its parameters are where to look for it, then.
     const ANY_SIZE: bool = false;
+    /// Whether what it does follows the load of the wheel.
+    const FOLLOWS_LOAD: bool = false;
 
     /// Changes the soil that this wheel meets at this instant.
     fn soil(&self, _soil: &mut Soil<S>, _at: &Circumstances<'_, S>) {}
@@ -132,6 +134,11 @@ macro_rules! effects {
             /// No effect: the seed's equations 1–11.
             pub fn none() -> Self {
                 Self { $( $field: None, )+ }
+            }
+
+            /// Whether what any of them does follows the load of the wheel.
+            pub fn follow_load(&self) -> bool {
+                [$( self.$field.is_some() && <$effect<S> as Effect<S>>::FOLLOWS_LOAD, )+].contains(&true)
             }
 
             /// The value of a parameter of an effect that is there.

@@ -25,8 +25,6 @@ pub struct HeldOutRun {
     pub run: usize,
     /// ln of the joint predictive density of all readings that were judged; none where the model predicts nothing for the run.
     pub log_score: Option<f64>,
-    /// Readings that were judged, by channel.
-    pub judged: [usize; CHANNELS],
     /// Its rows, in order.
     pub rows: Vec<HeldOutRow>,
 }
@@ -34,7 +32,7 @@ pub struct HeldOutRun {
 impl HeldOutRun {
     /// Of a run that a model says nothing of.
     pub fn without_answer(run: usize) -> Self {
-        Self { run, log_score: None, judged: [0; CHANNELS], rows: Vec::new() }
+        Self { run, log_score: None, rows: Vec::new() }
     }
 }
 

@@ -49,7 +49,7 @@ mod tests;
 
 pub use held_out::{HeldOut, HeldOutRow, HeldOutRun};
 pub use model::{Coordinate, Derivatives, Latent, Model, Prediction};
-pub use multistart::{ManyFits, fit_from_many, scattered_starts};
+pub use multistart::{fit_from_many, scattered_starts};
 pub use observation::{CHANNELS, Reading, Row};
 pub use options::{FitError, OffsetStd, Options, VarianceCriterion};
 pub use outcome::{Fit, RunOffset, fit, fit_without};

@@ -9,23 +9,10 @@ use super::options::{FitError, Options};
 use super::outcome::{Fit, fit_without};
 use super::start::Start;
 
-/// Difference in log posterior below which two fits are the same optimum.
-const SAME: f64 = 0.1;
 /// Share of the bounds' width, and of the prior's probability, that starts keep away from either end.
 const MARGIN: f64 = 0.05;
 
-/// The best of fits from many starts.
-#[derive(Debug, Clone)]
-pub struct ManyFits {
-    /// The fit of highest posterior; of equal ones the first.
-    pub best: Fit,
-    /// Starts that came to the same optimum, this one's included.
-    pub agreed: usize,
-    /// Starts that came to a fit at all.
-    pub fitted: usize,
-}
-
-/// Fits to all rows but those of some runs from each start, in parallel; the highest posterior is the answer.
+/// Fits to all rows but those of some runs from each start, in parallel: the fit of highest posterior, of equal ones the first.
 ///
 /// # Errors
 /// [`FitError::NoStart`] without a start, else the first start's error if no start came to a fit.
@@ -35,16 +22,13 @@ pub fn fit_from_many(
     without: &[usize],
     starts: &[Start],
     options: &Options,
-) -> Result<ManyFits, FitError> {
+) -> Result<Fit, FitError> {
     let from = |start: &Start| fit_without(model, rows, without, start, options);
     let fits: Vec<Result<Fit, FitError>> = starts.par_iter().map(from).collect();
     let first_error = fits.iter().find_map(|fit| fit.as_ref().err().copied());
-    let fits: Vec<Fit> = fits.into_iter().flatten().collect();
-    let highest = fits.iter().map(|fit| fit.log_posterior).fold(f64::NEG_INFINITY, f64::max);
-    let agreed = fits.iter().filter(|fit| fit.log_posterior > highest - SAME).count();
-    let fitted = fits.len();
-    let best = fits.into_iter().find(|fit| fit.log_posterior >= highest);
-    best.map(|best| ManyFits { best, agreed, fitted }).ok_or(first_error.unwrap_or(FitError::NoStart))
+    let fits = fits.into_iter().flatten().filter(|fit| !fit.log_posterior.is_nan());
+    let better = |best: Fit, fit: Fit| if fit.log_posterior > best.log_posterior { fit } else { best };
+    fits.reduce(better).ok_or(first_error.unwrap_or(FitError::NoStart))
 }
 
 /// The model's own start, then more that fill its prior evenly (Sobol's sequence; a bound at infinity keeps the own start).

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::compare::{Compared, ParameterScore, Score};
 use crate::parameter::Parameter;
-use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, px, text};
+use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, number, page_chart, text};
 use crate::statistics::sorted;
 
 use super::terminal::label;
@@ -28,17 +28,15 @@ pub fn chart(compared: &Compared, parameter: Parameter) -> Markup {
     let scale =
         Scale::around([0.0].into_iter().chain(ends.iter().map(|end| end.clamp(-widest, widest))), (LEFT, RIGHT));
     let floor = TOP + ROW * shown.len() as f64;
-    html! {
-        svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(floor + 38.0)) } role="img"
-            aria-label={ "Errors of " (parameter.symbol()) ": " (compared.title) } {
-            (bottom_axis(&scale, (TOP - 6.0, floor)))
-            (line("truth", (scale.at(0.0), TOP - 6.0), (scale.at(0.0), floor)))
-            @for (score, place) in shown.iter().zip(0..) {
-                (bar(compared, score, parameter, (&scale, widest), TOP + ROW * (f64::from(place) + 0.5)))
-            }
-            (text("tick", (0.5 * (LEFT + RIGHT), floor + 32.0), Anchor::Middle, &axis_title(parameter)))
+    let content = html! {
+        (bottom_axis(&scale, (TOP - 6.0, floor)))
+        (line("truth", (scale.at(0.0), TOP - 6.0), (scale.at(0.0), floor)))
+        @for (score, place) in shown.iter().zip(0..) {
+            (bar(compared, score, parameter, (&scale, widest), TOP + ROW * (f64::from(place) + 0.5)))
         }
-    }
+        (text("tick", (0.5 * (LEFT + RIGHT), floor + 32.0), Anchor::Middle, &axis_title(parameter)))
+    };
+    page_chart((WIDTH, floor + 38.0), &format!("Errors of {}: {}", parameter.symbol(), compared.title), &content)
 }
 
 fn is_shown(score: &ParameterScore) -> bool {

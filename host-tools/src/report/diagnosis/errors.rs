@@ -6,7 +6,7 @@ use super::figures::{beside_noise, bound, change};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
 use crate::diagnose::document::{ChannelErrors, Diagnosis, EndsApart, ErrorPair};
-use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, px, text, vertical_band};
+use crate::report::draw::{Anchor, Scale, bottom_axis, dot, line, page_chart, text, vertical_band};
 
 const WIDTH: f64 = 900.0;
 const LEFT: f64 = 150.0;
@@ -30,24 +30,23 @@ fn picture(findings: &DiagnosisFindings) -> Markup {
     let scale = Scale::around(channels.values().flat_map(in_noise).chain([1.2]), (LEFT, RIGHT));
     let bottom = TOP + ROW * channels.len() as f64;
     let height = bottom + 42.0;
-    html! {
-        svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(height)) } role="img"
-            aria-label="Root mean square error of every channel, before and after, in units of its noise" {
-            (vertical_band("expected", (scale.at(0.0), scale.at(1.0)), (TOP, bottom)))
-            (bottom_axis(&scale, (TOP, bottom)))
-            (text("tick", (scale.at(0.5), TOP - 2.0), Anchor::Middle, "noise"))
-            @for ((name, errors), place) in channels.iter().zip(0..) {
-                @let y = TOP + ROW * (f64::from(place) + 0.5);
-                @let [before, after] = in_noise(errors).map(|error| scale.at(error));
-                (text("label", (LEFT - 12.0, y + 4.0), Anchor::End, &Quantity::of_column(name).name))
-                (line("step", (before, y), (after, y)))
-                (dot("before", (before, y), 5.0))
-                (dot("after", (after, y), 5.0))
-            }
-            (text("tick", (0.5 * (LEFT + RIGHT), height - 8.0), Anchor::Middle,
-                "root mean square error on held-out runs, in standard deviations of the noise (before rust, after blue)"))
+    let content = html! {
+        (vertical_band("expected", (scale.at(0.0), scale.at(1.0)), (TOP, bottom)))
+        (bottom_axis(&scale, (TOP, bottom)))
+        (text("tick", (scale.at(0.5), TOP - 2.0), Anchor::Middle, "noise"))
+        @for ((name, errors), place) in channels.iter().zip(0..) {
+            @let y = TOP + ROW * (f64::from(place) + 0.5);
+            @let [before, after] = in_noise(errors).map(|error| scale.at(error));
+            (text("label", (LEFT - 12.0, y + 4.0), Anchor::End, &Quantity::of_column(name).name))
+            (line("step", (before, y), (after, y)))
+            (dot("before", (before, y), 5.0))
+            (dot("after", (after, y), 5.0))
         }
-    }
+        (text("tick", (0.5 * (LEFT + RIGHT), height - 8.0), Anchor::Middle,
+            "root mean square error on held-out runs, in standard deviations of the noise (before rust, after blue)"))
+    };
+    let words = "Root mean square error of every channel, before and after, in units of its noise";
+    page_chart((WIDTH, height), words, &content)
 }
 
 fn table(findings: &DiagnosisFindings) -> Markup {

@@ -40,22 +40,24 @@ impl Side {
     /// Both, from left to right.
     pub const BOTH: [Self; 2] = [Self::Before, Self::After];
 
+    /// The one of two things that is this side's.
+    pub fn of<T>(self, [before, after]: [T; 2]) -> T {
+        match self {
+            Self::Before => before,
+            Self::After => after,
+        }
+    }
+
     /// The class of its shapes.
     pub fn class(self) -> &'static str {
-        match self {
-            Self::Before => "before",
-            Self::After => "after",
-        }
+        self.of(["before", "after"])
     }
 }
 
 impl Traced {
     /// What was predicted.
     pub fn predicted(&self, side: Side) -> Option<f64> {
-        match side {
-            Side::Before => self.before,
-            Side::After => self.after,
-        }
+        side.of([self.before, self.after])
     }
 
     /// Measured − predicted, in standard deviations of the noise.

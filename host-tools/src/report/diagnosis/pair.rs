@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::findings::Side;
-use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, px, text};
+use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, page_chart, px, text};
 use crate::statistics::ends;
 
 const WIDTH: f64 = 900.0;
@@ -35,19 +35,18 @@ impl Pair<'_> {
         let halves = [(LEFT, middle - 0.5 * GAP), (middle + 0.5 * GAP, RIGHT)];
         let y = Scale::linear(self.y.0, self.y.1, (BOTTOM, TOP));
         let words = format!("{} against {}, before and after", self.title, self.along);
-        html! {
-            svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(HEIGHT)) } role="img" aria-label=(words) {
-                text class="title" x=(px(LEFT)) y="16" { (self.title) }
-                @for ((side, (left, right)), caption) in Side::BOTH.into_iter().zip(halves).zip(&self.captions) {
-                    @let x = Scale::linear(self.x.0, self.x.1, (left, right));
-                    (text(&format!("caption {}", side.class()), (left, TOP - 14.0), Anchor::Start, caption))
-                    (left_axis(&y, (left, right)))
-                    (bottom_axis(&x, (TOP, BOTTOM)))
-                    (text("tick", (0.5 * (left + right), HEIGHT - 8.0), Anchor::Middle, self.along))
-                    (draw(side, &x, &y))
-                }
+        let content = html! {
+            text class="title" x=(px(LEFT)) y="16" { (self.title) }
+            @for ((side, (left, right)), caption) in Side::BOTH.into_iter().zip(halves).zip(&self.captions) {
+                @let x = Scale::linear(self.x.0, self.x.1, (left, right));
+                (text(&format!("caption {}", side.class()), (left, TOP - 14.0), Anchor::Start, caption))
+                (left_axis(&y, (left, right)))
+                (bottom_axis(&x, (TOP, BOTTOM)))
+                (text("tick", (0.5 * (left + right), HEIGHT - 8.0), Anchor::Middle, self.along))
+                (draw(side, &x, &y))
             }
-        }
+        };
+        page_chart((WIDTH, HEIGHT), &words, &content)
     }
 }
 

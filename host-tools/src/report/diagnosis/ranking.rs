@@ -6,7 +6,7 @@ use super::bars::interval;
 use super::figures::{probability, significant};
 use super::findings::DiagnosisFindings;
 use crate::diagnose::document::Candidate;
-use crate::report::draw::{Anchor, Scale, bottom_axis, line, px, text};
+use crate::report::draw::{Anchor, Scale, bottom_axis, line, page_chart, px, text};
 
 const WIDTH: f64 = 900.0;
 const LEFT: f64 = 290.0;
@@ -58,20 +58,18 @@ fn chart(findings: &DiagnosisFindings, candidates: &[&Candidate]) -> Markup {
     let scale = Scale::around(top.chain(bottom), (LEFT, RIGHT));
     let floor = TOP + ROW * candidates.len() as f64;
     let height = floor + 40.0;
-    html! {
-        svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(height)) } role="img"
-            aria-label="Gain of every candidate on held-out runs" {
-            (bottom_axis(&scale, (TOP - 8.0, floor)))
-            (line("axis", (scale.at(0.0), TOP - 8.0), (scale.at(0.0), floor)))
-            (text("tick", (WIDTH - 110.0, TOP - 16.0), Anchor::End, "gain"))
-            (text("tick", (WIDTH - 10.0, TOP - 16.0), Anchor::End, "p"))
-            @for (candidate, place) in candidates.iter().zip(0..) {
-                (bar(candidate, standing(findings, candidate), &scale, TOP + ROW * (f64::from(place) + 0.5)))
-            }
-            (text("tick", (0.5 * (LEFT + RIGHT), height - 8.0), Anchor::Middle,
-                "gain in log predictive density on held-out runs, nats a row, ± one and two standard deviations"))
+    let content = html! {
+        (bottom_axis(&scale, (TOP - 8.0, floor)))
+        (line("axis", (scale.at(0.0), TOP - 8.0), (scale.at(0.0), floor)))
+        (text("tick", (WIDTH - 110.0, TOP - 16.0), Anchor::End, "gain"))
+        (text("tick", (WIDTH - 10.0, TOP - 16.0), Anchor::End, "p"))
+        @for (candidate, place) in candidates.iter().zip(0..) {
+            (bar(candidate, standing(findings, candidate), &scale, TOP + ROW * (f64::from(place) + 0.5)))
         }
-    }
+        (text("tick", (0.5 * (LEFT + RIGHT), height - 8.0), Anchor::Middle,
+            "gain in log predictive density on held-out runs, nats a row, ± one and two standard deviations"))
+    };
+    page_chart((WIDTH, height), "Gain of every candidate on held-out runs", &content)
 }
 
 fn bar(candidate: &Candidate, class: &str, scale: &Scale, y: f64) -> Markup {

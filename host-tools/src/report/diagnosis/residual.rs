@@ -12,21 +12,11 @@ use crate::report::legend::entry;
 /// At most so many points has a line of means.
 const GROUPS: usize = 8;
 
-/// One row: where it is along the column, its residual before and after in standard deviations, and its run.
+/// One row: where it is along the column, its residuals before and after in standard deviations, and its run.
 struct Left<'a> {
     along: f64,
-    before: Option<f64>,
-    after: Option<f64>,
+    residuals: [Option<f64>; 2],
     run: &'a str,
-}
-
-impl Left<'_> {
-    fn of(&self, side: Side) -> Option<f64> {
-        match side {
-            Side::Before => self.before,
-            Side::After => self.after,
-        }
-    }
 }
 
 /// The plots of all channels against a column; none where it is not among the columns.
@@ -44,12 +34,12 @@ fn chart(findings: &DiagnosisFindings, trace: &Trace, column: &str, along: &[Opt
     let rows: Vec<Left<'_>> = used
         .filter_map(|((row, along), run)| {
             let row = (*row)?;
-            let (before, after) = (row.residual(Side::Before), row.residual(Side::After));
-            Some(Left { along: guilty.factor * (*along)?, before, after, run })
+            let residuals = Side::BOTH.map(|side| row.residual(side));
+            Some(Left { along: guilty.factor * (*along)?, residuals, run })
         })
         .collect();
     let x = span(rows.iter().map(|row| row.along));
-    let extent = rows.iter().flat_map(|row| [row.before, row.after]).flatten().chain([-2.0, 2.0]);
+    let extent = rows.iter().flat_map(|row| row.residuals).flatten().chain([-2.0, 2.0]);
     let (Some(x), Some(y)) = (x, span(extent)) else { return html! {} };
     let title = format!("{}: measured − predicted, in standard deviations", Quantity::of_column(&trace.channel).name);
     let captions = [findings.before_in_words(), findings.after_in_words()];
@@ -59,7 +49,7 @@ fn chart(findings: &DiagnosisFindings, trace: &Trace, column: &str, along: &[Opt
 fn side_of(side: Side, rows: &[Left<'_>], x: &Scale, y: &Scale) -> Markup {
     let (left, right) = x.pixels();
     let points: Vec<(f64, f64, &str)> =
-        rows.iter().filter_map(|row| Some((row.along, row.of(side)?, row.run))).collect();
+        rows.iter().filter_map(|row| Some((row.along, side.of(row.residuals)?, row.run))).collect();
     let means: Vec<(f64, f64)> = means(&points).into_iter().map(|(along, mean)| (x.at(along), y.at(mean))).collect();
     html! {
         @for deviations in [2.0, 1.0] {

@@ -1,10 +1,12 @@
 //! Drawing in SVG: scales, axes and the few shapes that the pictures are made of.
 
 mod axis;
+mod page_chart;
 mod scale;
 mod shapes;
 
 pub use axis::{bottom_axis, left_axis};
+pub use page_chart::page_chart;
 pub use scale::{Pixels, Scale};
 pub use shapes::{Anchor, band, dot, line, path, ring, text, vertical_band};
 

@@ -3,6 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::{MAP_CSS, Observability};
+use crate::digits::counted;
 use crate::identifiability::advice::percent;
 use crate::identifiability::map::{Cell, DESIGNS, GREATEST_LOAD_SHARE, GREATEST_SLIP_SPREAD, LOAD_CELLS, SLIP_CELLS};
 use crate::identifiability::spread::WheelsInTurn;
@@ -43,7 +44,7 @@ pub fn picture(told: &Observability) -> String {
                 @for row in 0..DESIGNS.len() { (panel(told, target, (column, row))) }
             }
             @for (row, design) in DESIGNS.iter().enumerate() {
-                (text("label strong", (14.0, top_of(row) + 14.0), Anchor::Start, &wheels(design.wheels)))
+                (text("label strong", (14.0, top_of(row) + 14.0), Anchor::Start, &counted(design.wheels as u64, "wheel", "wheels")))
                 (text("tick", (14.0, top_of(row) + 30.0), Anchor::Start, &stations(design)))
             }
             (text("label", (left_of(1) + 0.5 * PANEL_WIDTH, bottom + 36.0), Anchor::Middle,
@@ -63,10 +64,6 @@ fn left_of(column: usize) -> f64 {
 
 fn top_of(row: usize) -> f64 {
     TOP + row as f64 * (PANEL_HEIGHT + GAP_Y)
-}
-
-fn wheels(count: usize) -> String {
-    format!("{count} wheel{}", if count == 1 { "" } else { "s" })
 }
 
 fn stations(design: &WheelsInTurn) -> String {

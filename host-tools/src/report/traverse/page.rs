@@ -9,7 +9,7 @@ use super::errors;
 use super::findings::{Origin, TraverseFindings};
 use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
-use super::wheel_chart::QUANTITIES;
+use super::wheel_chart::WHEEL_CHARTS;
 use crate::identify::network_refusal;
 use crate::parameter::Parameter;
 use crate::replay::{REASONS, SensorTrouble, troubles};
@@ -119,7 +119,7 @@ fn wheels(findings: &TraverseFindings) -> Markup {
     html! {
         section {
             h2 { "What the wheels feel" }
-            @for quantity in &QUANTITIES { (quantity.svg(&findings.samples)) }
+            @for chart in &WHEEL_CHARTS { (chart.svg(&findings.samples)) }
             (legend(findings, false))
         }
     }

@@ -6,7 +6,7 @@ use super::CHART_CSS;
 use super::findings::TraverseFindings;
 use super::soil_chart::{self, SoilChart};
 use super::time_axis::WIDTH;
-use super::wheel_chart::{self, QUANTITIES};
+use super::wheel_chart::{self, WHEEL_CHARTS};
 use crate::parameter::Parameter;
 use crate::report::draw::px;
 use crate::report::page::DRAW_CSS;
@@ -18,8 +18,8 @@ const SHOWN: [&str; 2] = ["Contact angle", "Drawbar pull"];
 
 /// Contact angles and drawbar pulls of the wheels, then the soil under the rover, over time.
 pub fn picture(findings: &TraverseFindings) -> String {
-    let wheels = QUANTITIES.iter().filter(|quantity| SHOWN.contains(&quantity.title));
-    let wheels = wheels.map(|quantity| (quantity.draw(&findings.samples), wheel_chart::HEIGHT));
+    let wheels = WHEEL_CHARTS.iter().filter(|chart| SHOWN.contains(&chart.title));
+    let wheels = wheels.map(|chart| (chart.draw(&findings.samples), wheel_chart::HEIGHT));
     let soils = [Parameter::FrictionAngle, Parameter::ShearModulus];
     let soils = soils.map(|parameter| (SoilChart { parameter, findings }.draw(), soil_chart::HEIGHT));
     let mut top = BORDER;

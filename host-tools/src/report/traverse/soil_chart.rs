@@ -8,7 +8,7 @@ use super::samples::Sample;
 use super::time_axis::{self, LEFT, RIGHT, Spread, WIDTH, runs, spreads};
 use crate::data::truth_file::TrueSoil;
 use crate::parameter::Parameter;
-use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, line, path, px, text};
+use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, line, page_chart, path, px, text};
 
 /// Height of a chart.
 pub const HEIGHT: f64 = 190.0;
@@ -51,11 +51,7 @@ impl SoilChart<'_> {
     /// The chart in an SVG element of its own.
     pub fn svg(&self) -> Markup {
         let words = format!("{} under the rover over time, with 68 % and 95 % intervals", self.parameter.name());
-        html! {
-            svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(HEIGHT)) } role="img" aria-label=(words) {
-                (self.draw())
-            }
-        }
+        page_chart((WIDTH, HEIGHT), &words, &self.draw())
     }
 
     fn run(&self, time: &Scale, scale: &Scale, run: &[(bool, Spread)]) -> Markup {

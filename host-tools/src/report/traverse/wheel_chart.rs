@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::samples::{Sample, Samples};
 use super::time_axis::{self, LEFT, RIGHT, Spread, WIDTH, runs, spreads};
 use crate::data::truth_file::WheelTruth;
-use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, path, px, text};
+use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, page_chart, path, text};
 use crate::statistics::sorted;
 
 /// Height of a row of plots.
@@ -18,7 +18,7 @@ const GAP: f64 = 26.0;
 const WHEELS: [&str; 6] = ["front left", "middle left", "rear left", "front right", "middle right", "rear right"];
 
 /// What is drawn.
-pub struct Quantity {
+pub struct WheelChart {
     /// Its name.
     pub title: &'static str,
     unit: &'static str,
@@ -29,30 +29,30 @@ pub struct Quantity {
 }
 
 /// What is estimated of each wheel.
-pub const QUANTITIES: [Quantity; 5] = [
-    Quantity { title: "Slip", unit: "", factor: 1.0, estimated: |wheel| wheel.slip, truth: |wheel| wheel.slip },
-    Quantity {
+pub const WHEEL_CHARTS: [WheelChart; 5] = [
+    WheelChart { title: "Slip", unit: "", factor: 1.0, estimated: |wheel| wheel.slip, truth: |wheel| wheel.slip },
+    WheelChart {
         title: "Resistive torque",
         unit: "N·m",
         factor: 1.0,
         estimated: |wheel| Some(wheel.resistive_torque_nm),
         truth: |wheel| Some(wheel.resistive_torque_nm),
     },
-    Quantity {
+    WheelChart {
         title: "Contact angle",
         unit: "°",
         factor: 180.0 / std::f64::consts::PI,
         estimated: |wheel| Some(wheel.contact_angle_rad),
         truth: |wheel| Some(wheel.contact_angle_rad),
     },
-    Quantity {
+    WheelChart {
         title: "Normal load",
         unit: "N",
         factor: 1.0,
         estimated: |wheel| Some(wheel.normal_load_n),
         truth: |wheel| Some(wheel.normal_load_n),
     },
-    Quantity {
+    WheelChart {
         title: "Drawbar pull",
         unit: "N",
         factor: 1.0,
@@ -61,7 +61,7 @@ pub const QUANTITIES: [Quantity; 5] = [
     },
 ];
 
-impl Quantity {
+impl WheelChart {
     /// The six plots, at the origin.
     pub fn draw(&self, samples: &Samples) -> Markup {
         let scale = self.scale(samples);
@@ -77,11 +77,7 @@ impl Quantity {
     /// The six plots in an SVG element of their own.
     pub fn svg(&self, samples: &Samples) -> Markup {
         let words = format!("{} of the six wheels over time, with one and two standard deviations", self.title);
-        html! {
-            svg class="chart" viewBox={ "0 0 " (px(WIDTH)) " " (px(HEIGHT)) } role="img" aria-label=(words) {
-                (self.draw(samples))
-            }
-        }
+        page_chart((WIDTH, HEIGHT), &words, &self.draw(samples))
     }
 
     fn plot(&self, samples: &Samples, scale: &Scale, place: usize, wheel: &str) -> Markup {
