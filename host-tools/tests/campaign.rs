@@ -203,6 +203,12 @@ fn a_gross_error_is_told_from_other_units() {
     // Newtons in the load and millinewtons in the pull.
     let error = parse(&table(&["14500", "1300", "1250"]), &toml).expect_err("most of a column beyond what can be");
     assert!(error.starts_with("test.csv:2:5: drawbar_pull_n of 14500 N"), "{error}");
+    assert!(error.ends_with("expected newtons, newton-metres and metres, or load_n in newtons"), "{error}");
+    // Newtons in the pull and kilonewtons in the load; no load says what a sinkage is in.
+    let error = parse(&table(&["14.5", "13"]).replace("80.0", "0.08"), &toml).expect_err("pulls beyond such a load");
+    assert!(error.starts_with("test.csv:2:5: drawbar_pull_n of 14.5 N"), "{error}");
+    assert!(error.ends_with(", or load_n in newtons"), "{error}");
+    let error = parse(&table(&["14.5", "13"]).replace("0.006", "6"), &toml).expect_err("millimetres");
     assert!(error.ends_with("expected newtons, newton-metres and metres"), "{error}");
     // A load of the other sign, in one row and in all.
     let lifted = parse(&table(&["14.5", "13"]).replacen("80.0", "-80.0", 1), &toml).expect("one of two");

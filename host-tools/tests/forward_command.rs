@@ -158,11 +158,20 @@ fn an_output_that_is_there_survives_a_refusal() {
 /// Tables that are refused, and what the one line on the error stream starts with.
 #[test]
 fn tables_that_are_wrong_are_refused_by_line_and_column() {
-    let cases: [(&[u8], &str); 21] = [
+    let cases: [(&[u8], &str); 23] = [
         (b"", "in.csv:1:1: the file is empty"),
         (b"\n\n", "in.csv:1:1: the file is empty"),
         (b"load_n\n65\n", "in.csv:1:1: no column `slip`"),
-        (b"slip\n0.2\n", "in.csv:1:1: no column `load_n`"),
+        (b"slip\n0.2\n", "in.csv:1:1: no column `sinkage_m` or `load_n`: expected one in the header (found slip)"),
+        (
+            b"slip,load_N\n0.2,65\n",
+            "in.csv:1:1: no column `sinkage_m` or `load_n`: expected one in the header (found slip, load_N). The table has a column `load_N` \
+             and none `load_n`",
+        ),
+        (
+            b"slip_1,load_n\n0.2,65\n",
+            "in.csv:1:1: no column `slip`: expected one in the header (found slip_1, load_n). The table has a column `slip_1`",
+        ),
         (b"slip,load_n,slip\n0.2,65,0.3\n", "in.csv:1:3: a second column is named `slip`"),
         (b"slip,,load_n\n0.2,65,0.3\n", "in.csv:1:2: this column has no name"),
         (b"slip,load_n\n0.2,65\n,65\n", "in.csv:3:1: slip: empty"),
@@ -176,7 +185,7 @@ fn tables_that_are_wrong_are_refused_by_line_and_column() {
         (b"slip,load_n\n0.2,0\n", "in.csv:2:2: load_n: 0.0: expected a load above 0 N"),
         (
             b"slip,load_n\n0.2,65\n0.2,900\n",
-            "in.csv:3:2: load_n: this soil does not carry 900.0 N at slip 0.2: expected at most 580.6",
+            "in.csv:3:2: load_n: this soil does not carry 900.0 N at slip 0.2: expected at most about 580.7 N (down to a sinkage of 0.0675 m)",
         ),
         (b"slip,load_n\r\n0.2,65\r\n\r\n0.2,65,1\r\n", "in.csv:4:3: 3 fields in this row"),
         (b"slip,load_n\n0.2\n", "in.csv:2:2: 1 fields in this row"),

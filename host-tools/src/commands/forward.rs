@@ -8,10 +8,12 @@ use kapvik_firmware::terramechanics::{
     ForceError, SinkageError, Soil, Wheel, deepest_sinkage, greatest_load, sinkage_for_load, wheel_forces,
 };
 
+use crate::data::campaign::{Channel, nearly_named};
 use crate::data::outputs;
 use crate::data::soil_file::SoilTable;
 use crate::data::table::{Column, Table};
 use crate::data::wheel_file::WheelTable;
+use crate::digits::significant;
 use crate::error::HostError;
 
 /// What to compute, and where the files are.
@@ -80,11 +82,8 @@ struct Columns {
 
 impl<S: Scalar> Forward<S> {
     fn complete(&self, table: &mut Table) -> Result<(), HostError> {
-        let slip = table.required_column("slip")?;
-        let asked = match table.column("sinkage_m") {
-            Some(sinkage) => sinkage,
-            None => table.required_column("load_n")?,
-        };
+        let slip = one_of(table, &[Channel::Slip])?;
+        let asked = one_of(table, &[Channel::Sinkage, Channel::Load])?;
         let [drawbar_pull, load, torque, sinkage] =
             ["drawbar_pull_n", "load_n", "torque_nm", "sinkage_m"].map(|name| table.column_or_append(name));
         let columns = Columns { slip, asked, drawbar_pull, load, torque, sinkage };
@@ -135,9 +134,10 @@ impl<S: Scalar> Forward<S> {
     }
 
     fn too_great(&self, slip: S, load: S) -> String {
-        let deepest = written(deepest_sinkage(&self.wheel));
+        let deepest = rounded(deepest_sinkage(&self.wheel));
         let most = greatest_load(&self.wheel, &self.soil, slip);
-        let carried = most.map_or_else(|_| "less".to_owned(), |most| format!("at most {} N", written(most.load_n)));
+        let carried =
+            most.map_or_else(|_| "less".to_owned(), |most| format!("at most about {} N", rounded(most.load_n)));
         format!(
             "this soil does not carry {} N at slip {}: expected {carried} (down to a sinkage of {deepest} m)",
             written(load),
@@ -164,6 +164,23 @@ impl<S: Scalar> Forward<S> {
             ),
         }
     }
+}
+
+/// The first of some columns that a table has, which the command cannot do without.
+fn one_of(table: &Table, channels: &[Channel]) -> Result<Column, HostError> {
+    let missing = || {
+        let names: Vec<_> = channels.iter().map(|channel| format!("`{}`", channel.name())).collect();
+        let found = table.header().join(", ");
+        let missing = format!("no column {}: expected one in the header (found {found})", names.join(" or "));
+        let said: Vec<_> = std::iter::once(missing).chain(nearly_named(table.header(), channels.to_vec())).collect();
+        table.error_in_header(said.join(". "))
+    };
+    channels.iter().find_map(|channel| table.column(channel.name())).ok_or_else(missing)
+}
+
+/// A number as a reader wants it.
+fn rounded<S: Scalar>(value: S) -> f64 {
+    significant(value.to_f32().into(), 4)
 }
 
 /// The shortest text that reads back as the same number.

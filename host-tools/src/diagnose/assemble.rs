@@ -13,7 +13,7 @@ use super::document::{
 };
 use super::fit::Reading;
 use super::force_channels::ForceChannels;
-use super::forward::Selected;
+use super::forward::{FoundStep, Selected};
 use super::held_out_errors::HeldOutErrors;
 use super::left_over::{LeftOver, left_over};
 use super::measurements::{Measurements, column_name};
@@ -27,6 +27,8 @@ const MOST_UNEXPLAINED: usize = 5;
 const LISTED: usize = 12;
 /// Runs up to which the ends are told apart.
 const FEW_RUNS: usize = 10;
+/// Times the error of the declared model from which one has grown by more than what changes with the runs that are left out.
+const GROWS: f64 = 1.05;
 
 /// The document.
 pub fn assemble(
@@ -45,11 +47,7 @@ pub fn assemble(
         declared_effects: Vec::new(),
         verdict: verdict(selected, &unexplained),
         sentence: String::new(),
-        effects: selected
-            .found
-            .iter()
-            .map(|found| found_effect(measurements, selected.model(), &found.winner))
-            .collect(),
+        effects: selected.found.iter().map(|found| found_effect(measurements, selected.model(), found)).collect(),
         runner_up: runner_up(selected),
         ambiguous_with: selected.found.first().map_or_else(Vec::new, |found| owned(&found.ambiguous_with)),
         deciding_measurement: None,
@@ -70,6 +68,7 @@ pub fn assemble(
     document.caveats.extend(error_of_load(selected, by_themselves));
     document.caveats.extend(without_answer(measurements, &document.held_out_runs));
     document.caveats.extend(no_error_falls(&document));
+    document.caveats.extend(errors_that_grow(&document));
     let off_by_run = measurements.off_by_run(&selected.model().fit.offset_std);
     let off_by_run: Vec<&str> = off_by_run.map(|(reading, _)| column_name(reading)).collect();
     super::sentence::tell(&mut document, campaign, errors, &off_by_run);
@@ -90,13 +89,15 @@ fn owned(ids: &[&str]) -> Vec<String> {
 }
 
 /// An effect with what it gained when it was found, and its form and parameters as the final `model` has them.
-fn found_effect(measurements: &Measurements, model: &Trial<'_>, winner: &Judged<'_>) -> FoundEffect {
+fn found_effect(measurements: &Measurements, model: &Trial<'_>, found: &FoundStep<'_>) -> FoundEffect {
+    let winner = &found.winner;
     FoundEffect {
         id: winner.id().to_owned(),
         form: model.specification.effect(winner.id()).map_or("", |effect| effect.form.name).to_owned(),
         parameters: parameters(measurements, model, winner.id()),
         gain_per_row: winner.held_out.per_row,
         p_value: winner.p_value,
+        ambiguous_with: owned(&found.not_told_from()),
     }
 }
 
@@ -233,6 +234,20 @@ fn no_error_falls(document: &Diagnosis) -> Option<String> {
     })
 }
 
+/// What is said of channels that something found predicts worse.
+fn errors_that_grow(document: &Diagnosis) -> Option<String> {
+    let grows = |errors: &ChannelErrors| errors.rmse_after > GROWS * errors.rmse_before && errors.rmse_before > 0.0;
+    let percent = |errors: &ChannelErrors| 100.0 * (errors.rmse_after / errors.rmse_before - 1.0);
+    let worse = document.channels.iter().filter(|(_, errors)| grows(errors));
+    let worse: Vec<_> = worse.map(|(channel, errors)| format!("{channel} (by {:.0} %)", percent(errors))).collect();
+    (!document.effects.is_empty() && !worse.is_empty()).then(|| {
+        format!(
+            "With what was found, root mean square errors grow on runs that no fit knew, of {}: there the declared model predicts better.",
+            worse.join(", ")
+        )
+    })
+}
+
 /// Root mean square errors before and after on some rows, by channel.
 pub fn error_pairs(
     errors: &HeldOutErrors,
@@ -287,4 +302,39 @@ fn listed(measurements: &Measurements, selected: &Selected<'_>) -> Vec<Candidate
         step.ranking.iter().filter(|judged| judged.held_out.has_answer()).take(LISTED).map(entry).collect::<Vec<_>>()
     };
     steps.enumerate().flat_map(entries).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn document(effects: serde_json::Value) -> Diagnosis {
+        let errors = |rmse_before, rmse_after| ChannelErrors {
+            rmse_before,
+            rmse_after,
+            noise: 1.0,
+            noise_stated: true,
+            runs: 9,
+        };
+        let document = serde_json::json!({
+            "campaign": "sand", "declared": [], "verdict": "effect", "effects": effects, "runner_up": null,
+            "ambiguous_with": [], "unexplained": [],
+            "channels": {
+                "drawbar_pull_n": errors(1.0, 1.04), "load_n": errors(10.0, 12.0), "sinkage_m": errors(0.004, 0.001),
+                "torque_nm": errors(0.1, 0.107),
+            },
+            "soil_before": {}, "soil_after": {}, "held_out_runs": [],
+        });
+        serde_json::from_value(document).expect("a diagnosis")
+    }
+
+    #[test]
+    fn channels_that_an_effect_predicts_worse_are_named() {
+        let found =
+            document(serde_json::json!([{ "id": "rate", "parameters": {}, "gain_per_row": 1.0, "p_value": 0.0 }]));
+        let said = errors_that_grow(&found).expect("two grow");
+        assert!(said.contains(" of load_n (by 20 %), torque_nm (by 7 %): "), "{said}");
+        assert_eq!(no_error_falls(&found), None);
+        assert_eq!(errors_that_grow(&document(serde_json::json!([]))), None, "nothing was found");
+    }
 }

@@ -136,7 +136,7 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
 
 /// What is said of an effect that others are not told from; of the first the verdict itself names the likeliest of them.
 fn left_open(found: &FoundStep<'_>) -> Option<String> {
-    let others = [found.ambiguous_with.as_slice(), &found.also_near].concat();
+    let others = found.not_told_from();
     (!others.is_empty())
         .then(|| format!("{}: these data do not tell it from {}.", found.winner.id(), others.join(" or ")))
 }

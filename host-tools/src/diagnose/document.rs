@@ -31,7 +31,7 @@ pub struct Diagnosis {
     pub effects: Vec<FoundEffect>,
     /// The best other candidate of the first step.
     pub runner_up: Option<RunnerUp>,
-    /// The ids that these data cannot tell from the first effect.
+    /// The ids that these data cannot tell from the first effect, the likeliest.
     pub ambiguous_with: Vec<String>,
     /// What measurement would tell them apart.
     #[serde(default)]
@@ -131,6 +131,10 @@ pub struct FoundEffect {
     pub gain_per_row: f64,
     /// How likely chance gives that gain to the best of all candidates, 0 … 1.
     pub p_value: f64,
+    /// The ids that these data cannot tell from it, all of them, the likeliest first; [`Diagnosis::ambiguous_with`] names no more than the
+    /// likeliest of the first effect.
+    #[serde(default)]
+    pub ambiguous_with: Vec<String>,
 }
 
 /// The best of the candidates that did not win.
@@ -281,6 +285,18 @@ mod tests {
         let written = serde_json::to_value(&read).expect("JSON");
         assert!(written["runner_up"].is_null());
         assert_eq!(written["verdict"], "none");
+        assert_eq!(serde_json::from_value::<Diagnosis>(written).expect("what was written"), read);
+    }
+
+    /// Each effect has its own; documents from before that have none.
+    #[test]
+    fn what_each_effect_is_not_told_from_stands_with_it() {
+        let mut read: Diagnosis = serde_json::from_str(EXAMPLE).expect("the example");
+        assert!(read.effects[0].ambiguous_with.is_empty());
+        assert_eq!(serde_json::to_value(&read).expect("JSON")["effects"][0]["ambiguous_with"], serde_json::json!([]));
+        read.effects[0].ambiguous_with = ["rate", "crosstalk"].map(str::to_owned).to_vec();
+        let written = serde_json::to_value(&read).expect("JSON");
+        assert_eq!(written["effects"][0]["ambiguous_with"], serde_json::json!(["rate", "crosstalk"]));
         assert_eq!(serde_json::from_value::<Diagnosis>(written).expect("what was written"), read);
     }
 

@@ -43,6 +43,13 @@ pub struct FoundStep<'a> {
     pub step: Step<'a>,
 }
 
+impl FoundStep<'_> {
+    /// All the ids that these data do not tell from it, the likeliest first.
+    pub fn not_told_from(&self) -> Vec<&'static str> {
+        [self.ambiguous_with.as_slice(), &self.also_near].concat()
+    }
+}
+
 impl<'a> Selected<'a> {
     /// The model with all the effects that were found.
     pub fn model(&self) -> &Trial<'a> {

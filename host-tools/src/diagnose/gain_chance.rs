@@ -44,18 +44,45 @@ impl<'a> Gain<'a> {
         self.ln_posterior / self.dispersion
     }
 
-    /// The chance that the best of `tried` candidates of so many parameters that change nothing gains as much.
+    /// The chance that the best of `tried` candidates of so many parameters that change nothing gains as much. Where noise goes together along
+    /// runs the lesser of two: as if all of the gain were within runs, and with what is gained between them by itself.
     pub fn chance(&self, parameters: usize, tried: usize) -> f64 {
         let parameters = parameters.max(1) as f64;
-        let Ratio { squares, freedom } = self.ratio();
-        let per = self.dispersion * self.rows_per_reading;
-        let (squares, freedom) = (squares.max(0.0) / per, freedom / self.rows_per_reading);
-        let alone = if freedom < KNOWN {
-            beside_noise(squares, parameters, freedom)
-        } else {
-            ChiSquared::new(parameters).map_or(1.0, |law| law.sf(squares))
+        let all = self.ratio();
+        let within = all.over(self.dispersion).of_fewer(self.rows_per_reading);
+        let between = (self.rows_per_reading > 1.0).then(|| self.by_parts(&all, parameters)).flatten();
+        let alone = [Some(within), between].into_iter().flatten().map(|ratio| ratio.chance(parameters));
+        over_all(alone.fold(1.0, f64::min), tried)
+    }
+
+    /// The gain within runs, in which a row tells less than an independent one, and that between them, in which it does not: each run has an
+    /// offset already, whose spread the runs themselves tell. None of runs that are too few to tell it.
+    fn by_parts(&self, all: &Ratio, parameters: f64) -> Option<Ratio> {
+        let runs = Reading::JUDGED.into_iter().map(|channel| told_runs(&self.before.series(channel.index()))).max()?;
+        let freedom = runs as f64 - 1.0 - parameters;
+        let gain = 2.0 * self.ln_posterior;
+        if freedom < 1.0 || gain <= 0.0 {
+            return None;
+        }
+        let share = (self.squares_within_runs() / gain).clamp(0.0, 1.0);
+        let within =
+            Ratio { squares: share * all.squares, ..*all }.over(self.dispersion).of_fewer(self.rows_per_reading);
+        let ln_ratio = (1.0 - share) * gain / self.dispersion / runs as f64;
+        Some(within.and(&Ratio { squares: squares_gained(ln_ratio, freedom), freedom }))
+    }
+
+    /// By how much squares within runs are less, over the variance of the noise; all of what a channel gains whose noise is estimated.
+    fn squares_within_runs(&self) -> f64 {
+        let of_channel = |channel: Reading| {
+            if self.before.estimates_noise(channel) {
+                let pair = [self.before, self.after].map(|fit| fit.channel_squares(channel));
+                let [Some(before), Some(after)] = pair else { return 0.0 };
+                return 2.0 * (before.ln_noise - after.ln_noise) + before.squares - after.squares;
+            }
+            let [before, after] = [self.before, self.after].map(|fit| squares(&fit.series(channel.index())));
+            before - after
         };
-        over_all(alone, tried)
+        Reading::JUDGED.into_iter().map(of_channel).sum()
     }
 
     fn ratio(&self) -> Ratio {
@@ -84,9 +111,45 @@ impl<'a> Gain<'a> {
     }
 }
 
+/// Runs of which a channel says something.
+fn told_runs(series: &[Vec<f64>]) -> usize {
+    series.iter().filter(|run| !run.is_empty()).count()
+}
+
+fn squares(series: &[Vec<f64>]) -> f64 {
+    series.iter().flatten().map(|left| left * left).sum()
+}
+
 /// By how much squares are less, over the variance of the noise, and the degrees of freedom that this is known with; ∞ where it is known.
 #[derive(Debug, Clone, Copy)]
 struct Ratio {
     squares: f64,
     freedom: f64,
+}
+
+impl Ratio {
+    /// In units of a dispersion; what is lost is nothing gained.
+    fn over(self, dispersion: f64) -> Self {
+        Self { squares: self.squares.max(0.0) / dispersion, ..self }
+    }
+
+    /// Where so many rows tell as much as an independent one.
+    fn of_fewer(self, rows_per_reading: f64) -> Self {
+        Self { squares: self.squares / rows_per_reading, freedom: self.freedom / rows_per_reading }
+    }
+
+    /// Both together, with the degrees of freedom of a sum (Satterthwaite 1946, Biometrics Bulletin 2:110).
+    fn and(&self, other: &Self) -> Self {
+        let squares = self.squares + other.squares;
+        let doubt = self.squares.powi(2) / self.freedom + other.squares.powi(2) / other.freedom;
+        Self { squares, freedom: if doubt > 0.0 { squares.powi(2) / doubt } else { f64::INFINITY } }
+    }
+
+    /// The chance that so many parameters that change nothing lessen squares by as much.
+    fn chance(&self, parameters: f64) -> f64 {
+        if self.freedom < KNOWN {
+            return beside_noise(self.squares, parameters, self.freedom);
+        }
+        ChiSquared::new(parameters).map_or(1.0, |law| law.sf(self.squares))
+    }
 }

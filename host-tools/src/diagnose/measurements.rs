@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use kapvik_firmware::terramechanics::effects::Conditions;
+use kapvik_firmware::terramechanics::effects::{Conditions, speed_ratio};
 
 use crate::data::campaign::{Campaign, Channel};
+use crate::digits::counted;
 use crate::error::HostError;
 use crate::statistics;
 
@@ -12,7 +13,7 @@ use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
 use super::lone_rows::LoneRow;
 use super::noise::{Noise, channel_noise};
-use super::rates::{speed_ratio, wheel_rates};
+use super::rates::wheel_rates;
 use super::settings::{Settled, settle};
 
 /// The column of each reading, in the order of [`Reading::ALL`].
@@ -99,8 +100,7 @@ impl Measurements {
             }
         }
         if usable.is_empty() {
-            return Err(campaign
-                .error("no row that drives and has a slip, a load or a sinkage, and a force or a sinkage to judge"));
+            return Err(campaign.error(nothing_usable(reasons[1].0)));
         }
         let left_out = reasons.into_iter().filter(|(rows, _)| *rows > 0);
         let left_out = left_out.map(|(rows, reason)| LeftOut { reason: reason.to_owned(), rows }).collect();
@@ -200,7 +200,7 @@ impl Measurements {
     pub fn speeds_m_s(&self) -> impl Iterator<Item = Option<f64>> {
         let rows = self.rim_speeds_m_s().zip(&self.conditions).zip(&self.rows);
         rows.map(|((rim, conditions), row)| {
-            let followed = || Some(rim? * speed_ratio(row.readings[Reading::Slip.index()]?).0);
+            let followed = || Some(rim? * speed_ratio(row.readings[Reading::Slip.index()]?));
             conditions.speed_m_s.or_else(followed)
         })
     }
@@ -260,6 +260,19 @@ fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
     Ok(())
 }
 
+/// What is said where no row is left, of which so many brake.
+fn nothing_usable(braking: usize) -> String {
+    let missing = "no row that drives and has a slip, a load or a sinkage, and a force or a sinkage to judge";
+    match braking {
+        0 => missing.to_owned(),
+        _ => format!("{missing}; {} below slip {BRAKING}: --braking takes such rows as well", rows_are(braking)),
+    }
+}
+
+fn rows_are(rows: usize) -> String {
+    format!("{} {}", counted(rows as u64, "row", "rows"), if rows == 1 { "is" } else { "are" })
+}
+
 /// A slip, what determines the sinkage, and something to judge that by.
 fn is_usable(readings: &[Option<f64>; CHANNELS]) -> bool {
     let has = |reading: Reading| readings[reading.index()].is_some();
@@ -286,7 +299,20 @@ fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+
+    #[test]
+    fn wheels_that_all_brake_are_told_of_braking() {
+        let toml = "name = \"skid\"\nkind = \"simulated\"\nsource = \"\"\ngravity_m_s2 = 9.81\n[wheel]\nradius_m = 0.1\n\
+                    width_m = 0.1\n";
+        let csv = "run,t_s,slip,load_n,drawbar_pull_n\na,0,-0.3,50,-20\na,1,-0.4,51,-22\n";
+        let campaign = Campaign::parse(Path::new("skid.csv"), csv, toml).expect("a campaign");
+        let said = Measurements::of(&campaign, false).expect_err("no row drives").to_string();
+        assert!(said.ends_with("2 rows are below slip -0.05: --braking takes such rows as well"), "{said}");
+        assert_eq!(Measurements::of(&campaign, true).expect("both brake").rows.len(), 2);
+    }
 
     #[test]
     fn of_many_runs_some_of_every_part_stay() {

@@ -10,8 +10,8 @@ use super::selection::{PARAMETER_COST, Step, with_better_fit, worth};
 use super::steps::Steps;
 use super::trial::Trial;
 
-/// Times that an effect may be exchanged.
-const EXCHANGES: usize = 3;
+/// Times that an effect, or its form, may be exchanged.
+const EXCHANGES: usize = 4;
 
 /// Two effects in order, each beside the other.
 pub struct Pair<'a> {
@@ -89,10 +89,11 @@ pub fn from_ahead<'a>(
 }
 
 /// From a model whose last effect is the first of a pair: its best companion, that one's best companion, and so on until they
-/// agree. None where there is no companion, or no agreement.
+/// agree, in form as well: which form of an effect fits best without its companion says little. None where there is no companion, or
+/// no agreement.
 fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundStep<'a>>) -> Option<Pair<'a>> {
     let mut one = start;
-    for _ in 0..EXCHANGES {
+    for left in (0..EXCHANGES).rev() {
         let second = known.take().or_else(|| companion(steps, &one))?;
         let both = &second.winner.trial;
         let other = steps.bench.without_effect(both, one.added_id())?;
@@ -100,12 +101,27 @@ fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundS
         let id = one.added_id();
         if first.winner.id() == id || first.ambiguous_with.contains(&id) {
             let kept = first.step.ranking.iter().position(|judged| judged.id() == id && judged.is_significant())?;
-            let worth = both.log_posterior() - PARAMETER_COST * both.effect_parameters() as f64;
-            return Some(Pair { first: found(first.step, kept), second, worth });
+            let again = &first.step.ranking[kept].trial;
+            if left == 0 || form_of(again, id) == form_of(both, id) || worth_of_both(again) <= worth_of_both(both) {
+                let worth = worth_of_both(both);
+                return Some(Pair { first: found(first.step, kept), second, worth });
+            }
+            one = steps.bench.without_effect(again, other.added_id())?;
+            continue;
         }
         one = steps.bench.without_effect(&first.winner.trial, other.added_id())?;
     }
     None
+}
+
+fn worth_of_both(trial: &Trial<'_>) -> f64 {
+    trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64
+}
+
+/// The name of the form in which a model has an effect.
+fn form_of(trial: &Trial<'_>, id: &str) -> Option<&'static str> {
+    let form = trial.specification.effects.iter().find(|effect| effect.info.id == id)?;
+    Some(form.form.name)
 }
 
 fn companion<'a>(steps: &Steps<'_, 'a>, trial: &Trial<'a>) -> Option<FoundStep<'a>> {

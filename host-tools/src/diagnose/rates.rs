@@ -5,6 +5,8 @@
 //! whatever follows speed then seems to explain what only the noise of the slip did. So of the three, slip is what was measured
 //! and has an error, the rate is what was set, and the speed follows from both.
 
+use kapvik_firmware::terramechanics::effects::speed_ratio;
+
 use crate::data::campaign::{Campaign, Channel};
 
 use super::fit::{Reading, Row};
@@ -26,7 +28,7 @@ pub fn wheel_rates(
     let of_row = |(place, row): (&usize, &Row)| {
         let speed_m_s = campaign.value(*place, Channel::Speed)?;
         let slip = row.readings[Reading::Slip.index()]?;
-        let (ratio, by_slip) = speed_ratio(slip);
+        let (ratio, by_slip) = (speed_ratio(slip), speed_ratio_by_slip(slip));
         let rate_rad_s = speed_m_s / (radius_m * ratio);
         let std = row.noise[Reading::Slip.index()] * (by_slip / ratio).abs();
         // In the logarithm, for the noise of the slip is a share of the rate.
@@ -37,14 +39,9 @@ pub fn wheel_rates(
     values.into_iter().map(|value| value.map(|(ln_rate, _)| ln_rate.exp())).collect()
 }
 
-/// v / (r ω) at a slip, and its derivative by the slip.
-pub fn speed_ratio(slip: f64) -> (f64, f64) {
-    if slip < 0.0 {
-        let ratio = 1.0 / (1.0 + slip);
-        (ratio, -ratio * ratio)
-    } else {
-        (1.0 - slip, -1.0)
-    }
+/// The derivative of v / (r ω) by the slip.
+pub fn speed_ratio_by_slip(slip: f64) -> f64 {
+    if slip < 0.0 { -speed_ratio(slip).powi(2) } else { -1.0 }
 }
 
 #[cfg(test)]

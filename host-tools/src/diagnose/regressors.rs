@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use kapvik_firmware::terramechanics::effects::speed_ratio;
 use nalgebra::{DMatrix, DVector};
 
 use crate::data::campaign::{Campaign, Channel};
@@ -10,8 +11,9 @@ use super::bench::Bench;
 use super::candidates::{loads_differ, rates_differ};
 use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
-use super::measurements::{KNOWN_SHARE, column_name};
-use super::rates::speed_ratio;
+use super::measurements::{KNOWN_SHARE, Measurements, column_name};
+use super::noise::Noise;
+use super::rates::speed_ratio_by_slip;
 use crate::statistics::sorted;
 
 /// A column, or a product of two, about zero and one in size. What is made of slip, load, sinkage or speed is a function of
@@ -35,7 +37,8 @@ pub struct Regressor {
 #[derive(Debug, Clone, PartialEq)]
 struct Part {
     name: String,
-    /// Whether it is slip, load or sinkage, or says no more than these do, as the rate of a wheel whose carriage keeps its speed.
+    /// Whether it is slip, load or sinkage, or says no more than these do, as the rate of a wheel whose carriage keeps its speed, or measures
+    /// again what the contact does, as a second sensor of the sinkage.
     is_of_contact: bool,
 }
 
@@ -47,6 +50,12 @@ const SAME: f64 = 0.999;
 const SAYS_NO_MORE: f64 = 0.99;
 /// Least v/(rω) that counts there: a wheel may spin on the spot.
 const LEAST_RATIO: f64 = 0.02;
+/// What a straight line in a column leaves of a channel that it measures again, in standard deviations of the channel's noise.
+const LEFT_AGAIN: f64 = 2.0;
+/// Scatter of a channel by slip and load, in the same, from which such a line says anything.
+const MOVED: f64 = 6.0;
+/// Fewest rows with both.
+const LEAST_ROWS: usize = 8;
 
 impl Regressor {
     /// Whether it is made of what a channel reads.
@@ -54,7 +63,7 @@ impl Regressor {
         self.parts.iter().any(|part| part.name == column_name(reading))
     }
 
-    /// Whether it is made of slip, load and sinkage alone, or of what says no more than they do.
+    /// Whether it is made of slip, load and sinkage alone, or of what says no more than they do or measures the contact again.
     pub fn is_of_contact(&self) -> bool {
         self.parts.iter().all(|part| part.is_of_contact)
     }
@@ -66,30 +75,84 @@ impl Regressor {
 }
 
 impl Part {
-    fn of(name: &str, values: &[Option<f64>], latents: &[Latent]) -> Self {
+    fn of(name: &str, values: &[Option<f64>], measurements: &Measurements, latents: &[Latent]) -> Self {
         let is_contact = CONTACT.iter().any(|reading| name == column_name(*reading));
-        Self { name: name.to_owned(), is_of_contact: is_contact || says_no_more(values, latents) }
+        let is_of_contact = || says_no_more(values, latents) || is_second_sensor(name, values, measurements, latents);
+        Self { name: name.to_owned(), is_of_contact: is_contact || is_of_contact() }
     }
 }
 
-/// Whether a column is a smooth function of slip and load in these rows: a straight line in the load, and in the slip a parabola and what
-/// rates and speeds go with, 1/(1 − i). The share of its variance counts by degrees of freedom.
+/// Whether a column is a smooth function of slip and load in these rows. The share of its variance counts by degrees of freedom.
 fn says_no_more(values: &[Option<f64>], latents: &[Latent]) -> bool {
+    by_state(values, latents).is_some_and(|ByState { known, fitted, terms }| {
+        let left = (&known - fitted).norm_squared() / (known.len() - terms) as f64;
+        left < (1.0 - SAYS_NO_MORE) * known.variance()
+    })
+}
+
+/// Whether a column that the format does not name measures a channel again. Those that it names are causes, whatever a channel may do beside
+/// them.
+fn is_second_sensor(name: &str, values: &[Option<f64>], measurements: &Measurements, latents: &[Latent]) -> bool {
+    let measured = [Reading::Sinkage, Reading::DrawbarPull, Reading::Torque, Reading::Load];
+    let measures_again = |reading: Reading| {
+        let channel = reading.index();
+        let readings: Vec<Option<f64>> = measurements.rows.iter().map(|row| row.readings[channel]).collect();
+        let Noise { std, of_repeats, .. } = measurements.noise[channel];
+        let noise = of_repeats.map_or(std, |of_repeats| of_repeats.min(std));
+        says_again(values, &readings, noise, latents)
+    };
+    Channel::from_name(name).is_none() && measured.into_iter().any(measures_again)
+}
+
+/// Whether a straight line in a column is a channel's readings but for their noise. Slip and load must move the channel: what is still but for
+/// what a column does to it would follow that column as well.
+fn says_again(values: &[Option<f64>], readings: &[Option<f64>], noise: f64, latents: &[Latent]) -> bool {
+    let is_moved =
+        || by_state(readings, latents).is_some_and(|state| state.fitted.variance() > (MOVED * noise).powi(2));
+    beside_line(values, readings).is_some_and(|left| left <= (LEFT_AGAIN * noise).powi(2)) && is_moved()
+}
+
+/// The variance of some readings about a straight line in a column, by degrees of freedom; none of few rows, or of a column that does not vary.
+fn beside_line(values: &[Option<f64>], readings: &[Option<f64>]) -> Option<f64> {
+    let both = values.iter().zip(readings).filter_map(|(value, reading)| Some(((*value)?, (*reading)?)));
+    let (values, readings): (Vec<f64>, Vec<f64>) =
+        both.filter(|(value, reading)| value.is_finite() && reading.is_finite()).unzip();
+    if values.len() < LEAST_ROWS {
+        return None;
+    }
+    let about_mean = |numbers: Vec<f64>| {
+        let numbers = DVector::from(numbers);
+        numbers.add_scalar(-numbers.mean())
+    };
+    let (values, readings) = (about_mean(values), about_mean(readings));
+    let slope = values.dot(&readings) / values.norm_squared();
+    slope.is_finite().then(|| (&readings - values * slope).norm_squared() / (readings.len() - 2) as f64)
+}
+
+/// A column in the rows that have it, and what slip and load make of it.
+struct ByState {
+    known: DVector<f64>,
+    fitted: DVector<f64>,
+    /// Coefficients of that.
+    terms: usize,
+}
+
+/// By least squares: a straight line in the load, and in the slip a parabola and what rates and speeds go with, 1/(1 − i). None of few rows.
+fn by_state(values: &[Option<f64>], latents: &[Latent]) -> Option<ByState> {
     let of_state = |Latent { slip, load_n, .. }: &Latent| {
-        [1.0, *slip, slip * slip, speed_ratio(*slip).0.max(LEAST_RATIO).recip(), *load_n]
+        [1.0, *slip, slip * slip, speed_ratio(*slip).max(LEAST_RATIO).recip(), *load_n]
     };
     let known = values.iter().zip(latents).filter_map(|(value, latent)| Some(((*value)?, of_state(latent))));
     let (known, states): (Vec<f64>, Vec<[f64; 5]>) = known.filter(|(value, _)| value.is_finite()).unzip();
     let terms = states.first().map_or(0, |state| state.len());
     if known.len() < 2 * terms || terms == 0 {
-        return false;
+        return None;
     }
     let states = DMatrix::from_fn(known.len(), terms, |row, term| states[row][term]);
     let known = DVector::from(known);
     let singular = 1e-9 * states.amax();
-    let Ok(factors) = states.clone().svd(true, true).solve(&known, singular) else { return false };
-    let left = (&known - states * factors).norm_squared() / (known.len() - terms) as f64;
-    left < (1.0 - SAYS_NO_MORE) * known.variance()
+    let factors = states.clone().svd(true, true).solve(&known, singular).ok()?;
+    Some(ByState { fitted: states * factors, known, terms })
 }
 
 /// What the contact itself is made of.
@@ -110,7 +173,7 @@ pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor>
         let new = |regressor: &Regressor| {
             !found.iter().any(|other| correlation(&other.term.values, &regressor.term.values).abs() > SAME)
         };
-        let part = Part::of(name, &column.values, linearised.latents());
+        let part = Part::of(name, &column.values, bench.measurements, linearised.latents());
         if let Some(regressor) = standardised(name.to_owned(), vec![part], &column, &at).filter(new) {
             let turns = (name == Channel::WheelAngle.name()).then(|| turns(&column.values));
             found.push(Regressor { turns, ..regressor });
@@ -138,8 +201,9 @@ fn column(bench: &Bench<'_>, linearised: &Linearised<'_>, name: &str) -> Column 
         },
         Some(Channel::Speed) => {
             let rim_speeds = bench.measurements.rim_speeds_m_s();
-            let by =
-                |(rim, latent): (Option<f64>, &Latent)| [rim.map_or(0.0, |rim| rim * speed_ratio(latent.slip).1), 0.0];
+            let by = |(rim, latent): (Option<f64>, &Latent)| {
+                [rim.map_or(0.0, |rim| rim * speed_ratio_by_slip(latent.slip)), 0.0]
+            };
             Column { values: own, by: Some(rim_speeds.zip(latents).map(by).collect()) }
         }
         _ => Column { values: own, by: None },
@@ -167,7 +231,7 @@ pub(super) fn values(bench: &Bench<'_>, latents: &[Latent], name: &str) -> Vec<O
         Some(Channel::Speed) => {
             let rim_speeds = measurements.rim_speeds_m_s();
             let followed = |((rim, latent), read): ((Option<f64>, &Latent), Option<f64>)| {
-                rim.map(|rim| rim * speed_ratio(latent.slip).0).or(read)
+                rim.map(|rim| rim * speed_ratio(latent.slip)).or(read)
             };
             rim_speeds.zip(latents).zip(read()).map(followed).collect()
         }
@@ -299,6 +363,35 @@ mod tests {
         let of = |values: &[Option<f64>]| says_no_more(values, &latents);
         assert_eq!([at_one_speed, at_two_speeds, with_the_hours].map(|values| of(&values)), [true, false, false]);
         assert!(!says_no_more(&[Some(1.0); 3], &latents[..3]), "of three rows nobody knows");
+    }
+
+    /// A laser beside the sensor of the sinkage, in millimetres from its own zero. Hours, and sand that is wet by turns, are no second sensor,
+    /// though the sinkage goes with them where nothing else moves it.
+    #[test]
+    fn a_second_sensor_is_told_from_a_cause() {
+        const NOISE_M: f64 = 3e-4;
+        let scatter = |row: usize| ((4 * row) % 7) as f64 / 3.0 - 1.0;
+        let wet = |row: usize| (row / 2 % 2) as f64;
+        let latents = |moves: bool| -> Vec<Latent> {
+            let place = |row: usize| if moves { ((row % 5) as f64, (row / 5) as f64) } else { (2.0, 1.0) };
+            let at = |(slip, load): (f64, f64)| Latent {
+                slip: 0.1 + 0.2 * slip,
+                load_n: 25.0 + 25.0 * load,
+                sinkage_m: 0.01,
+            };
+            (0..15).map(|row| at(place(row))).collect()
+        };
+        let column = |of: &dyn Fn(usize) -> f64| -> Vec<Option<f64>> { (0..15).map(|row| Some(of(row))).collect() };
+        let moved = latents(true);
+        let true_m = |row: usize| 0.001 + 0.01 * moved[row].slip + 2e-4 * moved[row].load_n;
+        let sinkage_m = column(&|row| true_m(row) + NOISE_M * scatter(row));
+        let laser_mm = column(&|row| 2.0 + 1e3 * (true_m(row) + 0.1 * NOISE_M * scatter(row + 3)));
+        let [hours, wet_sand] = [column(&|row| row as f64), column(&wet)];
+        let again = |values: &[Option<f64>]| says_again(values, &sinkage_m, NOISE_M, &moved);
+        assert_eq!([&laser_mm, &hours, &wet_sand].map(|values| again(values)), [true, false, false]);
+        let of_wet_sand = column(&|row| 0.01 + 0.01 * wet(row) + NOISE_M * scatter(row));
+        assert!(!says_again(&wet_sand, &of_wet_sand, NOISE_M, &latents(false)), "nothing but the water moves it");
+        assert!(!says_again(&laser_mm[..7], &sinkage_m[..7], NOISE_M, &moved[..7]), "of seven rows nobody knows");
     }
 
     /// d(ab) = a db + b da, for a of slip and b of slip and load.

@@ -42,10 +42,8 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, o
             "{of}: {model} miss {channel} by {times:.1} times its stated noise and that of slip and load, and no candidate and no column \
              explains that: the noise is larger, or a law is missing that follows nothing measured."
         ),
-        Verdict::None if !off_by_run.is_empty() => format!(
-            "{of}: within each run {model} explain the data as well as their noise allows, and no candidate earns a place; but from run to run \
-             {} differs by more than its noise, which nothing measured explains.",
-            off_by_run.join(" and ")
+        Verdict::None if let Some(differs) = from_run_to_run(off_by_run) => format!(
+            "{of}: within each run {model} explain the data as well as their noise allows, and no candidate earns a place; but {differs}."
         ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
@@ -54,17 +52,34 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, o
             format!("{of}: {model} leave structure in {} that no known effect explains.", left.unwrap_or_default())
         }
         Verdict::Effect | Verdict::Ambiguous => {
-            let found: Vec<_> = document.effects.iter().map(|effect| what(&effect.id)).collect();
-            let or = match document.ambiguous_with.as_slice() {
-                [] => String::new(),
-                others => format!(" (these data do not tell it from {})", others.join(" or ")),
-            };
-            let left = left.map_or_else(String::new, |left| format!("; structure is left in {left}"));
-            let first = found.first().cloned().unwrap_or_default();
-            let then = if found.len() > 1 { format!("; then {}", found[1..].join("; then ")) } else { String::new() };
-            format!("{of}: {model} lack {first}{or}{then}{left}.")
+            let left = left.map(|left| format!("structure is left in {left}"));
+            let besides = left.into_iter().chain(from_run_to_run(off_by_run).map(|differs| format!("and {differs}")));
+            let besides: String = besides.map(|besides| format!("; {besides}")).collect();
+            format!("{of}: {model} lack {}{besides}.", found(document))
         }
     }
+}
+
+/// The effects that were found, and what the first is not told from.
+fn found(document: &Diagnosis) -> String {
+    let found: Vec<_> = document.effects.iter().map(|effect| what(&effect.id)).collect();
+    let or = match document.ambiguous_with.as_slice() {
+        [] => String::new(),
+        others => format!(" (these data do not tell it from {})", others.join(" or ")),
+    };
+    let first = found.first().cloned().unwrap_or_default();
+    let then = if found.len() > 1 { format!("; then {}", found[1..].join("; then ")) } else { String::new() };
+    format!("{first}{or}{then}")
+}
+
+/// What is said of channels that are off by another amount in each run; none where none is.
+fn from_run_to_run(off_by_run: &[&str]) -> Option<String> {
+    (!off_by_run.is_empty()).then(|| {
+        format!(
+            "from run to run {} differs by more than its noise, which nothing measured explains",
+            off_by_run.join(" and ")
+        )
+    })
 }
 
 /// The channel of stated noise that is missed by most of what noise allows on held-out runs, and by how much, where that is far from one. None
@@ -80,4 +95,35 @@ fn beyond_noise(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutError
 
 fn what(id: &str) -> String {
     effect_info(id).map_or_else(|| id.to_owned(), |info| format!("{id} ({})", info.summary))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::campaign::Carried;
+
+    fn told(verdict: &str, effects: &[&str], off_by_run: &[&str]) -> String {
+        let effect = |id: &&str| serde_json::json!({ "id": id, "parameters": {}, "gain_per_row": 1.0, "p_value": 0.0 });
+        let document = serde_json::json!({
+            "campaign": "sand", "declared": [], "verdict": verdict,
+            "effects": effects.iter().map(effect).collect::<Vec<_>>(), "runner_up": null, "ambiguous_with": [],
+            "unexplained": [],
+            "channels": { "sinkage_m": { "rmse_before": 2.0, "rmse_after": 1.0, "noise": 1.0, "runs": 9 } },
+            "soil_before": {}, "soil_after": {}, "held_out_runs": [],
+        });
+        let document: Diagnosis = serde_json::from_value(document).expect("a diagnosis");
+        let campaign = Carried::CmuSmoothStraight.campaign().expect("the project's own figures");
+        sentence(&document, &campaign, &HeldOutErrors::none_yet(0), off_by_run).split_off(campaign.name.len())
+    }
+
+    #[test]
+    fn what_differs_from_run_to_run_is_said_beside_an_effect_and_without_one() {
+        let differs = "from run to run sinkage_m differs by more than its noise, which nothing measured explains.";
+        let [alone, beside] = [("none", &[][..]), ("effect", &["rate", "multi-pass"][..])]
+            .map(|(verdict, effects)| told(verdict, effects, &["sinkage_m"]));
+        assert!(alone.ends_with(&format!("no candidate earns a place; but {differs}")), "{alone}");
+        assert!(beside.contains(" lack rate (") && beside.contains("; then multi-pass ("), "{beside}");
+        assert!(beside.ends_with(&format!("; and {differs}")), "{beside}");
+        assert!(told("effect", &["rate"], &[]).ends_with(")."), "nothing differs");
+    }
 }

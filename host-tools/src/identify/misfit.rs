@@ -3,12 +3,17 @@
 //! Every method of identification takes the model for true. The soil of the greatest posterior probability leaves residuals that are as large
 //! as the noise, if it is; where they are far larger, the soil has been bent to make up for another law, and is no soil's, by whichever method
 //! and however narrow.
+//!
+//! Noise that is not stated is taken as large as it must be, and hides that. But a soil that is bent leaves what is known of it by other means,
+//! too: where a method weighs that, and its soil is far beside it all the same, one of both is of another soil.
 
 use std::collections::BTreeMap;
 
+use kapvik_firmware::terramechanics::Soil;
 use rayon::prelude::*;
 
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::{Campaign, Channel, Knowledge};
+use crate::digits::significant;
 
 use super::method::{Fit, Method, answer};
 use super::on_curve::evidence;
@@ -19,6 +24,8 @@ use super::sensor_noise::{NoiseSource, SensorNoise};
 const SIGNIFICANT: f64 = 1e-4;
 /// Where a noise was only guessed a misfit may be the guess's, but not one by so much: all noise would have to be five times as large.
 const BEYOND_GUESSES: f64 = 25.0;
+/// Stated standard deviations by which no number of a soil is missed by chance.
+const BESIDE: f64 = 4.0;
 
 /// Why runs are explained by no soil, by their names.
 pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, String> {
@@ -31,14 +38,15 @@ pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, Str
     runs.into_par_iter().filter_map(fit).collect()
 }
 
-/// The same of fits that are there already.
+/// The same of fits that are there already, of a method that weighs what is known of the soil: and why they are beside that.
 pub fn misfits_of(
     campaign: &Campaign,
     noise: &SensorNoise,
     fits: impl Iterator<Item = (String, Fit)>,
 ) -> BTreeMap<String, String> {
     let is_stated = is_stated(campaign, noise);
-    fits.filter_map(|(run, fit)| Some((run, in_words(&fit, is_stated)?))).collect()
+    let why = |fit: &Fit| in_words(fit, is_stated).or_else(|| beside_what_is_known(campaign, &fit.soil));
+    fits.filter_map(|(run, fit)| Some((run, why(&fit)?))).collect()
 }
 
 /// Whether the noise of all that is weighed is stated.
@@ -49,7 +57,7 @@ fn is_stated(campaign: &Campaign, noise: &SensorNoise) -> bool {
 }
 
 fn in_words(fit: &Fit, is_stated: bool) -> Option<String> {
-    let &Fit { chi_square, degrees_of_freedom, p_value } = fit;
+    let &Fit { chi_square, degrees_of_freedom, p_value, .. } = fit;
     if is_stated {
         return (p_value < SIGNIFICANT).then(|| {
             format!(
@@ -65,4 +73,81 @@ fn in_words(fit: &Fit, is_stated: bool) -> Option<String> {
             (chi_square / degrees_of_freedom.max(1.0)).sqrt()
         )
     })
+}
+
+/// What `[soil]` says of one number.
+struct Stated {
+    key: &'static str,
+    known: Option<Knowledge>,
+    /// What was found.
+    found: f64,
+    /// Whether its logarithm is weighed, which is nearer to nothing than the number and farther from much.
+    is_logarithmic: bool,
+}
+
+impl Stated {
+    /// By how many stated standard deviations it is missed, where that is beyond chance, and that in words.
+    fn missed(&self) -> Option<(f64, String)> {
+        let Some(Knowledge::Value { value, std }) = self.known.filter(|known| known.std() > 0.0) else { return None };
+        let times = (self.found - value).abs() / std;
+        let by_logarithm = (self.found / value).ln().abs() * value / std;
+        let is_beside = times > BESIDE && (!self.is_logarithmic || by_logarithm > BESIDE);
+        let [found, value, std] = [self.found, value, std].map(|number| significant(number, 3));
+        let key = self.key;
+        let words = format!("{key} is {found}, {times:.1} standard deviations from the {value} ± {std} that is stated");
+        is_beside.then_some((times, words))
+    }
+}
+
+/// Which number of a soil is farthest beside what a campaign knows of it, where that is no chance.
+fn beside_what_is_known(campaign: &Campaign, soil: &Soil<f64>) -> Option<String> {
+    let ground = &campaign.ground;
+    let number = |key, known, found| Stated { key, known, found, is_logarithmic: false };
+    let positive = |key, known, found| Stated { is_logarithmic: true, ..number(key, known, found) };
+    let stiffness = if ground.stiffness.is_some() { "k_eff" } else { "k_c/b + k_phi" };
+    let numbers = [
+        number("n", ground.sinkage_exponent, soil.sinkage_exponent),
+        positive(stiffness, ground.stiffness(&campaign.wheel), soil.frictional_modulus),
+        positive("c", ground.cohesion_pa, soil.cohesion_pa),
+        number("phi", ground.friction_angle_rad, soil.friction_angle_rad),
+        positive("K", ground.shear_modulus_m, soil.shear_modulus_m),
+        number("c1", ground.peak_stress_c1, soil.peak_stress_c1),
+        number("c2", ground.peak_stress_c2, soil.peak_stress_c2),
+    ];
+    let farthest = numbers.iter().filter_map(Stated::missed).max_by(|one, other| one.0.total_cmp(&other.0));
+    farthest.map(|(_, words)| {
+        format!(
+            "the soil that explains the run best is not that of [soil]: {words}; [soil] is of another place, or what the model lacks stands in \
+             c, φ and K"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::campaign::Carried;
+
+    /// Of fits that leave no more than noise.
+    fn why(campaign: &Campaign, soil: Soil<f64>) -> Option<String> {
+        let fit = Fit { chi_square: 20.0, degrees_of_freedom: 20.0, p_value: 0.5, soil };
+        misfits_of(campaign, &SensorNoise::of(campaign), std::iter::once(("a".to_owned(), fit))).remove("a")
+    }
+
+    /// φ = 0.557 ± 0.035 rad, c = 250 ± 150 Pa and K = 11.4 ± 1.0 mm are known; k_c exactly, k_φ to a sixth.
+    #[test]
+    fn a_soil_that_is_not_the_stated_one_is_told_by_its_farthest_number() {
+        let campaign = Carried::Ding2011Smooth.campaign().expect("the project's own figures");
+        let stated = campaign.ground.middle(&campaign.wheel);
+        assert_eq!(why(&campaign, stated), None);
+        let beside = Soil { friction_angle_rad: 0.372, shear_modulus_m: 0.007, ..stated };
+        let said = why(&campaign, beside).expect("5.3 and 4.4 standard deviations");
+        assert!(said.contains("phi is 0.372, 5.3 standard deviations from the 0.557 ± 0.035 that is stated"), "{said}");
+        let near = Soil { friction_angle_rad: 0.43, shear_modulus_m: 0.0078, ..stated };
+        assert_eq!(why(&campaign, near), None, "less than four of them");
+        let cohesive = Soil { cohesion_pa: 900.0, ..stated };
+        assert_eq!(why(&campaign, cohesive), None, "not so far beside in its logarithm, which is weighed");
+        let stiff = Soil { frictional_modulus: 3.0 * stated.frictional_modulus, ..stated };
+        assert!(why(&campaign, stiff).is_some_and(|said| said.contains("k_c/b + k_phi is ")));
+    }
 }

@@ -12,7 +12,7 @@ effect_parameters! {
     ///
     /// - n = n₀ + n₁ S: Ding et al. 2010, J. Central South Univ. Technol. 17:129–135 (linear in slip);
     /// - p = k (z/(1 + m S))ⁿ: soil dug away stretches the sinkage, as in Lyasko's (1 + i)/(1 − i/2);
-    /// - z read = (1 + q S) z: soil moved past the wheel, which carries no load.
+    /// - z read = (1 + q S) z: soil moved past the wheel, which carries no load; or Lyasko's factor on the sinkage that is read.
     ///
     /// The saturation a is ours: measured sinkage stops growing at high slip. The slip i is the one that the soil has felt,
     /// where that is known beside the present one.
@@ -38,6 +38,7 @@ impl<S: Scalar> Effect<S> for SlipSinkage<S> {
         Form { name: "stretch", free: &["stretch"], set: &[], needs: &[] },
         Form { name: "stretch, saturating", free: &["stretch", "saturation"], set: &[], needs: &[] },
         Form { name: "apparent", free: &["apparent"], set: &[], needs: &[Column::Sinkage] },
+        Form { name: "apparent, saturating", free: &["apparent", "saturation"], set: &[], needs: &[Column::Sinkage] },
     ];
 
     fn soil(&self, soil: &mut Soil<S>, at: &Circumstances<'_, S>) {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use kapvik_firmware::terramechanics::Soil;
+use kapvik_firmware::terramechanics::effects::speed_ratio;
 
 use super::chance::Chance;
 use super::instruments::Instruments;
@@ -136,8 +137,7 @@ fn csv(
 /// The setting as the campaign's own instruments have it: slip is computed from speed and rate, so the three agree.
 fn as_seen(setting: &Setting, site: &Site, reading: &State) -> Setting {
     let rim_speed_m_s = setting.wheel_rate_rad_s * site.wheel.radius_m;
-    let ratio = if reading.slip < 0.0 { 1.0 / (1.0 + reading.slip) } else { 1.0 - reading.slip };
-    Setting { speed_m_s: rim_speed_m_s * ratio, ..*setting }
+    Setting { speed_m_s: rim_speed_m_s * speed_ratio(reading.slip), ..*setting }
 }
 
 /// The value of an optional column, and the step to which it is written.

@@ -45,6 +45,11 @@ impl Plausible {
         self.load_n.map_or(0.0, |load_n| of_noise(load_n).max(load_n / GREATEST_LOAD))
     }
 
+    /// Whether what is the greatest size of a channel comes of the loads: then these may be what is in other units.
+    fn is_by_load(self, channel: Channel) -> bool {
+        self.load_n.is_some() && !matches!(channel, Channel::Sinkage | Channel::Load)
+    }
+
     /// A number that cannot be what a wheel felt, and the greatest size that could.
     fn beyond(self, campaign: &Campaign, row: usize, channel: Channel) -> Option<(f64, f64)> {
         let value = campaign.value(row, channel)?;
@@ -95,12 +100,13 @@ impl Campaign {
             let bad = 1 + beyond.count();
             if 2 * bad > all {
                 let (name, unit) = (channel.name(), unit(channel));
+                let or_load = if self.plausible.is_by_load(channel) { ", or load_n in newtons" } else { "" };
                 return Err(self.error_at_row(
                     row,
                     channel,
                     format!(
                         "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (a load is above 0; here at most {limit:.3} {unit}): \
-                         expected newtons, newton-metres and metres",
+                         expected newtons, newton-metres and metres{or_load}",
                     ),
                 ));
             }

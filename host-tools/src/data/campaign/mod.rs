@@ -33,6 +33,7 @@ pub use carried::Carried;
 pub use channel::Channel;
 pub use declared::{Declared, DeclaredEffect, is_reference};
 pub use fingerprint::Fingerprint;
+pub use further_columns::nearly_named;
 pub use ground::{Ground, Knowledge};
 pub use noise::ChannelNoise;
 

@@ -34,6 +34,8 @@ struct Tried<'a> {
     gain: f64,
     /// One standard deviation of that, over runs.
     gain_std: f64,
+    /// Other effects that these readings do not tell from it.
+    not_told_from: Vec<&'static str>,
 }
 
 impl Tried<'_> {
@@ -54,22 +56,35 @@ pub fn select(problem: &Problem, tried: usize) -> ForceChannels {
         if step.is_empty() {
             break;
         }
-        let best = step.remove(0);
+        let mut best = step.remove(0);
         let beside: Vec<&Term> = terms.iter().copied().chain([best.term]).collect();
         let left = significant(problem, &beside, tried);
         let is_rival = |other: &&Tried<'_>| {
             best.gain - other.gain < TELLS_APART && !left.iter().any(|tried| std::ptr::eq(tried.term, other.term))
         };
-        let rivals: Vec<String> = step.iter().filter(is_rival).map(|other| other.term.words()).collect();
+        let rivals: Vec<&Term> = step.iter().filter(is_rival).map(|other| other.term).collect();
         if !rivals.is_empty() {
             caveats.push(not_told_apart(problem, best.term, &rivals));
         }
+        best.not_told_from = other_effects(best.term, &rivals);
         chosen.push(best);
     }
     ForceChannels { effects: effects(problem, &chosen), caveats }
 }
 
-fn not_told_apart(problem: &Problem, best: &Term, rivals: &[String]) -> String {
+/// The ids of terms that are of another effect, each once.
+fn other_effects(best: &Term, rivals: &[&Term]) -> Vec<&'static str> {
+    let mut ids: Vec<&'static str> = Vec::new();
+    for rival in rivals {
+        if rival.id != best.id && !ids.contains(&rival.id) {
+            ids.push(rival.id);
+        }
+    }
+    ids
+}
+
+fn not_told_apart(problem: &Problem, best: &Term, rivals: &[&Term]) -> String {
+    let rivals: Vec<String> = rivals.iter().map(|rival| rival.words()).collect();
     format!(
         "Force channels by themselves: {} follows {} best, but these readings do not tell that from {}.",
         problem.channel,
@@ -91,7 +106,7 @@ fn significant<'a>(problem: &'a Problem, chosen: &[&Term], tried: usize) -> Vec<
         let gains: Vec<f64> =
             base.log_scores.iter().zip(&fit.log_scores).map(|(before, after)| after - before).collect();
         let (gain, gain_std) = summed(&gains);
-        is_sensible(term, value).then_some(Tried { term, p_value, gain, gain_std })
+        is_sensible(term, value).then_some(Tried { term, p_value, gain, gain_std, not_told_from: Vec::new() })
     };
     others.filter_map(examine).filter(Tried::is_significant).collect()
 }
@@ -123,7 +138,23 @@ fn effects(problem: &Problem, chosen: &[Tried<'_>]) -> Vec<FoundEffect> {
             parameters: BTreeMap::from([(tried.term.parameter.to_owned(), estimate)]),
             gain_per_row: tried.gain / problem.rows() as f64,
             p_value: tried.p_value,
+            ambiguous_with: tried.not_told_from.iter().map(|id| (*id).to_owned()).collect(),
         }
     };
     chosen.iter().enumerate().map(entry).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_form_of_an_effect_is_no_other_effect() {
+        let term = |id, form| Term { id, form, parameter: "load_n_per_h", values: Vec::new(), by_instruments: false };
+        let [best, warm] = ["load with hours", "load with temperature"].map(|form| term("force-drift", form));
+        let leaks = ["drawbar pull into load", "torque into load"].map(|form| term("crosstalk", form));
+        let rivals = [&leaks[0], &warm, &leaks[1]];
+        assert_eq!(other_effects(&best, &rivals), ["crosstalk"]);
+        assert!(other_effects(&best, &[]).is_empty());
+    }
 }

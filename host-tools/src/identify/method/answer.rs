@@ -2,6 +2,7 @@
 
 use kapvik_firmware::identification::{Identified, Origin, Told};
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
+use kapvik_firmware::terramechanics::Soil;
 
 /// What a method says of a soil.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +49,8 @@ pub struct Fit {
     pub degrees_of_freedom: f64,
     /// Probability of a greater sum where the model is right.
     pub p_value: f64,
+    /// The soil that the model then has; its stiffness is all in k_φ.
+    pub soil: Soil<f64>,
 }
 
 impl Finding {

@@ -114,7 +114,7 @@ fn of_logarithm(statement: Statement, logarithm: Fitted<f64>) -> Statement {
 fn fit(estimate: &MapEstimate<f64>) -> Fit {
     let degrees_of_freedom = f64::from(estimate.degrees_of_freedom);
     let p_value = ChiSquared::new(degrees_of_freedom.max(1.0)).map_or(f64::NAN, |chi| chi.sf(estimate.misfit));
-    Fit { chi_square: estimate.misfit, degrees_of_freedom, p_value }
+    Fit { chi_square: estimate.misfit, degrees_of_freedom, p_value, soil: estimate.soil }
 }
 
 fn declared(evidence: &Evidence, effects: &[DeclaredEffect]) -> Result<DeclaredEffects<f64>, String> {

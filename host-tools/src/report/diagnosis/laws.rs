@@ -135,6 +135,7 @@ mod tests {
             parameters: BTreeMap::from([value("length_m", 0.06, 0.01), value("start", 0.1, 0.04)]),
             gain_per_row: 1.0,
             p_value: 0.01,
+            ambiguous_with: Vec::new(),
         };
         assert_eq!(parameters(&effect), "length_m = 0.060 ± 0.010 m, start = 0.10 ± 0.04");
     }

@@ -63,6 +63,7 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
                 ]),
                 gain_per_row: 2.31,
                 p_value: 2.3e-7,
+                ambiguous_with: vec!["rate".to_owned()],
             },
             FoundEffect {
                 id: "guide-friction".to_owned(),
@@ -70,6 +71,7 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
                 parameters: one("mu", 0.135, 0.015),
                 gain_per_row: 0.21,
                 p_value: 0.0042,
+                ambiguous_with: vec!["crosstalk".to_owned()],
             },
         ],
         runner_up: Some(RunnerUp { id: "load-stiffening".to_owned(), form: String::new(), gain_per_row: 0.4 }),
@@ -81,6 +83,7 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
             parameters: one("side_force_n_per_h", 0.232, 0.048),
             gain_per_row: 0.47,
             p_value: 0.00052,
+            ambiguous_with: Vec::new(),
         }],
         unexplained: vec![Unexplained {
             channel: "side_force_n".to_owned(),

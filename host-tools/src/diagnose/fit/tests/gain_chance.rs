@@ -2,8 +2,8 @@
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::toy::{Linear, Terms, blank, free, normal, plain, random};
-use crate::diagnose::fit::{CHANNELS, Coordinate, Fit, Options, Row, Start, fit};
+use super::toy::{Linear, Terms, blank, free, normal, plain, random, red};
+use crate::diagnose::fit::{CHANNELS, Coordinate, Fit, Options, Reading, Row, Start, fit};
 use crate::diagnose::gain_chance::Gain;
 
 /// Readings of this many channels, a mean each and by `slope` times x; the slope is one parameter of all.
@@ -68,6 +68,57 @@ fn one_channel_of_unknown_noise_is_the_f_test_of_a_line() {
         let chance = lines.chance(true);
         assert!((chance - expected).abs() < 0.01 * expected, "{count} rows: {chance}, {expected}");
     }
+}
+
+/// The chance that is told of a drawbar pull that differs by so much times x between twelve runs of fifteen rows, whose noise keeps 0.7 from
+/// row to row.
+fn chance_between_runs(slope: f64, seed: u64) -> f64 {
+    const RUNS: usize = 12;
+    const ROWS: usize = 15;
+    let pull = Reading::DrawbarPull.index();
+    let mut random = random(seed);
+    let of_run = |run: usize| {
+        let mut noise = None;
+        let row = |_| {
+            noise = Some(red(noise, 0.7, &mut random));
+            let mut row = blank(run);
+            row.readings[pull] = noise.map(|noise| 3.0 + slope * x(run) + noise);
+            row
+        };
+        (0..ROWS).map(row).collect::<Vec<_>>()
+    };
+    let rows: Vec<Row> = (0..RUNS).flat_map(of_run).collect();
+    let fitted = |with_slope: bool| {
+        let constant = |value: f64| std::array::from_fn(|c| if c == pull { value } else { 0.0 });
+        let terms = |row: &Row| Terms {
+            constant: [0.0; CHANNELS],
+            parameters: [1.0].into_iter().chain(with_slope.then(|| x(row.run))).map(constant).collect(),
+            slip: [0.0; CHANNELS],
+            load: [0.0; CHANNELS],
+        };
+        let coordinates = (0..=usize::from(with_slope)).map(|_| free("p")).collect();
+        let model = Linear { coordinates, terms: rows.iter().map(terms).collect() };
+        let offsets = Options::default().offsets;
+        fit(&model, &rows, &Start::of(&model, &rows), &Options { offsets, ..plain() }).expect("a fit")
+    };
+    let [before, after] = [false, true].map(fitted);
+    let ln_posterior = after.log_posterior - before.log_posterior;
+    let rows_per_reading = after.rows_per_reading();
+    Gain { before: &before, after: &after, ln_posterior, dispersion: 1.0, rows_per_reading }.chance(1, 1)
+}
+
+/// Means of runs have forgotten one another, however well the rows of a run remember.
+#[test]
+fn what_differs_between_runs_is_not_lost_in_noise_that_remembers() {
+    const DRAWS: u64 = 300;
+    let chances: Vec<f64> = (0..DRAWS).map(|seed| chance_between_runs(0.0, seed)).collect();
+    for level in [0.2, 0.05] {
+        let below = chances.iter().filter(|chance| **chance < level).count() as f64 / (level * DRAWS as f64);
+        println!("nothing differs: {below:.2} times {level}");
+        assert!(below < 1.5, "{below:.2} times {level}");
+    }
+    let found = (0..20).filter(|seed| chance_between_runs(2.0, *seed) < 1e-3).count();
+    assert!(found >= 19, "{found} of 20");
 }
 
 /// Of a slope that is not there, in three channels of so many readings each: about as often as they say, up to twice as often where

@@ -1,6 +1,6 @@
 //! Noise of which neighbouring rows share a part.
 
-use super::toy::{Linear, Terms, blank, free, normal, plain, random};
+use super::toy::{Linear, Terms, blank, free, plain, random, red};
 use crate::diagnose::fit::{CHANNELS, Reading, Start, fit};
 
 const RUNS: usize = 8;
@@ -18,17 +18,13 @@ fn remembering(kept: f64) -> usize {
     let model = Linear { coordinates: vec![free("a")], terms: vec![terms; RUNS * ROWS] };
     let remembers = |seed: &u64| {
         let mut random = random(*seed);
-        let mut noise = 0.0;
+        let mut noise = None;
         let rows: Vec<_> = (0..RUNS * ROWS)
             .map(|index| {
-                let first = index % ROWS == 0;
-                noise = if first {
-                    normal(&mut random)
-                } else {
-                    kept * noise + (1.0 - kept * kept).sqrt() * normal(&mut random)
-                };
+                let now = red(noise.filter(|_| index % ROWS > 0), kept, &mut random);
+                noise = Some(now);
                 let mut row = blank(index / ROWS);
-                row.readings[Reading::DrawbarPull.index()] = Some(5.0 + noise);
+                row.readings[Reading::DrawbarPull.index()] = Some(5.0 + now);
                 row
             })
             .collect();

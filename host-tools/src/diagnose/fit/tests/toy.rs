@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::diagnose::fit::{
-    CHANNELS, Coordinate, Derivatives, Latent, Model, OffsetStd, Options, Prediction, Reading, Row,
+    CHANNELS, Coordinate, Derivatives, Latent, Model, OffsetStd, Options, Prediction, Reading, Row, Start, fit,
 };
 
 /// How a row's readings depend on everything.
@@ -67,6 +67,14 @@ pub fn plain() -> Options {
     }
 }
 
+/// How many starts come within 0.1 in ln posterior of the best, and how many to a fit at all.
+pub fn agreeing(model: &dyn Model, rows: &[Row], starts: &[Start], options: &Options) -> [usize; 2] {
+    let posterior = |start: &Start| Some(fit(model, rows, start, options).ok()?.log_posterior);
+    let found: Vec<f64> = starts.iter().filter_map(posterior).collect();
+    let highest = found.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    [found.iter().filter(|posterior| **posterior > highest - 0.1).count(), found.len()]
+}
+
 /// A row of a run with nothing measured and noise 1.
 pub fn blank(run: usize) -> Row {
     Row { run, readings: [None; CHANNELS], noise: [1.0; CHANNELS] }
@@ -78,6 +86,12 @@ pub fn random(seed: u64) -> ChaCha8Rng {
 
 pub fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
+}
+
+/// Noise of mean square 1 that keeps a share from row to row, after what it was before, if it was.
+pub fn red(before: Option<f64>, kept: f64, random: &mut ChaCha8Rng) -> f64 {
+    let fresh = normal(random);
+    before.map_or(fresh, |before| kept * before + (1.0 - kept * kept).sqrt() * fresh)
 }
 
 /// True offsets of the judged channels and noise of a drawn campaign.
