@@ -168,6 +168,34 @@ fn sensors_that_are_noisier_than_stated_are_told_of() {
     }
 }
 
+/// Degrees in a column of rad are beyond what a joint does; the filters do without.
+#[test]
+fn a_sensor_in_other_units_is_told_of() {
+    let case = Case::with(None);
+    let text = fs::read_to_string(case.path("frames.csv")).expect("readable");
+    let header = text.lines().next().expect("a header");
+    let place = header.split(',').position(|name| name == "bogie_angle_l_rad").expect("the column");
+    let in_degrees = |line: &str| {
+        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let Ok(angle_rad) = fields[place].parse::<f64>() {
+            fields[place] = (10.0 + angle_rad.to_degrees()).to_string();
+        }
+        fields.join(",") + "\n"
+    };
+    fs::write(case.path("frames.csv"), text.lines().map(in_degrees).collect::<String>()).expect("written");
+    for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
+        let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().success();
+        let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        for words in [
+            "bogie_angle_l_rad says more than a rover can do in nearly all frames",
+            "out of range: bogie_angle_l_rad 61",
+        ] {
+            assert!(told.contains(words), "{subcommand}: {told}");
+        }
+    }
+}
+
 #[test]
 fn bad_frames_are_refused_at_their_place() {
     let last = 62;

@@ -96,3 +96,36 @@ fn a_camera_that_is_mounted_askew_is_told() {
         });
     }
 }
+
+/// The doubt that begins so comes first on all drives: what others are told of may hang on it.
+fn is_told_first(scenario: Scenario, begins: &str, change: impl Fn(&mut SensorFrame) + Sync) {
+    (8510..8514).into_par_iter().for_each(|seed| {
+        let told = doubted(scenario, seed, &change);
+        assert!(
+            told.first().is_some_and(|told| told.starts_with(begins)),
+            "{begins}: {scenario:?}, seed {seed}: {told:?}"
+        );
+    });
+}
+
+#[test]
+fn a_sensor_that_says_nothing_but_zero_is_told() {
+    for scenario in [Scenario::Level, Scenario::Hills] {
+        is_told(scenario, "motor_torque_mr_nm (in ", |frame| {
+            frame.wheels.right.middle.motor_torque_nm = Some(0.0);
+        });
+        is_told_first(scenario, "rocker_angle_rad (in ", |frame| frame.rocker_angle_rad = Some(0.0));
+        is_told_first(scenario, "velocity_x_m_s (in ", |frame| frame.velocity_m_s.x = Some(0.0));
+    }
+}
+
+#[test]
+fn a_clock_that_is_rounded_too_coarsely_is_told() {
+    for scenario in [Scenario::Level, Scenario::Hills] {
+        let (rounded, of_frames) = (500_000, "frames have the time of the frame before and other readings");
+        (8510..8514).into_par_iter().for_each(|seed| {
+            let told = doubted(scenario, seed, |frame| frame.time_us -= frame.time_us % rounded);
+            assert!(told.first().is_some_and(|told| told.contains(of_frames)), "{scenario:?}, seed {seed}: {told:?}");
+        });
+    }
+}

@@ -37,6 +37,8 @@ const STEEP: f64 = 0.2;
 const LOST: f64 = 0.01;
 const AGAINST_GYRO: f64 = 2.0e-3;
 const NOT_TO_BE_BELIEVED: f64 = 1.0e6;
+/// A rover that stands or drives feels more than this along its upright, m/s².
+const LEAST_UPRIGHT_M_S2: f64 = 0.5;
 /// What the rover may turn at without a gyro to tell, rad/s.
 const UNSEEN_TURN: f64 = 0.05;
 
@@ -122,11 +124,11 @@ impl<S: Scalar> Attitude<S> {
             self.carry_force();
             return false;
         };
-        let in_plane = (x * x + z * z).sqrt();
-        if in_plane < S::constant(0.1) || z < S::zero() {
+        if z < S::constant(LEAST_UPRIGHT_M_S2) {
             self.carry_force();
             return true;
         }
+        let in_plane = (x * x + z * z).sqrt();
         let angle = S::constant(core::f64::consts::FRAC_PI_2) - (x / in_plane).acos();
         let noise = (noise.accel_m_s2 * noise.accel_m_s2 + accelerates * accelerates).sqrt() / in_plane;
         let innovation = angle - self.pitch.mean;

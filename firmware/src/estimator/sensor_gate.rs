@@ -20,6 +20,17 @@ const FASTEST_TURN_RAD_S: f32 = 5.0;
 const MOST_WEIGHTS: f32 = 3.0;
 const MOST_GRAVITIES: f32 = 5.0;
 
+/// What a reading that goes on and on says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Nothing where it is zero, for what stands still may say so for long; else that the sensor is stuck.
+    Motion,
+    /// The same, or that a drive holds it constant: then it is used, as [repeating](SensorGates::repeating_rates), though counted.
+    Regulated,
+    /// That the sensor is stuck. An exact zero is no force but a dead channel, from the first on.
+    Force,
+}
+
 /// The gate of one sensor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SensorGate {
@@ -29,21 +40,20 @@ pub(super) struct SensorGate {
     repeats: u8,
     /// Repetitions that are allowed.
     allowed: u8,
-    /// Whether it may be what a drive holds constant: then it is used, as [repeating](SensorGates::repeating_rates), though counted.
-    regulated: bool,
+    kind: Kind,
     bad: u8,
     good: u8,
 }
 
 impl SensorGate {
     const fn new(limit: f32) -> Self {
-        Self { limit, last_bits: 0, repeats: 0, allowed: STUCK_FRAMES, regulated: false, bad: 0, good: 0 }
+        Self { limit, last_bits: 0, repeats: 0, allowed: STUCK_FRAMES, kind: Kind::Motion, bad: 0, good: 0 }
     }
 
-    /// One for each wheel, alike. A drive that holds its rate is regulated.
+    /// One for each wheel, alike.
     #[inline(never)] // flash is scarcer than the time of a call
-    fn of_wheels(limit: f32, regulated: bool) -> PerWheel<Self> {
-        PerSide::both(PerAxle::all(Self { regulated, ..Self::new(limit) }))
+    fn of_wheels(limit: f32, kind: Kind) -> PerWheel<Self> {
+        PerSide::both(PerAxle::all(Self { kind, ..Self::new(limit) }))
     }
 
     /// One for each axis, alike.
@@ -62,7 +72,7 @@ impl SensorGate {
         let stuck = self.is_stuck(value);
         let reason = if !value.is_finite() {
             &mut health.not_finite
-        } else if value > self.limit || value < -self.limit {
+        } else if value.abs() > self.limit {
             &mut health.out_of_range
         } else if stuck {
             &mut health.stuck
@@ -70,7 +80,7 @@ impl SensorGate {
             return self.admit_good(value, health);
         };
         count(reason);
-        if self.regulated && value.is_finite() && value.abs() <= self.limit {
+        if self.kind == Kind::Regulated && value.abs() <= self.limit {
             return self.admit_good(value, health);
         }
         self.good = 0;
@@ -93,7 +103,6 @@ impl SensorGate {
         Some(value)
     }
 
-    /// An exact zero is excepted: what stands still may well say so for long.
     fn is_stuck(&mut self, value: f32) -> bool {
         let same = value.to_bits() == self.last_bits && value != 0.0;
         if same {
@@ -105,7 +114,7 @@ impl SensorGate {
             self.repeats = 0;
         }
         self.last_bits = value.to_bits();
-        self.repeats >= self.allowed
+        self.repeats >= self.allowed || (self.kind == Kind::Force && value == 0.0)
     }
 }
 
@@ -138,9 +147,9 @@ impl SensorGates {
         let angle = SensorGate::new(STEEPEST_RAD);
         Self {
             gates: PerSensor {
-                wheel_rate: SensorGate::of_wheels(FASTEST_M_S / rover.wheel.radius_m, true),
-                motor_torque: SensorGate::of_wheels(most_n * rover.wheel.radius_m, false),
-                load_cell: SensorGate::of_wheels(most_n, false),
+                wheel_rate: SensorGate::of_wheels(FASTEST_M_S / rover.wheel.radius_m, Kind::Regulated),
+                motor_torque: SensorGate::of_wheels(most_n * rover.wheel.radius_m, Kind::Force),
+                load_cell: SensorGate::of_wheels(most_n, Kind::Force),
                 bogie_angle: PerSide::both(angle),
                 rocker_angle: angle,
                 accel: SensorGate::of_axes(MOST_GRAVITIES * rover.gravity_m_s2),
@@ -176,7 +185,7 @@ impl SensorGates {
 
 #[cfg(test)]
 mod tests {
-    use super::{PROBATION, STUCK_FRAMES, SensorGate};
+    use super::{Kind, PROBATION, STUCK_FRAMES, SensorGate};
     use crate::estimator::SensorHealth;
 
     #[test]
@@ -236,10 +245,21 @@ mod tests {
         }
     }
 
+    /// What stands says zero for long, and what is dead from the first time on.
+    #[test]
+    fn zero_is_no_force() {
+        for (kind, used, stuck) in [(Kind::Motion, 40, 0), (Kind::Regulated, 40, 0), (Kind::Force, 0, 40)] {
+            let (mut gate, mut health) = (SensorGate { kind, ..SensorGate::new(10.0) }, SensorHealth::default());
+            let admitted = (0..40).filter(|_| gate.admit(Some(0.0), &mut health).is_some()).count();
+            assert_eq!((admitted, health.stuck), (used, stuck), "{kind:?}");
+        }
+    }
+
     /// An encoder that says the same is used, and counted; not one that says NaN or absurd numbers over and over.
     #[test]
     fn a_drive_that_holds_its_rate_is_believed() {
-        let (mut gate, mut health) = (SensorGate { regulated: true, ..SensorGate::new(10.0) }, SensorHealth::default());
+        let (mut gate, mut health) =
+            (SensorGate { kind: Kind::Regulated, ..SensorGate::new(10.0) }, SensorHealth::default());
         for (value, used) in [(0.3, true), (f32::NAN, false), (1.0e6, false)] {
             assert!((0..20).all(|_| gate.admit(Some(value), &mut health).is_some() == used), "{value}");
         }

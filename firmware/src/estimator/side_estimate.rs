@@ -82,7 +82,8 @@ impl<S: Scalar> SideEstimator<S> {
         match (self.lifted.middle, self.lifted.rear) {
             (true, false) => alone_on_the_ground(&mut side.wheels.rear, &bogie_drawbar_pull_n),
             (false, true) => alone_on_the_ground(&mut side.wheels.middle, &bogie_drawbar_pull_n),
-            _ => {}
+            (true, true) => side.bogie_drawbar_pull_n = side.wheels.rear.drawbar_pull_n,
+            (false, false) => {}
         }
         side
     }

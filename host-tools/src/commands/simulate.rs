@@ -12,6 +12,7 @@ use crate::data::outputs;
 use crate::data::rover_file::RoverFile;
 use crate::data::truth_file::{truth_path, write_truth};
 use crate::data::{frame_file, truth_file};
+use crate::digits::counted;
 use crate::error::HostError;
 use crate::progress::bar;
 use crate::simulate::effects::{EffectError, RoverEffects};
@@ -61,7 +62,7 @@ pub struct Arguments {
     /// rolling-radius (m), pitch-misalignment (of accelerometer and gyro, rad), velocity-scale, latency (s), rim-wander (share of
     /// its speed by which each wheel slowly departs from its command). Any parameter of an effect: ID.PARAMETER=VALUE.
     ///
-    /// Faults: nan, inf, outlier (a million), stuck, dropout, each with SENSOR@T1-T2: a column of the frames, or a pattern with
+    /// Faults: nan, inf, outlier (a million), stuck, zero, dropout, each with SENSOR@T1-T2: a column of the frames, or a pattern with
     /// `*`, and times in s. repeat-frames and skip-frames take @T1-T2.
     #[arg(long, value_name = "ID=VALUE")]
     effect: Vec<String>,
@@ -143,7 +144,7 @@ fn write(frames_path: &Path, truths_path: &Path, mut traverse: Traverse) -> Resu
         true => told(&soils.left),
         false => format!("{} (left), {} (right)", told(&soils.left), told(&soils.right)),
     };
-    Ok(format!("{written} frames, {last_s} s, {way_m:.2} m, on {on}"))
+    Ok(format!("{}, {last_s} s, {way_m:.2} m, on {on}", counted(written, "frame", "frames")))
 }
 
 fn told(soil: &Soil<f64>) -> String {

@@ -4,16 +4,20 @@ use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::camera_tilt::CameraTilt;
+use super::dead_sensors::DeadSensors;
 use super::gravity_felt::GravityFelt;
 use super::gyro_felt::GyroFelt;
 use super::joint_signs::JointSigns;
 use super::scatter::Scatter;
+use super::still_clock::StillClock;
 use super::weighing::Weighing;
 use super::wheel_signs::WheelSigns;
 
 /// All that looks at the frames of a drive beside the filters.
 #[derive(Debug, Clone)]
 pub struct Doubts {
+    clock: StillClock,
+    dead: DeadSensors,
     weighing: Weighing,
     gravity: GravityFelt,
     gyro: GyroFelt,
@@ -27,6 +31,8 @@ impl Doubts {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
         Self {
+            clock: StillClock::default(),
+            dead: DeadSensors::of(rover),
             weighing: Weighing::of(rover),
             gravity: GravityFelt::of(rover),
             gyro: GyroFelt::of(rover),
@@ -39,6 +45,8 @@ impl Doubts {
 
     /// Takes the next frame.
     pub fn take(&mut self, frame: &SensorFrame) {
+        self.clock.take(frame);
+        self.dead.take(frame);
         self.weighing.take(frame);
         self.gravity.take(frame);
         self.gyro.take(frame);
@@ -48,11 +56,13 @@ impl Doubts {
         self.scatter.take(frame);
     }
 
-    /// What came of it: mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop.
+    /// What came of it: clock, dead sensors, mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop. What may
+    /// be why others are told comes first.
     pub fn told(self) -> Vec<String> {
+        let of_recording = self.clock.told().into_iter().chain(self.dead.told());
         let weighed = self.weighing.misfit().map(|misfit| misfit.to_string());
         let gravity = self.gravity.other().map(|other| other.to_string());
-        let of_body = weighed.into_iter().chain(gravity).chain(self.gyro.told()).chain(self.camera.told());
+        let of_body = of_recording.chain(weighed).chain(gravity).chain(self.gyro.told()).chain(self.camera.told());
         let of_body = of_body.chain(self.joints.told());
         let noisier = self.scatter.noisier();
         of_body.chain(self.signs.told()).chain(noisier.iter().map(ToString::to_string)).collect()

@@ -1,6 +1,7 @@
 //! Recorded sensor frames through a flight computer.
 
 mod camera_tilt;
+mod dead_sensors;
 mod doubts;
 mod estimate_file;
 mod gravity_felt;
@@ -12,10 +13,12 @@ mod joined_rows;
 mod joint_signs;
 mod motion_resistance;
 pub mod naive;
+mod other_units;
 mod raw_sensors;
 mod recording;
 mod running_median;
 mod scatter;
+mod still_clock;
 mod terminal;
 mod weighing;
 mod wheel_signs;
@@ -99,8 +102,9 @@ pub fn replay(
     let took = start.elapsed();
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
-    let doubts = doubts.told().into_iter().chain(resistance.told()).collect();
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
+    let units = other_units::told(&estimator);
+    let doubts = units.into_iter().chain(doubts.told()).chain(resistance.told()).collect();
     Ok(Outcome { frames, span_us, took, soil, soil_changes_us, doubts, estimator, boot, health })
 }
 

@@ -16,14 +16,16 @@ const LEAST_BLOCKS: f64 = 4.0;
 const TOLERATED: f64 = 0.01;
 /// Standard errors of the mean beyond which that is no chance.
 const BEYOND_CHANCE: f64 = 3.0;
+/// A cell that feels a smaller share than this of what its wheel bears tells nothing of it.
+const LEAST_FELT: f64 = 0.5;
 
 /// What the load cells of a drive bear, frame by frame, in running sums.
 #[derive(Debug, Clone)]
 pub struct Weighing {
     weight_n: f64,
     block: Block,
-    due_n: Running,
-    /// What is borne beyond that.
+    borne_n: Running,
+    /// What of it is more than is due.
     excess_n: Running,
 }
 
@@ -49,8 +51,8 @@ impl Weighing {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
         let weight_n = f64::from(rover.mass_kg) * f64::from(rover.gravity_m_s2);
-        let [due_n, excess_n] = Default::default();
-        Self { weight_n, block: Block::default(), due_n, excess_n }
+        let [borne_n, excess_n] = Default::default();
+        Self { weight_n, block: Block::default(), borne_n, excess_n }
     }
 
     /// Takes a frame: one in which the rover drives, and all that is needed says something.
@@ -67,25 +69,22 @@ impl Weighing {
         }
     }
 
-    /// What the wheels bear along the body's upright by the cells of a frame, and what they should, N.
+    /// What the wheels bear by the cells of a frame along the force that is felt in the plane of the sides, and what they should, N.
     fn borne_and_due_n(&self, frame: &SensorFrame) -> Option<(f64, f64)> {
         let felt = frame.accel_m_s2.map(wide).all()?;
-        let size = felt.x.hypot(felt.y).hypot(felt.z);
-        if size <= 0.0 {
+        let in_plane = felt.x.hypot(felt.z);
+        if in_plane <= 0.0 {
             return None;
         }
-        let [ahead_n, due_n] = [felt.x, felt.z].map(|felt| self.weight_n * felt / size);
-        let (upright_n, backward_n) = cells_n(frame)?;
-        // What pulls along the links no cell feels: what balances the rest along the body, each wheel's in proportion to its load.
-        let borne_n = upright_n + (ahead_n + backward_n) * backward_n / upright_n;
-        borne_n.is_finite().then_some((borne_n, due_n))
+        let due_n = self.weight_n * in_plane / in_plane.hypot(felt.y);
+        Some((borne_n(frame, felt.x.atan2(felt.z))?, due_n))
     }
 
     fn close_block(&mut self) {
         let Block { frames, borne_n, due_n, .. } = std::mem::take(&mut self.block);
         if frames > 0 {
             let [borne_n, due_n] = [borne_n, due_n].map(|sum| sum / f64::from(frames));
-            self.due_n.take(due_n);
+            self.borne_n.take(borne_n);
             self.excess_n.take(borne_n - due_n);
         }
     }
@@ -93,11 +92,12 @@ impl Weighing {
     /// What came of it, where the cells are off by more than is tolerated and than chance does.
     pub fn misfit(mut self) -> Option<Misfit> {
         self.close_block();
-        let (due_n, excess_n) = (self.due_n.mean, self.excess_n.mean);
+        let (borne_n, excess_n) = (self.borne_n.mean, self.excess_n.mean);
+        let due_n = borne_n - excess_n;
         let is_off = self.excess_n.count >= LEAST_BLOCKS
             && excess_n.abs() > TOLERATED * due_n
             && excess_n.abs() > BEYOND_CHANCE * self.excess_n.standard_error();
-        is_off.then_some(Misfit { borne_n: due_n + excess_n, due_n })
+        is_off.then_some(Misfit { borne_n, due_n })
     }
 }
 
@@ -117,13 +117,64 @@ fn is_driving(frame: &SensorFrame) -> bool {
     wide(frame.velocity_m_s.x).is_some_and(|speed| speed.abs() > DRIVING_M_S)
 }
 
-/// What the cells bear together along the body's upright and towards its tail, N. Each is square to its link.
-fn cells_n(frame: &SensorFrame) -> Option<(f64, f64)> {
-    let links = links(frame, rockers(frame));
-    let mut sums = (0.0, 0.0);
-    for (wheel, link) in frame.wheels.iter_wheels().zip(links.iter_wheels()) {
-        let (cell_n, (sine, cosine)) = (wide(wheel.load_cell_n)?, (*link)?.sin_cos());
-        sums = (sums.0 + cell_n * cosine, sums.1 + cell_n * sine);
+/// What the wheels bear together along a force that leans ahead of the body's upright by so much, rad, in N.
+///
+/// A cell feels what is square to its link, and nothing feels what pulls along it. Taken for what a wheel bears that goes along the force:
+/// what there is beside it goes ahead on some wheels and back on others, and adds up to nothing.
+fn borne_n(frame: &SensorFrame, ahead_rad: f64) -> Option<f64> {
+    let links = links(frame, rockers(frame).map(|rocker| rocker.map(|angle| angle + ahead_rad)));
+    let wheels = frame.wheels.iter_wheels().zip(links.iter_wheels());
+    let each_n = wheels.map(|(wheel, link)| {
+        let felt = (*link)?.cos();
+        wide(wheel.load_cell_n).filter(|_| felt >= LEAST_FELT).map(|cell_n| cell_n / felt)
+    });
+    each_n.sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use kapvik_firmware::rover::Axes;
+
+    use super::*;
+
+    /// A frame of a rover that stands as it should and feels gravity from so far ahead, rad, whose wheels bear a sixth of 600 N each.
+    fn leaning(ahead_rad: f32, rocker_rad: f32, bogie_rad: f32) -> SensorFrame {
+        let mut frame = SensorFrame { rocker_angle_rad: Some(rocker_rad), ..SensorFrame::default() };
+        frame.bogie_angle_rad.as_array_mut().into_iter().for_each(|angle| *angle = Some(bogie_rad));
+        frame.accel_m_s2 = Axes { x: Some(9.81 * ahead_rad.sin()), y: Some(0.0), z: Some(9.81 * ahead_rad.cos()) };
+        let angles = links(&frame, rockers(&frame));
+        for (wheel, link) in frame.wheels.iter_wheels_mut().zip(angles.iter_wheels()) {
+            wheel.load_cell_n = link.map(|link| 100.0 * (link as f32 + ahead_rad).cos());
+        }
+        frame
     }
-    Some(sums)
+
+    /// Nose-up is positive for pitch and links: a link of the opposite angle to the pitch is level.
+    #[test]
+    fn links_that_hang_askew_bear_what_they_should() {
+        for (ahead_rad, rocker_rad, bogie_rad) in
+            [(0.0, 0.0, 0.0), (0.2, -0.1, 0.0), (-0.2, 0.04, -0.2), (0.1, 0.1, 0.2)]
+        {
+            let frame = leaning(ahead_rad, rocker_rad, bogie_rad);
+            let borne_n = borne_n(&frame, ahead_rad.into()).expect("all sensors speak");
+            assert!((borne_n - 600.0).abs() < 1e-3, "{ahead_rad} {rocker_rad} {bogie_rad}: {borne_n} N");
+        }
+    }
+
+    #[test]
+    fn on_a_side_slope_less_is_due() {
+        let weighing = Weighing::of(&Rover::<f64>::assumed().map(|value| value as f32));
+        let mut frame = leaning(0.1, 0.0, 0.0);
+        frame.accel_m_s2.y = Some(9.81 * 0.75);
+        let (_, due_n) = weighing.borne_and_due_n(&frame).expect("all sensors speak");
+        assert!((due_n - 0.8 * 41.0 * 9.81).abs() < 0.01, "{due_n} N");
+    }
+
+    #[test]
+    fn links_that_no_rover_has_tell_nothing() {
+        assert_eq!(borne_n(&leaning(0.0, 0.0, 9.9), 0.0), None);
+        let mut silent = leaning(0.0, 0.0, 0.0);
+        silent.wheels.left.middle.load_cell_n = None;
+        assert_eq!(borne_n(&silent, 0.0), None);
+    }
 }

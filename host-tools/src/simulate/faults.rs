@@ -18,6 +18,8 @@ pub enum Failure {
     Outlier,
     /// It repeats what it said last before.
     Stuck,
+    /// It says exactly zero, as a dead one does to a logger that has no word for it.
+    Zero,
     /// It says nothing.
     Dropout,
     /// No frame comes at all.
@@ -25,11 +27,12 @@ pub enum Failure {
 }
 
 /// Names of the failures on the command line. A frame that repeats is one whose sensors are all stuck.
-pub const FAILURES: [(&str, Failure); 7] = [
+pub const FAILURES: [(&str, Failure); 8] = [
     ("nan", Failure::Nan),
     ("inf", Failure::Infinity),
     ("outlier", Failure::Outlier),
     ("stuck", Failure::Stuck),
+    ("zero", Failure::Zero),
     ("dropout", Failure::Dropout),
     ("repeat-frames", Failure::Stuck),
     ("skip-frames", Failure::SkipFrames),
@@ -132,6 +135,7 @@ impl Faults {
                     Failure::Infinity => Some(f32::INFINITY),
                     Failure::Outlier => Some(1.0e6),
                     Failure::Stuck => before,
+                    Failure::Zero => Some(0.0),
                     Failure::Dropout => None,
                     Failure::SkipFrames => *value,
                 };

@@ -1,0 +1,147 @@
+//! Whether sensors say exactly zero while the rover drives: a logger's way of writing one that is not there.
+
+use kapvik_firmware::rover::Rover;
+use kapvik_firmware::sensor_frame::SensorFrame;
+
+use super::raw_sensors::{DRIVING_M_S, wide};
+use crate::data::sensor_channels::{names, values};
+
+/// Fewest readings that tell, and the share of them that has to be zero.
+const LEAST_READINGS: u32 = 50;
+const MOST_SAY: f64 = 0.9;
+/// The fewest of six wheels that turn where a rover drives.
+const MOST_WHEELS: usize = 4;
+
+/// How columns begin that may say exact zeros: encoders of wheels that are blocked, and what goes sideways where that is left out.
+const MAY_BE_ZERO: [&str; 5] = ["wheel_rate_", "gyro_x", "gyro_z", "velocity_y", "accel_y"];
+/// Of which these say something else wherever sensors have noise.
+const SIDEWAYS: [&str; 3] = ["gyro_x", "gyro_z", "velocity_y"];
+/// How columns begin that are exactly zero on a plane, where there is no noise.
+const ZERO_ON_A_PLANE: [&str; 5] = ["bogie_angle_", "rocker_angle_", "gyro_y", "accel_x", "velocity_z"];
+
+/// What every sensor said while the rover drove.
+#[derive(Debug, Clone)]
+pub struct DeadSensors {
+    radius_m: f64,
+    /// In the order of [`names`].
+    sensors: Vec<Said>,
+}
+
+/// How often a sensor said something, and how often an exact zero.
+#[derive(Debug, Clone, Copy, Default)]
+struct Said {
+    readings: u32,
+    zeros: u32,
+}
+
+impl DeadSensors {
+    /// Of a rover, before its first frame.
+    pub fn of(rover: &Rover<f32>) -> Self {
+        Self { radius_m: rover.wheel.radius_m.into(), sensors: vec![Said::default(); names().len()] }
+    }
+
+    /// Takes a frame: one in which the rover drives.
+    pub fn take(&mut self, frame: &SensorFrame) {
+        if !self.drives(frame) {
+            return;
+        }
+        for (said, reading) in self.sensors.iter_mut().zip(values(frame)) {
+            said.readings += u32::from(reading.is_some());
+            said.zeros += u32::from(reading == Some(0.0));
+        }
+    }
+
+    /// By the velocimeter or by most of the encoders: either of them may be dead.
+    fn drives(&self, frame: &SensorFrame) -> bool {
+        let moves = |speed_m_s: f64| speed_m_s.abs() > DRIVING_M_S;
+        let turns = |rate_rad_s: f64| moves(self.radius_m * rate_rad_s);
+        let turning = frame.wheels.iter_wheels().filter(|wheel| wide(wheel.rate_rad_s).is_some_and(turns)).count();
+        turning >= MOST_WHEELS || wide(frame.velocity_m_s.x).is_some_and(moves)
+    }
+
+    /// What came of it, without capital and stop.
+    pub fn told(&self) -> Option<String> {
+        let named = || names().into_iter().zip(&self.sensors);
+        let has_noise = named().any(|(name, said)| begins(&name, &SIDEWAYS) && said.zeros < said.readings);
+        let may_be_zero = |name: &str| begins(name, &MAY_BE_ZERO) || !has_noise && begins(name, &ZERO_ON_A_PLANE);
+        let dead: Vec<String> = named()
+            .filter(|(name, said)| said.is_dead() && !may_be_zero(name))
+            .map(|(name, Said { readings, zeros })| format!("{name} (in {zeros} of {readings} frames)"))
+            .collect();
+        let [says, it] = if dead.len() == 1 { ["says", "it"] } else { ["say", "them"] };
+        (!dead.is_empty()).then(|| {
+            format!(
+                "{} {says} exactly 0 while the rover drives: a sensor that is not there is an empty field, and what rests on {it} is wrong",
+                dead.join(", ")
+            )
+        })
+    }
+}
+
+impl Said {
+    fn is_dead(self) -> bool {
+        self.readings >= LEAST_READINGS && f64::from(self.zeros) >= MOST_SAY * f64::from(self.readings)
+    }
+}
+
+fn begins(name: &str, with: &[&str]) -> bool {
+    with.iter().any(|start| name.starts_with(start))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::sensor_channels::values_mut;
+
+    /// What is said of so many frames, in which each sensor reads this by its name.
+    fn said(frames: u32, reading: impl Fn(&str, u32) -> f32) -> Option<String> {
+        let mut dead = DeadSensors::of(&Rover::<f64>::assumed().map(|value| value as f32));
+        for number in 0..frames {
+            let mut frame = SensorFrame::default();
+            for (value, name) in values_mut(&mut frame).zip(names()) {
+                *value = Some(reading(&name, number));
+            }
+            dead.take(&frame);
+        }
+        dead.told()
+    }
+
+    /// What is said where these columns are nothing but zero.
+    fn dead(columns: &[&str], frames: u32) -> Option<String> {
+        said(frames, |name, _| if columns.contains(&name) { 0.0 } else { 0.5 })
+    }
+
+    #[test]
+    fn sensors_that_say_nothing_but_zero_are_named() {
+        assert_eq!(dead(&[], 100), None);
+        assert_eq!(dead(&["load_cell_fl_n"], 49), None, "too few frames tell nothing");
+        let told = dead(&["rocker_angle_rad"], 100).expect("a dead joint");
+        assert!(told.starts_with("rocker_angle_rad (in 100 of 100 frames) says exactly 0 while the rover"), "{told}");
+        for column in ["motor_torque_mr_nm", "accel_x_m_s2", "accel_z_m_s2", "gyro_y_rad_s", "velocity_z_m_s"] {
+            assert!(dead(&[column], 60).is_some_and(|told| told.starts_with(column)), "{column}");
+        }
+        // The encoders tell that it drives.
+        let told = dead(&["velocity_x_m_s", "load_cell_rr_n"], 60).expect("two dead sensors");
+        let both = "load_cell_rr_n (in 60 of 60 frames), velocity_x_m_s (in 60 of 60 frames) say exactly 0";
+        assert!(told.starts_with(both), "{told}");
+    }
+
+    #[test]
+    fn what_may_say_zero_is_not_named() {
+        for column in ["wheel_rate_fl_rad_s", "gyro_x_rad_s", "gyro_z_rad_s", "velocity_y_m_s", "accel_y_m_s2"] {
+            assert_eq!(dead(&[column], 60), None, "{column}");
+        }
+        // A wheel that is lifted for most of the drive, and a rover that stands.
+        assert_eq!(said(100, |name, number| if name == "load_cell_fl_n" && number > 11 { 0.0 } else { 0.5 }), None);
+        assert_eq!(said(100, |name, _| if name.starts_with("load_cell") { 70.0 } else { 0.0 }), None);
+    }
+
+    /// Without noise a rover on the level tilts and turns by exactly nothing; its loads and torques are some.
+    #[test]
+    fn on_a_plane_without_noise_joints_may_say_zero() {
+        let bears = |name: &str| begins(name, &["wheel_rate", "motor", "load", "velocity_x", "accel_z"]);
+        assert_eq!(said(100, |name, _| if bears(name) { 0.5 } else { 0.0 }), None);
+        let told = said(100, |name, _| if bears(name) && name != "load_cell_ml_n" { 0.5 } else { 0.0 });
+        assert!(told.as_ref().is_some_and(|told| told.starts_with("load_cell_ml_n (in 100 of")), "{told:?}");
+    }
+}
