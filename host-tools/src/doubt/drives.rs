@@ -52,6 +52,8 @@ const NEVER_HEARD: f64 = 0.5;
 const LESS_OFTEN: u32 = 6;
 /// No drive is longer, s.
 const LONGEST_S: f64 = 120.0;
+/// Frames a second.
+const RATES_HZ: prior::Range = prior::Range::logarithmic(4.0, 100.0);
 /// Other rovers, and radii of their wheels.
 const MASSES_KG: prior::Range = prior::Range::logarithmic(8.0, 900.0);
 const RADII_M: prior::Range = prior::Range::logarithmic(0.06, 0.15);
@@ -86,6 +88,8 @@ enum Deviation {
     Seldom,
     /// One sensor, or all of one kind, say nothing, or nothing any more.
     Silent,
+    /// Frames are fewer or more a second.
+    Rate,
     /// The rover is lighter or heavier, on wheels of other sizes, and the flight side is told.
     Mass,
     /// Slip digs the wheels in.
@@ -95,11 +99,12 @@ enum Deviation {
 }
 
 /// All of them but that there is none.
-const DEVIATIONS: [Deviation; 7] = [
+const DEVIATIONS: [Deviation; 8] = [
     Deviation::Noise,
     Deviation::Failures,
     Deviation::Seldom,
     Deviation::Silent,
+    Deviation::Rate,
     Deviation::Mass,
     Deviation::SlipSinkage,
     Deviation::GrouserRipple,
@@ -230,9 +235,10 @@ impl Journey {
 }
 
 impl Deviation {
-    /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground.
+    /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground, and no input is how often
+    /// frames come.
     fn times(self) -> u32 {
-        if self == Self::GrouserRipple { 2 } else { 1 }
+        if matches!(self, Self::GrouserRipple | Self::Rate) { 2 } else { 1 }
     }
 
     /// The rover, and what acts on it.
@@ -240,6 +246,7 @@ impl Deviation {
         let mut rover = RoverFile::assumed().rover;
         let mut effects = RoverEffects::default();
         let mut faults = Vec::new();
+        let mut rate_hz = None;
         let only = |id, value| RoverEffects::only(id, value).map_err(|error| error.to_string());
         match self {
             Self::None => {}
@@ -247,6 +254,7 @@ impl Deviation {
             Self::Failures => faults = failures(random)?,
             Self::Seldom => faults = silences(random)?,
             Self::Silent => faults.push(silence(random)?),
+            Self::Rate => rate_hz = Some(RATES_HZ.at(random.random())),
             Self::Mass => {
                 rover.mass_kg = MASSES_KG.at(random.random());
                 rover.wheel.radius_m = RADII_M.at(random.random());
@@ -255,7 +263,7 @@ impl Deviation {
             Self::SlipSinkage => effects = only("slip-sinkage", random.random_range(0.0..0.3))?,
             Self::GrouserRipple => effects = only("grouser-ripple", random.random_range(0.0..0.25))?,
         }
-        Ok((rover, Options { effects, faults, ..Options::default() }))
+        Ok((rover, Options { rate_hz, effects, faults, ..Options::default() }))
     }
 }
 
@@ -316,7 +324,7 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 3 * 32 + 4 * 16 + 7 * (6 + 2) * 3 + 4 * 3);
+        assert_eq!(training.len(), 3 * 32 + 4 * 16 + 7 * (6 + 2 * 2) * 3 + 4 * 3);
         let held_out = plan.held_out();
         assert!(held_out.iter().all(|journeys| journeys.len() == 3));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();
