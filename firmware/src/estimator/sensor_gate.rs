@@ -104,17 +104,16 @@ impl SensorGate {
     }
 
     fn is_stuck(&mut self, value: f32) -> bool {
-        let same = value.to_bits() == self.last_bits && value != 0.0;
-        if same {
+        let (bits, is_zero) = (value.to_bits(), value == 0.0);
+        if bits == self.last_bits && !is_zero {
             self.repeats = self.repeats.saturating_add(1);
-        } else {
-            if self.repeats >= self.allowed && self.repeats < self.allowed.saturating_mul(3) {
-                self.allowed = (self.repeats + 1).min(MOST_STUCK_FRAMES);
-            }
-            self.repeats = 0;
+            return self.repeats >= self.allowed;
         }
-        self.last_bits = value.to_bits();
-        self.repeats >= self.allowed || (self.kind == Kind::Force && value == 0.0)
+        if self.repeats >= self.allowed && self.repeats < self.allowed.saturating_mul(3) {
+            self.allowed = (self.repeats + 1).min(MOST_STUCK_FRAMES);
+        }
+        (self.repeats, self.last_bits) = (0, bits);
+        is_zero && self.kind == Kind::Force
     }
 }
 

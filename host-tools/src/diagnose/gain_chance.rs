@@ -58,8 +58,11 @@ impl<'a> Gain<'a> {
     /// The gain within runs, in which a row tells less than an independent one, and that between them, in which it does not: each run has an
     /// offset already, whose spread the runs themselves tell. None of runs that are too few to tell it.
     fn by_parts(&self, all: &Ratio, parameters: f64) -> Option<Ratio> {
-        let runs = Reading::JUDGED.into_iter().map(|channel| told_runs(&self.before.series(channel.index()))).max()?;
-        let freedom = runs as f64 - 1.0 - parameters;
+        let runs = Reading::JUDGED.map(|channel| told_runs(&self.before.series(channel.index())));
+        let channels = runs.iter().filter(|runs| **runs > 0).count().max(1) as f64;
+        let runs = *runs.iter().max()? as f64;
+        // What the model without had from the runs, each of its channels tells a part of.
+        let freedom = runs - self.before.parameters_told() / channels - parameters;
         let gain = 2.0 * self.ln_posterior;
         if freedom < 1.0 || gain <= 0.0 {
             return None;
@@ -67,7 +70,7 @@ impl<'a> Gain<'a> {
         let share = (self.squares_within_runs() / gain).clamp(0.0, 1.0);
         let within =
             Ratio { squares: share * all.squares, ..*all }.over(self.dispersion).of_fewer(self.rows_per_reading);
-        let ln_ratio = (1.0 - share) * gain / self.dispersion / runs as f64;
+        let ln_ratio = (1.0 - share) * gain / self.dispersion / runs;
         Some(within.and(&Ratio { squares: squares_gained(ln_ratio, freedom), freedom }))
     }
 

@@ -23,6 +23,13 @@ impl Fit {
         self.options.estimate_noise[channel.index()]
     }
 
+    /// How many parameters the readings tell, not their priors: the trace of the readings' information times the covariance.
+    pub fn parameters_told(&self) -> f64 {
+        let of_readings: f64 =
+            self.shares.iter().map(|share| share.information.component_mul(&self.covariance).sum()).sum();
+        of_readings.clamp(0.0, self.parameters.len() as f64)
+    }
+
     /// What is left of a channel; none of one that was not measured.
     pub fn channel_squares(&self, channel: Reading) -> Option<ChannelSquares> {
         let c = channel.index();
