@@ -169,9 +169,8 @@ impl<S: Scalar> Forward<S> {
 /// The first of some columns that a table has, which the command cannot do without.
 fn one_of(table: &Table, channels: &[Channel]) -> Result<Column, HostError> {
     let missing = || {
-        let names: Vec<_> = channels.iter().map(|channel| format!("`{}`", channel.name())).collect();
-        let found = table.header().join(", ");
-        let missing = format!("no column {}: expected one in the header (found {found})", names.join(" or "));
+        let names: Vec<_> = channels.iter().map(|channel| channel.name()).collect();
+        let missing = table.no_column(&names);
         let said: Vec<_> = std::iter::once(missing).chain(nearly_named(table.header(), channels.to_vec())).collect();
         table.error_in_header(said.join(". "))
     };

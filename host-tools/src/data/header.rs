@@ -47,8 +47,14 @@ impl Header {
     /// # Errors
     /// Where there is none.
     pub fn required(&self, name: &str) -> Result<usize, HostError> {
-        let found = || format!("no column `{name}`: expected one in the header (found {})", self.names.join(", "));
-        self.position(name).ok_or_else(|| self.error(1, 1, found()))
+        self.position(name).ok_or_else(|| self.error(1, 1, self.no_column(&[name])))
+    }
+
+    /// What is said where there is none of some columns, of which one is needed.
+    pub fn no_column(&self, names: &[&str]) -> String {
+        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        let found = self.names.join(", ");
+        format!("no column {}: expected one in the header (found {found})", names.join(" or "))
     }
 
     /// Appends a column.

@@ -101,6 +101,11 @@ impl Table {
         self.header.required(name).map(Column)
     }
 
+    /// What is said where there is none of some columns, of which one is needed.
+    pub fn no_column(&self, names: &[&str]) -> String {
+        self.header.no_column(names)
+    }
+
     /// The column of that name, appended with empty fields if it is not there yet.
     pub fn column_or_append(&mut self, name: &str) -> Column {
         self.column(name).unwrap_or_else(|| {

@@ -9,7 +9,7 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::chance::{beside_noise, over_all, squares_gained};
-use super::fit::{Fit, Reading};
+use super::fit::{ChannelSquares, Fit, Reading};
 use super::trial::Trial;
 
 /// Degrees of freedom from which a noise is as good as known.
@@ -77,10 +77,8 @@ impl<'a> Gain<'a> {
     /// By how much squares within runs are less, over the variance of the noise; all of what a channel gains whose noise is estimated.
     fn squares_within_runs(&self) -> f64 {
         let of_channel = |channel: Reading| {
-            if self.before.estimates_noise(channel) {
-                let pair = [self.before, self.after].map(|fit| fit.channel_squares(channel));
-                let [Some(before), Some(after)] = pair else { return 0.0 };
-                return 2.0 * (before.ln_noise - after.ln_noise) + before.squares - after.squares;
+            if let Some(unknown) = self.of_unknown_noise(channel) {
+                return unknown.gained();
             }
             let [before, after] = [self.before, self.after].map(|fit| squares(&fit.series(channel.index())));
             before - after
@@ -88,15 +86,19 @@ impl<'a> Gain<'a> {
         Reading::JUDGED.into_iter().map(of_channel).sum()
     }
 
+    /// A channel whose noise is estimated, and of which something was read.
+    fn of_unknown_noise(&self, channel: Reading) -> Option<UnknownNoise> {
+        let squares = |fit: &Fit| fit.channel_squares(channel).filter(|_| self.before.estimates_noise(channel));
+        Some(UnknownNoise { before: squares(self.before)?, after: squares(self.after)? })
+    }
+
     fn ratio(&self) -> Ratio {
         let mut of_known = 2.0 * self.ln_posterior;
         let mut of_unknown = Vec::new();
-        for channel in Reading::JUDGED.into_iter().filter(|channel| self.before.estimates_noise(*channel)) {
-            let pair = [self.before, self.after].map(|fit| fit.channel_squares(channel));
-            let [Some(before), Some(after)] = pair else { continue };
-            let ln_noise = 2.0 * (before.ln_noise - after.ln_noise);
-            of_known -= ln_noise + before.squares - after.squares;
-            let ln_ratio = ln_noise / before.count + (before.squares / after.squares).ln();
+        for unknown in Reading::JUDGED.into_iter().filter_map(|channel| self.of_unknown_noise(channel)) {
+            of_known -= unknown.gained();
+            let UnknownNoise { before, after } = &unknown;
+            let ln_ratio = unknown.ln_noise() / before.count + (before.squares / after.squares).ln();
             let freedom = after.freedom.max(LEAST_FREEDOM);
             of_unknown.push(Ratio { squares: squares_gained(ln_ratio, freedom), freedom });
         }
@@ -111,6 +113,24 @@ impl<'a> Gain<'a> {
         let freedom = (least - (channels - 1.0)).max(LEAST_FREEDOM);
         let share = gained / (gained + of_known.max(0.0));
         Ratio { squares: of_known + total * freedom / least, freedom: freedom / (share * share) }
+    }
+}
+
+/// What is left of a channel without something more and with it, each in units of the noise that the fit has it with.
+struct UnknownNoise {
+    before: ChannelSquares,
+    after: ChannelSquares,
+}
+
+impl UnknownNoise {
+    /// Twice the sum of ln of by how much the noise of each reading is less.
+    fn ln_noise(&self) -> f64 {
+        2.0 * (self.before.ln_noise - self.after.ln_noise)
+    }
+
+    /// Twice the gain in ln likelihood.
+    fn gained(&self) -> f64 {
+        self.ln_noise() + self.before.squares - self.after.squares
     }
 }
 

@@ -7,6 +7,7 @@
 use super::forward::{FoundStep, found, winner};
 use super::residual_search::search;
 use super::selection::{PARAMETER_COST, Step, with_better_fit, worth};
+use super::specification::EffectForm;
 use super::steps::Steps;
 use super::trial::Trial;
 
@@ -99,29 +100,25 @@ fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundS
         let other = steps.bench.without_effect(both, one.added_id())?;
         let first = companion(steps, &other)?;
         let id = one.added_id();
-        if first.winner.id() == id || first.ambiguous_with.contains(&id) {
+        let next = if first.winner.id() == id || first.ambiguous_with.contains(&id) {
             let kept = first.step.ranking.iter().position(|judged| judged.id() == id && judged.is_significant())?;
             let again = &first.step.ranking[kept].trial;
-            if left == 0 || form_of(again, id) == form_of(both, id) || worth_of_both(again) <= worth_of_both(both) {
-                let worth = worth_of_both(both);
+            let [again_in, both_in] = [again, both].map(|trial| trial.specification.effect(id).map(EffectForm::name));
+            let worth = worth_of_both(both);
+            if left == 0 || again_in == both_in || worth_of_both(again) <= worth {
                 return Some(Pair { first: found(first.step, kept), second, worth });
             }
-            one = steps.bench.without_effect(again, other.added_id())?;
-            continue;
-        }
-        one = steps.bench.without_effect(&first.winner.trial, other.added_id())?;
+            again
+        } else {
+            &first.winner.trial
+        };
+        one = steps.bench.without_effect(next, other.added_id())?;
     }
     None
 }
 
 fn worth_of_both(trial: &Trial<'_>) -> f64 {
     trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64
-}
-
-/// The name of the form in which a model has an effect.
-fn form_of(trial: &Trial<'_>, id: &str) -> Option<&'static str> {
-    let form = trial.specification.effects.iter().find(|effect| effect.info.id == id)?;
-    Some(form.form.name)
 }
 
 fn companion<'a>(steps: &Steps<'_, 'a>, trial: &Trial<'a>) -> Option<FoundStep<'a>> {

@@ -47,6 +47,7 @@ mod variances;
 #[cfg(test)]
 mod tests;
 
+pub use channel_squares::ChannelSquares;
 pub use held_out::{HeldOut, HeldOutRow, HeldOutRun};
 pub use model::{Coordinate, Derivatives, Latent, Model, Prediction};
 pub use multistart::{fit_from_many, scattered_starts};

@@ -16,7 +16,8 @@ use super::observation::{CHANNELS, Reading, Row};
 use super::problem::{Problem, RunRows};
 use super::state::Scales;
 
-/// Power of the load with which a sinkage goes, below which it tells no load; steady wheels have 0.4 to 0.8, and some 0.3 where soil stiffens under load.
+/// Power of the load with which a sinkage goes, below which it tells no load; steady wheels have 0.4 to 0.8, and some 0.3 where soil stiffens
+/// under load.
 const LEAST_POWER: f64 = 0.2;
 
 /// Judges the prediction of a run by parameters of covariance `covariance`.
