@@ -123,6 +123,8 @@ fn in_plain_words(message: &str) -> String {
         "f64" | "f32" => "a number",
         "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, not below 0",
         "a sequence" => "a list, [ … ]",
+        "a map" => "a table",
+        _ if expected.starts_with("struct ") => "a table",
         other => other,
     };
     format!("{found}expected {expected}")

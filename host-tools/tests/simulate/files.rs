@@ -95,6 +95,7 @@ fn impossible_rovers_are_refused_at_the_key_to_blame() {
         ("[suspension]\nrear_hubs = [0, 0]\n", "r.toml:2:1: unknown field `rear_hubs`"),
         ("mass_kg = \"heavy\"\n", "r.toml:1:11: invalid type"),
         ("mass_kg = = 1\n", "r.toml:1:11: "),
+        ("wheel = 0.075\n", "r.toml:1:9: invalid type: floating point `0.075`, expected a table"),
     ] {
         let said = rover(text).expect_err(text);
         assert!(said.starts_with(expected) && said.lines().count() == 1, "{text}\n{said}");
