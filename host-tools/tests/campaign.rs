@@ -307,5 +307,7 @@ fn a_run_that_says_what_another_says_is_its_copy() {
     let rows = [run("a", 0, 3), run("b", 50, 3), run("c", 0, 2), run("d", 0, 2)].concat();
     let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
     let copies = [vec![false; 3], vec![true; 3], vec![false; 4]].concat();
-    assert_eq!(campaign.expect("a campaign").copies(), copies, "ten numbers: chance");
+    let campaign = campaign.expect("a campaign");
+    assert_eq!(campaign.copies(), copies, "ten numbers: chance");
+    assert_eq!(campaign.with_a_run_for_each_row().copies(), copies, "whatever is done with its rows");
 }

@@ -15,6 +15,8 @@ const TOML: &str = "name = \"sand\"\nkind = \"measured\"\nsource = \"made up\"\n
 fn declared_after(declared: &str) -> Declared {
     let campaign = Campaign::parse(Path::new("sand.csv"), CSV, &format!("{TOML}{declared}")).expect("a campaign");
     let json = r#"{ "campaign": "sand", "declared": [], "verdict": "effect",
+        "declared_effects": [ { "id": "load-stiffening", "form": "exponent", "parameters": {
+            "exponent": {"value": 0.2, "std": 0.1}, "reference_load_n": {"value": 65.5, "std": 0.0} } } ],
         "effects": [ { "id": "slip-sinkage", "form": "exponent", "parameters": {"n1": {"value": 0.3, "std": 0.03}},
                        "gain_per_row": 1.2, "p_value": 1e-9 } ],
         "runner_up": null, "ambiguous_with": [], "unexplained": [], "channels": {},
@@ -45,4 +47,19 @@ fn what_was_declared_and_found_stands_there_once() {
     assert_eq!(declared.ids(), ["rear-contact", "slip-sinkage"]);
     assert_eq!(n1(&declared), Some(Knowledge::Value { value: 0.3, std: 0.03 }));
     assert!(declared.effects.iter().all(|effect| !effect.known.contains_key("stretch")));
+}
+
+/// A declared effect whose form was open flies in the form that was diagnosed, about the load at which it does nothing there.
+#[test]
+fn what_was_declared_has_the_form_that_was_fitted() {
+    let declared = declared_after("[declared]\neffects = [\"load-stiffening\"]\n");
+    let effect = declared.effects.iter().find(|effect| effect.info.id == "load-stiffening").expect("it was declared");
+    assert_eq!(effect.form.map(|form| form.name), Some("exponent"));
+    assert_eq!(effect.known.get("reference_load_n"), Some(&Knowledge::Value { value: 65.5, std: 0.0 }));
+    let stated = "[declared]\neffects = [\"load-stiffening\"]\n[declared.load-stiffening]\nform = \"stiffness\"\n\
+        reference_load_n = 50.0\n";
+    let declared = declared_after(stated);
+    let effect = declared.effects.iter().find(|effect| effect.info.id == "load-stiffening").expect("it was declared");
+    assert_eq!(effect.form.map(|form| form.name), Some("stiffness"), "what the campaign says stays");
+    assert_eq!(effect.known.get("reference_load_n"), Some(&Knowledge::Value { value: 50.0, std: 0.0 }));
 }

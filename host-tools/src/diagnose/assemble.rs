@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use kapvik_firmware::terramechanics::effects::effect_info;
-
 use crate::data::campaign::{Campaign, Channel};
 
-use super::candidates::is_by_load;
+use super::caveats::{caveats, error_of_load};
 use super::document::{
     Candidate, ChannelErrors, Diagnosis, EndsApart, ErrorPair, Estimate, FoundEffect, LevelsLeftOut, RunnerUp,
     Unexplained, Verdict,
 };
+use super::error_caveats::of_errors;
 use super::fit::Reading;
 use super::force_channels::ForceChannels;
 use super::forward::{FoundStep, Selected};
@@ -27,8 +26,6 @@ const MOST_UNEXPLAINED: usize = 5;
 const LISTED: usize = 12;
 /// Runs up to which the ends are told apart.
 const FEW_RUNS: usize = 10;
-/// Times the error of the declared model from which one has grown by more than what changes with the runs that are left out.
-const GROWS: f64 = 1.05;
 
 /// The document.
 pub fn assemble(
@@ -51,7 +48,7 @@ pub fn assemble(
         runner_up: runner_up(selected),
         ambiguous_with: selected.found.first().map_or_else(Vec::new, |found| owned(&found.ambiguous_with)),
         deciding_measurement: None,
-        force_channels: by_themselves.effects.clone(),
+        force_channels: by_themselves.effects().cloned().collect(),
         unexplained,
         found_law: None,
         channels: channels(measurements, selected, errors),
@@ -62,13 +59,11 @@ pub fn assemble(
         candidates: listed(measurements, selected),
         held_out_runs: held_out_runs(measurements, errors),
         left_out: measurements.left_out.clone(),
-        caveats: super::caveats::caveats(campaign, measurements, selected),
+        caveats: caveats(campaign, measurements, selected),
     };
-    document.caveats.extend(by_themselves.caveats.iter().cloned());
+    document.caveats.extend(by_themselves.caveats().cloned());
     document.caveats.extend(error_of_load(selected, by_themselves));
-    document.caveats.extend(without_answer(measurements, &document.held_out_runs));
-    document.caveats.extend(no_error_falls(&document));
-    document.caveats.extend(errors_that_grow(&document));
+    document.caveats.extend(of_errors(measurements, &document));
     let off_by_run = measurements.off_by_run(&selected.model().fit.offset_std);
     let off_by_run: Vec<&str> = off_by_run.map(|(reading, _)| column_name(reading)).collect();
     super::sentence::tell(&mut document, campaign, errors, &off_by_run);
@@ -125,7 +120,7 @@ fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
 fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver]) -> Vec<Unexplained> {
     let entry = |structure: &super::residual_search::Structure| Unexplained {
         channel: name(structure.channel),
-        regressor: structure.regressor.clone(),
+        regressor: structure.regressor(),
         share_of_variance: structure.share_of_variance,
         p_value: structure.p_value,
     };
@@ -195,59 +190,6 @@ fn held_out_runs(measurements: &Measurements, errors: &HeldOutErrors) -> Vec<Str
     runs.filter(|(_, rows)| has_any(rows)).map(|(run, _)| run.clone()).collect()
 }
 
-/// What is said where a run that was held out is predicted by one of the models or by none.
-fn without_answer(measurements: &Measurements, predicted: &[String]) -> Option<String> {
-    let runs: Vec<&str> = measurements.runs.iter().filter(|run| !predicted.contains(run)).map(String::as_str).collect();
-    let why = match measurements.runs.len() {
-        1 => "there is nothing else to fit",
-        _ => "on the soil that these came to the wheel finds no hold",
-    };
-    (!runs.is_empty()).then(|| {
-        format!(
-            "Not predicted by fits that did not know them, since {why}: {}. Errors before and after are without them.",
-            runs.join(", ")
-        )
-    })
-}
-
-/// What is said where something found follows a load whose readings show an error of their own.
-fn error_of_load(selected: &Selected<'_>, by_themselves: &ForceChannels) -> Option<String> {
-    let is_of_load =
-        |effect: &&FoundEffect| effect.parameters.keys().any(|name| name.starts_with(Channel::Load.name()));
-    let error = by_themselves.effects.iter().find(is_of_load)?;
-    let follows_load = |id: &&str| effect_info(id).is_some_and(is_by_load);
-    let found = selected.found.iter().map(|found| found.winner.id()).find(follows_load)?;
-    Some(format!(
-        "{found} may be nothing but the {} that the readings of the load show by themselves: a load that is read wrong, and a soil that answers \
-         to the load, look alike to the other channels.",
-        error.id
-    ))
-}
-
-/// What is said where something was found and no channel is predicted the better for it.
-fn no_error_falls(document: &Diagnosis) -> Option<String> {
-    let falls = document.channels.values().any(|errors| errors.rmse_after < errors.rmse_before);
-    (!document.effects.is_empty() && !document.channels.is_empty() && !falls).then(|| {
-        "No root mean square error falls on runs that no fit knew: what was found makes them more probable, as by saying better what is \
-         uncertain, but predicts none of them better."
-            .to_owned()
-    })
-}
-
-/// What is said of channels that something found predicts worse.
-fn errors_that_grow(document: &Diagnosis) -> Option<String> {
-    let grows = |errors: &ChannelErrors| errors.rmse_after > GROWS * errors.rmse_before && errors.rmse_before > 0.0;
-    let percent = |errors: &ChannelErrors| 100.0 * (errors.rmse_after / errors.rmse_before - 1.0);
-    let worse = document.channels.iter().filter(|(_, errors)| grows(errors));
-    let worse: Vec<_> = worse.map(|(channel, errors)| format!("{channel} (by {:.0} %)", percent(errors))).collect();
-    (!document.effects.is_empty() && !worse.is_empty()).then(|| {
-        format!(
-            "With what was found, root mean square errors grow on runs that no fit knew, of {}: there the declared model predicts better.",
-            worse.join(", ")
-        )
-    })
-}
-
 /// Root mean square errors before and after on some rows, by channel.
 pub fn error_pairs(
     errors: &HeldOutErrors,
@@ -302,39 +244,4 @@ fn listed(measurements: &Measurements, selected: &Selected<'_>) -> Vec<Candidate
         step.ranking.iter().filter(|judged| judged.held_out.has_answer()).take(LISTED).map(entry).collect::<Vec<_>>()
     };
     steps.enumerate().flat_map(entries).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn document(effects: serde_json::Value) -> Diagnosis {
-        let errors = |rmse_before, rmse_after| ChannelErrors {
-            rmse_before,
-            rmse_after,
-            noise: 1.0,
-            noise_stated: true,
-            runs: 9,
-        };
-        let document = serde_json::json!({
-            "campaign": "sand", "declared": [], "verdict": "effect", "effects": effects, "runner_up": null,
-            "ambiguous_with": [], "unexplained": [],
-            "channels": {
-                "drawbar_pull_n": errors(1.0, 1.04), "load_n": errors(10.0, 12.0), "sinkage_m": errors(0.004, 0.001),
-                "torque_nm": errors(0.1, 0.107),
-            },
-            "soil_before": {}, "soil_after": {}, "held_out_runs": [],
-        });
-        serde_json::from_value(document).expect("a diagnosis")
-    }
-
-    #[test]
-    fn channels_that_an_effect_predicts_worse_are_named() {
-        let found =
-            document(serde_json::json!([{ "id": "rate", "parameters": {}, "gain_per_row": 1.0, "p_value": 0.0 }]));
-        let said = errors_that_grow(&found).expect("two grow");
-        assert!(said.contains(" of load_n (by 20 %), torque_nm (by 7 %): "), "{said}");
-        assert_eq!(no_error_falls(&found), None);
-        assert_eq!(errors_that_grow(&document(serde_json::json!([]))), None, "nothing was found");
-    }
 }

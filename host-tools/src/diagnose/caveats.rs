@@ -1,11 +1,14 @@
 //! What a reader of a diagnosis should know about its data.
 
-use crate::data::campaign::Campaign;
-use crate::digits::spaced_unit;
+use kapvik_firmware::terramechanics::effects::effect_info;
+
+use crate::data::campaign::{Campaign, Channel};
+use crate::digits::{counted, spaced_unit};
 use crate::statistics::ends;
 
-use super::candidates::loads_differ;
+use super::candidates::{is_by_load, loads_differ};
 use super::fit::{Model, Reading};
+use super::force_channels::ForceChannels;
 use super::forward::{FoundStep, Selected};
 use super::measurements::{Measurements, column_name};
 use super::selection::MISFIT;
@@ -53,8 +56,10 @@ fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>;
     let has = |reading| measurements.has(reading);
     let slips = spread(measurements, Reading::Slip);
     [
-        (runs < 5 && campaign.runs().len() > 1)
-            .then(|| format!("Only {runs} runs: what is found rests on few independent observations.")),
+        (runs < 5 && campaign.has_several_runs()).then(|| {
+            let runs = counted(runs as u64, "run", "runs");
+            format!("Only {runs}: what is found rests on few independent observations.")
+        }),
         (has(Reading::Load) && !loads_differ(measurements)).then(|| {
             "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load; an \
              offset of the drawbar pull, a tilt and a share of the load look alike."
@@ -115,11 +120,9 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
         return Vec::new();
     };
     let coordinates = trial.model.coordinates();
-    let own = trial.model.effect_parameters().iter().enumerate().filter(|(_, (id, _))| *id == effect.info.id);
-    let said = own.filter_map(|(place, (id, name))| {
-        let place = trial.model.soil_count() + place;
+    let said = trial.places_of(effect.info.id).filter_map(|(place, name)| {
         let coordinate = &coordinates[place];
-        let info = effect.info.parameters.iter().find(|info| info.name == *name)?;
+        let info = effect.info.parameter(name)?;
         let (value, (low, high)) = (trial.fit.parameters[place], (coordinate.low, coordinate.high));
         let std = trial.std(place);
         let is_near = |end: f64| (value - end).abs() <= std || value == end;
@@ -160,4 +163,16 @@ fn untold(selected: &Selected<'_>) -> Option<String> {
 /// The least and the greatest reading.
 fn spread(measurements: &Measurements, reading: Reading) -> Option<(f64, f64)> {
     ends(measurements.rows.iter().filter_map(|row| row.readings[reading.index()]))
+}
+
+/// What is said where something found follows a load whose readings show an error of their own.
+pub fn error_of_load(selected: &Selected<'_>, by_themselves: &ForceChannels) -> Option<String> {
+    let error = by_themselves.effects_on(Channel::Load).next()?;
+    let follows_load = |id: &&str| effect_info(id).is_some_and(is_by_load);
+    let found = selected.found.iter().map(|found| found.winner.id()).find(follows_load)?;
+    Some(format!(
+        "{found} may be nothing but the {} that the readings of the load show by themselves: a load that is read wrong, and a soil that answers \
+         to the load, look alike to the other channels.",
+        error.id
+    ))
 }

@@ -4,18 +4,20 @@ use super::fit::{CHANNELS, Latent, Model, Reading};
 use super::measurements::Measurements;
 use super::trial::Trial;
 
+/// Steps that are tried, in standard deviations, until one has an answer.
+const STEPS: [f64; 3] = [1.0, 0.5, 0.25];
+
 /// For each row and channel ½ f″ σ², summed over slip and load: by how much the mean reading of a wheel whose slip and load
 /// are known to a standard deviation σ differs from the reading at their mean.
 pub fn curvature(trial: &Trial<'_>, measurements: &Measurements) -> Vec<[f64; CHANNELS]> {
     let mut bends = vec![[0.0; CHANNELS]; measurements.rows.len()];
     for run in &measurements.rows_of_run {
         for reading in [Reading::Slip, Reading::Load] {
-            let moved = |sign: f64| predictions(trial, measurements, run, reading, sign);
-            let (Some(less), Some(here), Some(more)) = (moved(-1.0), moved(0.0), moved(1.0)) else { continue };
-            for (place, row) in run.iter().enumerate() {
+            // Near where the soil no longer carries, only a part of the way has an answer.
+            let seconds = STEPS.iter().find_map(|step| second_differences(trial, measurements, run, reading, *step));
+            for (row, seconds) in run.iter().zip(seconds.into_iter().flatten()) {
                 for channel in Reading::JUDGED.map(Reading::index) {
-                    let second = less[place][channel] - 2.0 * here[place][channel] + more[place][channel];
-                    bends[*row][channel] += 0.5 * second.abs();
+                    bends[*row][channel] += 0.5 * seconds[channel].abs();
                 }
             }
         }
@@ -23,16 +25,31 @@ pub fn curvature(trial: &Trial<'_>, measurements: &Measurements) -> Vec<[f64; CH
     bends
 }
 
-/// The readings of a run with one latent of every row moved by its standard deviation.
+/// f″ σ² of the rows of a run, from steps of so many standard deviations; none where the model has no answer there.
+fn second_differences(
+    trial: &Trial<'_>,
+    measurements: &Measurements,
+    run: &[usize],
+    reading: Reading,
+    step: f64,
+) -> Option<Vec<[f64; CHANNELS]>> {
+    let [less, here, more] = [-step, 0.0, step].map(|step| predictions(trial, measurements, run, reading, step));
+    let second = |((less, here), more): (([f64; CHANNELS], [f64; CHANNELS]), [f64; CHANNELS])| {
+        std::array::from_fn(|channel| (less[channel] - 2.0 * here[channel] + more[channel]) / (step * step))
+    };
+    Some(less?.into_iter().zip(here?).zip(more?).map(second).collect())
+}
+
+/// The readings of a run with one latent of every row moved by so many standard deviations.
 fn predictions(
     trial: &Trial<'_>,
     measurements: &Measurements,
     run: &[usize],
     reading: Reading,
-    sign: f64,
+    step: f64,
 ) -> Option<Vec<[f64; CHANNELS]>> {
     let moved = |row: &usize| {
-        let (latent, step) = (trial.fit.latents[*row], sign * measurements.rows[*row].noise[reading.index()]);
+        let (latent, step) = (trial.fit.latents[*row], step * measurements.rows[*row].noise[reading.index()]);
         match reading {
             Reading::Slip => Latent { slip: (latent.slip + step).clamp(-0.99, 0.99), ..latent },
             _ => Latent { load_n: latent.load_n + step, ..latent },

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::data::campaign::{Campaign, Knowledge};
+use crate::data::campaign::{Campaign, Knowledge, is_reference};
 
 use super::document::Diagnosis;
 
-/// A TOML file with the declared effects and those found, each with its form and its parameters and their spread. A reader
-/// ignores everything but `[declared]`. Of an effect that is both, what was found counts: the campaign may have been told of
+/// A TOML file with the declared effects, as the campaign has them and in the form that fits best, and those found, each with its form and
+/// its parameters and their spread. A reader ignores everything but `[declared]`. Of an effect that is both, what was found counts: the campaign may have been told of
 /// it since this diagnosis.
 pub fn declared_file(campaign: &Campaign, diagnosis: &Diagnosis) -> String {
     let mut text = format!(
@@ -24,14 +24,22 @@ pub fn declared_file(campaign: &Campaign, diagnosis: &Diagnosis) -> String {
     let _ = writeln!(text, "[declared]\neffects = [{}]", ids.join(", "));
     for effect in declared {
         let _ = writeln!(text, "[declared.{}]", effect.info.id);
-        if let Some(form) = effect.form {
-            let _ = writeln!(text, "form = \"{}\"", form.name);
+        let fitted = diagnosis.declared_effects.iter().find(|fit| fit.id == effect.info.id);
+        let form = effect.form.map(|form| form.name).or(fitted.map(|fit| fit.form.as_str()));
+        if let Some(form) = form {
+            let _ = writeln!(text, "form = \"{form}\"");
         }
         for (name, known) in &effect.known {
             let _ = match known {
                 Knowledge::Value { value, std } => writeln!(text, "{name} = {{ value = {value:?}, std = {std:?} }}"),
                 Knowledge::Between { min, max } => writeln!(text, "{name} = {{ min = {min:?}, max = {max:?} }}"),
             };
+        }
+        let referred = fitted.into_iter().flat_map(|fit| &fit.parameters);
+        for (name, estimate) in
+            referred.filter(|(name, _)| is_reference(name) && !effect.known.contains_key(name.as_str()))
+        {
+            let _ = writeln!(text, "{name} = {{ value = {:?}, std = {:?} }}", estimate.value, estimate.std);
         }
     }
     for effect in &diagnosis.effects {

@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::campaign::Fingerprint;
+use crate::data::campaign::{Channel, Fingerprint};
 
 /// A campaign, diagnosed. All quantities are in SI units, angles in rad.
 ///
@@ -57,7 +57,7 @@ pub struct Diagnosis {
     pub soil_before: BTreeMap<String, Estimate>,
     /// The soil with the effects found; keys as in `[soil]`.
     pub soil_after: BTreeMap<String, Estimate>,
-    /// Every candidate that was tried, the best of each step first.
+    /// The best candidates of each step that had an answer, in the order of preference.
     #[serde(default)]
     pub candidates: Vec<Candidate>,
     /// The runs whose errors are in `channels`: each was predicted by fits that did not know it.
@@ -154,12 +154,20 @@ pub struct RunnerUp {
 pub struct Unexplained {
     /// The channel that has it.
     pub channel: String,
-    /// The column that it follows; a product is written `slip*sinkage_m`.
+    /// The column that it follows; a product is written `slip*sinkage_m`. The time of a run, where no column is followed and neighbouring rows
+    /// are alike.
     pub regressor: String,
     /// The share of the residual's variance that follows that column, 0 … 1.
     pub share_of_variance: f64,
     /// How likely chance does that, with all columns that were tried, 0 … 1.
     pub p_value: f64,
+}
+
+impl Unexplained {
+    /// Whether it follows the time of a run, or no column at all but itself along runs.
+    pub fn is_along_runs(&self) -> bool {
+        self.regressor == Channel::Time.name()
+    }
 }
 
 /// A formula for structure that no known effect explains.

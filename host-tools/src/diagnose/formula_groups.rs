@@ -28,10 +28,11 @@ pub struct Scale {
     pub values: Vec<f64>,
 }
 
-/// The scale of a channel: the load for forces, with the radius for a torque, the radius for a sinkage.
-pub fn scale(bench: &Bench<'_>, trial: &Trial<'_>, channel: Reading) -> Scale {
+/// The scale of a channel: the load for forces, with the radius for a torque, the radius for a sinkage. The load is the one at which the model was
+/// linearised: that which was fitted follows the residuals that a law is to explain.
+pub fn scale(bench: &Bench<'_>, linearised: &Linearised<'_>, channel: Reading) -> Scale {
     let radius_m = bench.campaign.wheel.radius_m;
-    let loads: Vec<f64> = trial.fit.latents.iter().map(|latent| latent.load_n).collect();
+    let loads: Vec<f64> = linearised.latents().iter().map(|latent| latent.load_n).collect();
     match channel {
         Reading::Torque => Scale { symbol: "r W", values: loads.iter().map(|load| radius_m * load).collect() },
         Reading::Sinkage => Scale { symbol: "r", values: vec![radius_m; loads.len()] },
@@ -84,7 +85,7 @@ fn of_channel(bench: &Bench<'_>, linearised: &Linearised<'_>, channel: Channel) 
     let radius_m = bench.campaign.wheel.radius_m;
     match channel {
         Channel::Temperature => {
-            let symbol = format!("(({name} - {})/{DEGREES})", figure(middle));
+            let symbol = format!("({}/{DEGREES})", less(name, middle));
             vec![of(symbol, &|value| (value - middle) / DEGREES)]
         }
         Channel::Pass => vec![of(format!("({name} - 1)"), &|value| value - 1.0)],
@@ -113,12 +114,17 @@ fn of_unknown(name: &str, values: &[f64]) -> Option<Group> {
     } else {
         (0.0, rounded(median(values.iter().map(|value| value.abs()).collect())?))
     };
-    let symbol = match from {
-        0.0 => format!("({name}/{})", figure(over)),
-        below if below < 0.0 => format!("(({name} + {})/{})", figure(-below), figure(over)),
-        _ => format!("(({name} - {})/{})", figure(from), figure(over)),
-    };
+    let symbol = format!("({}/{})", less(name, from), figure(over));
     (over > 0.0).then(|| group(symbol, name, values.iter().map(|value| (value - from) / over).collect()))
+}
+
+/// A column less a number, as it is written.
+fn less(name: &str, from: f64) -> String {
+    match from {
+        0.0 => name.to_owned(),
+        below if below < 0.0 => format!("({name} + {})", figure(-below)),
+        _ => format!("({name} - {})", figure(from)),
+    }
 }
 
 /// A column's value in each row, its middle one where it is not known; none where that is often.

@@ -36,14 +36,14 @@ const HELD_OUT_ERRORS: f64 = 1.0;
 pub fn law(bench: &Bench<'_>, trial: &Trial<'_>, structure: &Structure, dispersion: f64) -> Option<FoundLaw> {
     let measurements = bench.measurements;
     let linearised = Linearised::about(&trial.model, &trial.fit, &measurements.rows, measurements, &bench.options)?;
-    let first: Vec<&str> = structure.regressor.split('*').collect();
+    let first: Vec<&str> = structure.columns.iter().map(String::as_str).collect();
     let groups = groups(bench, trial, &linearised, &first);
     let search = Search {
         bench,
         trial,
         terms: terms(&groups),
         groups,
-        scale: scale(bench, trial, structure.channel),
+        scale: scale(bench, &linearised, structure.channel),
         folds: folds(measurements.runs.len(), measurements.rows.len()),
         linearised,
         channel: structure.channel,

@@ -76,7 +76,7 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             None => selected.base = here.base.clone(),
         }
         if selected.found.is_empty() {
-            selected.guilty = selected.left.first().map(|structure| structure.regressor.clone());
+            selected.guilty = selected.left.first().map(|structure| structure.regressor());
         }
         let won = winner(bench, &here, &selected.left);
         let place = won.as_ref().map(|(place, _)| *place);

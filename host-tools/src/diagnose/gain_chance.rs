@@ -45,14 +45,15 @@ impl<'a> Gain<'a> {
     }
 
     /// The chance that the best of `tried` candidates of so many parameters that change nothing gains as much. Where noise goes together along
-    /// runs the lesser of two: as if all of the gain were within runs, and with what is gained between them by itself.
+    /// runs that of the lesser of two chances: one as if all of the gain were within runs, one with what is gained between them by itself.
     pub fn chance(&self, parameters: usize, tried: usize) -> f64 {
         let parameters = parameters.max(1) as f64;
         let all = self.ratio();
         let within = all.over(self.dispersion).of_fewer(self.rows_per_reading);
         let between = (self.rows_per_reading > 1.0).then(|| self.by_parts(&all, parameters)).flatten();
-        let alone = [Some(within), between].into_iter().flatten().map(|ratio| ratio.chance(parameters));
-        over_all(alone.fold(1.0, f64::min), tried)
+        let views: Vec<f64> =
+            [Some(within), between].into_iter().flatten().map(|ratio| ratio.chance(parameters)).collect();
+        over_all(views.iter().copied().fold(1.0, f64::min), tried * views.len())
     }
 
     /// The gain within runs, in which a row tells less than an independent one, and that between them, in which it does not: each run has an

@@ -9,7 +9,7 @@ use super::folds::{Fold, choose};
 use super::lone_rows::FEW;
 use super::trial::Trial;
 use super::unseen_runs::groups;
-use crate::statistics::sorted;
+use crate::statistics::{root_mean_square, sorted};
 
 /// A standard deviation over the root mean square of all errors but the farthest tenth, of a normal distribution.
 const PER_NEAR: f64 = 1.267;
@@ -41,8 +41,8 @@ impl HeldOutErrors {
     pub fn pair(&self, channel: usize, rows: impl Fn(usize) -> bool) -> Option<ErrorPair> {
         let both = (0..self.before.len()).filter(|row| rows(*row) && self.has(*row, channel));
         let rmse = |residuals: &[[Option<f64>; CHANNELS]]| {
-            let squares: Vec<f64> = both.clone().filter_map(|row| residuals[row][channel]).map(|r| r * r).collect();
-            (!squares.is_empty()).then(|| f64::sqrt(squares.iter().sum::<f64>() / squares.len() as f64))
+            let rmse = root_mean_square(both.clone().filter_map(|row| residuals[row][channel]));
+            rmse.is_finite().then_some(rmse)
         };
         Some(ErrorPair { rmse_before: rmse(&self.before)?, rmse_after: rmse(&self.after)? })
     }

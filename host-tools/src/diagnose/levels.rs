@@ -13,7 +13,7 @@ const SAME_LEVEL: f64 = 0.03;
 const MOST_LEVELS: usize = 12;
 
 /// Errors with each level of slip left out of the fits of both models in turn, as far as both predict it; none where slips do not come in
-/// levels of several runs. The effects are those that all runs chose.
+/// levels of several runs, or no level is predicted. The effects are those that all runs chose.
 pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> Option<LevelsLeftOut> {
     let mut errors = HeldOutErrors::none_yet(measurements.rows.len());
     let mut slips = Vec::new();
@@ -24,7 +24,8 @@ pub fn levels_left_out(measurements: &Measurements, selected: &Selected<'_>) -> 
         note(&after, &mut errors.after);
         slips.push(slip);
     }
-    Some(LevelsLeftOut { slips, channels: error_pairs(&errors, &told(measurements, selected), |_| true) })
+    let channels = error_pairs(&errors, &told(measurements, selected), |_| true);
+    (!slips.is_empty()).then_some(LevelsLeftOut { slips, channels })
 }
 
 /// Slip (of its lowest run) and runs of each level, where the runs each stay at one.

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use kapvik_firmware::terramechanics::effects::{Conditions, speed_ratio};
 
 use crate::data::campaign::{Campaign, Channel};
-use crate::digits::counted;
 use crate::error::HostError;
 use crate::statistics;
 
@@ -15,20 +14,17 @@ use super::lone_rows::LoneRow;
 use super::noise::{Noise, channel_noise};
 use super::rates::wheel_rates;
 use super::settings::{Settled, settle};
+use super::thinning::{some_runs, thinned};
+use super::usable_rows::{UsableRow, usable_rows};
 
 /// The column of each reading, in the order of [`Reading::ALL`].
 pub const COLUMNS: [Channel; CHANNELS] =
     [Channel::DrawbarPull, Channel::Torque, Channel::Sinkage, Channel::SideForce, Channel::Slip, Channel::Load];
 
-/// Rows to which the runs are thinned together, but for at least one of each run; of more runs, as of rows that are runs of their own, so many
-/// stay.
-const MOST_ROWS: usize = 240;
 /// Share of the rows that must have a column for something to be said to follow it.
 pub const KNOWN_SHARE: f64 = 0.8;
 /// Times the stated noise from which runs are far off.
 const OFF: f64 = 2.0;
-/// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
-const BRAKING: f64 = -0.05;
 
 /// The name of a reading's column.
 pub fn column_name(reading: Reading) -> &'static str {
@@ -75,41 +71,13 @@ impl Measurements {
     /// As of [`Measurements::of`].
     pub fn without(campaign: &Campaign, braking: bool, lone: &[LoneRow]) -> Result<Self, HostError> {
         check_columns(campaign)?;
-        let mut reasons = [
-            (0, "nothing to judge: no slip, neither load nor sinkage, or nothing else"),
-            (0, "braking"),
-            (0, "gross errors: a force or sinkage that no wheel can have felt"),
-            (0, "far out of what all other rows say"),
-            (0, "copies: in runs that say, row by row, what another run says"),
-        ];
-        let mut usable = Vec::new();
-        for (row, is_copy) in campaign.copies().into_iter().enumerate() {
-            let readings = COLUMNS.map(|channel| campaign.value(row, channel));
-            if !is_usable(&readings) {
-                reasons[0].0 += 1;
-            } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
-                reasons[1].0 += 1;
-            } else if campaign.gross_error(row).is_some() {
-                reasons[2].0 += 1;
-            } else if lone.iter().any(|lone| lone.place == row) {
-                reasons[3].0 += 1;
-            } else if is_copy {
-                reasons[4].0 += 1;
-            } else {
-                usable.push((row, readings));
-            }
-        }
-        if usable.is_empty() {
-            return Err(campaign.error(nothing_usable(reasons[1].0)));
-        }
-        let left_out = reasons.into_iter().filter(|(rows, _)| *rows > 0);
-        let left_out = left_out.map(|(rows, reason)| LeftOut { reason: reason.to_owned(), rows }).collect();
+        let (usable, left_out) = usable_rows(campaign, braking, lone)?;
         Ok(Self::in_runs(campaign, &usable, left_out))
     }
 
-    fn in_runs(campaign: &Campaign, usable: &[(usize, [Option<f64>; CHANNELS])], left_out: Vec<LeftOut>) -> Self {
+    fn in_runs(campaign: &Campaign, usable: &[UsableRow], left_out: Vec<LeftOut>) -> Self {
         let noise = channel_noise(campaign, usable);
-        let loads = || usable.iter().filter_map(|(_, readings)| readings[Reading::Load.index()]);
+        let loads = || usable.iter().filter_map(|row| row.readings[Reading::Load.index()]);
         let mut found = Self {
             rows: Vec::new(),
             places: Vec::new(),
@@ -122,28 +90,23 @@ impl Measurements {
             is_load_set: loads().next().is_some() && !varies(loads()),
             radius_m: campaign.wheel.radius_m,
         };
-        let by_place: HashMap<usize, &[Option<f64>; CHANNELS]> =
-            usable.iter().map(|(row, readings)| (*row, readings)).collect();
+        let by_place: HashMap<usize, &UsableRow> = usable.iter().map(|row| (row.place, row)).collect();
         let mut runs = campaign.runs();
         for (_, places) in &mut runs {
             places.retain(|place| by_place.contains_key(place));
             places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
         }
         runs.retain(|(_, places)| !places.is_empty());
-        let runs: Vec<_> = scattered(&runs, MOST_ROWS, 0).collect();
+        let runs = some_runs(&runs);
         let rows = runs.iter().map(|(_, places)| places.len()).sum();
         for (number, (name, places)) in runs.into_iter().enumerate() {
             let mut of_run = Vec::new();
             for place in thinned(places, rows, number) {
-                let readings = by_place[&place];
+                let readings = by_place[&place].readings;
                 of_run.push(found.rows.len());
                 found.places.push(place);
                 found.conditions.push(conditions(campaign, place));
-                found.rows.push(Row {
-                    run: found.runs.len(),
-                    readings: *readings,
-                    noise: noise.map(|noise| noise.std),
-                });
+                found.rows.push(Row { run: found.runs.len(), readings, noise: noise.map(|noise| noise.std) });
             }
             found.runs.push((*name).to_owned());
             found.rows_of_run.push(of_run);
@@ -211,25 +174,6 @@ impl Measurements {
     }
 }
 
-/// The rows of a run that stay, over all of it, where all runs together have `all` rows.
-fn thinned(run: &[usize], all: usize, number: usize) -> impl Iterator<Item = usize> {
-    let share = (run.len() * MOST_ROWS + all / 2) / all;
-    scattered(run, share.max(1), number).copied()
-}
-
-/// So many of some things, one of each of as many equal parts of them; all where there are fewer. Which one of a part changes from part to
-/// part by the golden section, and so it does from one number to the next: what comes round in step, as six wheels at each instant do, would
-/// else be seen at one and the same place of it.
-fn scattered<T>(all: &[T], most: usize, number: usize) -> impl Iterator<Item = &T> {
-    const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
-    let stay = most.min(all.len());
-    (0..stay).map(move |part| {
-        let [begin, end] = [part, part + 1].map(|part| part * all.len() / stay);
-        let within = (GOLDEN_SECTION * (part + number) as f64).fract();
-        &all[begin + (within * (end - begin) as f64) as usize]
-    })
-}
-
 /// The middle of some numbers; none of none.
 pub fn median(values: Vec<f64>) -> Option<f64> {
     (!values.is_empty()).then(|| statistics::median(values))
@@ -258,27 +202,6 @@ fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
         );
     }
     Ok(())
-}
-
-/// What is said where no row is left, of which so many brake.
-fn nothing_usable(braking: usize) -> String {
-    let missing = "no row that drives and has a slip, a load or a sinkage, and a force or a sinkage to judge";
-    match braking {
-        0 => missing.to_owned(),
-        _ => format!("{missing}; {} below slip {BRAKING}: --braking takes such rows as well", rows_are(braking)),
-    }
-}
-
-fn rows_are(rows: usize) -> String {
-    format!("{} {}", counted(rows as u64, "row", "rows"), if rows == 1 { "is" } else { "are" })
-}
-
-/// A slip, what determines the sinkage, and something to judge that by.
-fn is_usable(readings: &[Option<f64>; CHANNELS]) -> bool {
-    let has = |reading: Reading| readings[reading.index()].is_some();
-    let forces = [Reading::DrawbarPull, Reading::Torque, Reading::SideForce].into_iter().filter(|r| has(*r)).count();
-    let carried = has(Reading::Load);
-    has(Reading::Slip) && ((carried && (forces > 0 || has(Reading::Sinkage))) || (has(Reading::Sinkage) && forces > 0))
 }
 
 fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
@@ -312,39 +235,5 @@ mod tests {
         let said = Measurements::of(&campaign, false).expect_err("no row drives").to_string();
         assert!(said.ends_with("2 rows are below slip -0.05: --braking takes such rows as well"), "{said}");
         assert_eq!(Measurements::of(&campaign, true).expect("both brake").rows.len(), 2);
-    }
-
-    #[test]
-    fn of_many_runs_some_of_every_part_stay() {
-        let rows: Vec<usize> = (0..1000).collect();
-        let kept: Vec<_> = scattered(&rows, MOST_ROWS, 0).copied().collect();
-        assert_eq!((kept.len(), kept[0], kept[1], kept[MOST_ROWS - 1]), (MOST_ROWS, 0, 6, 998));
-        assert!(kept.windows(2).all(|pair| (1..9).contains(&(pair[1] - pair[0]))));
-        assert_eq!(scattered(&rows[..7], MOST_ROWS, 3).count(), 7);
-    }
-
-    #[test]
-    fn runs_are_thinned_and_none_is_lost() {
-        let rows: Vec<usize> = (10..20).collect();
-        let stay = |run: &[usize], all: usize| thinned(run, all, 5).collect::<Vec<_>>();
-        assert_eq!(stay(&rows, MOST_ROWS), rows);
-        assert_eq!(stay(&rows, 2 * MOST_ROWS), [10, 13, 14, 17, 19]);
-        assert_eq!(stay(&rows, 4 * MOST_ROWS / 3), [10, 11, 12, 14, 15, 16, 17, 18]);
-        assert_eq!(stay(&rows[..1], 1000 * MOST_ROWS), [10]);
-        assert!(stay(&[], MOST_ROWS).is_empty());
-    }
-
-    /// Six wheels at each instant: whether the instants of a run, or runs of one instant, are too many.
-    #[test]
-    fn what_comes_round_in_step_is_seen_at_all_its_places() {
-        let of_wheel = |wheel: usize, kept: &[usize]| kept.iter().filter(|row| *row % 6 == wheel).count();
-        let instants: Vec<usize> = (0..6 * MOST_ROWS).collect();
-        let of_one_run: Vec<_> = thinned(&instants, instants.len(), 0).collect();
-        let runs: Vec<Vec<usize>> = instants.chunks(6).map(<[usize]>::to_vec).collect();
-        let of_each: Vec<_> =
-            runs.iter().enumerate().flat_map(|(number, run)| thinned(run, instants.len(), number)).collect();
-        for kept in [of_one_run, of_each] {
-            assert!((0..6).all(|wheel| of_wheel(wheel, &kept).abs_diff(MOST_ROWS / 6) < 8), "{kept:?}");
-        }
     }
 }

@@ -43,7 +43,7 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
         let gained = beside(dependence, effect.added_parameters());
         // An effect that is itself such an offset or trend is part of every dependence, and one that follows a column of every
         // product with it: none is better for having it.
-        let is_part = structure.regressor.split('*').any(|column| follows(form, structure.channel, column));
+        let is_part = structure.columns.iter().any(|column| follows(form, structure.channel, column));
         let is_common = is_part
             || gained < OWN && {
                 let without = log_posterior_with(bench, &step.base, common)?;
@@ -61,14 +61,15 @@ pub fn is_mimic(bench: &Bench<'_>, step: &Step<'_>, effect: &Trial<'_>, structur
 /// Whether a dependence is of the channel that an effect's form acts on, on the column that it follows there, or is what the
 /// effect is named for: then it is the effect by another law, and no other cause. An angle of the wheel is a column of many laws.
 pub fn is_own_law(effect: &EffectForm, structure: &Structure) -> bool {
-    let (channel, columns) = (structure.channel, &structure.regressor);
-    follows(effect, channel, columns) || is_named_for(effect, channel, columns)
+    let Structure { channel, columns, .. } = structure;
+    let is_followed = matches!(columns.as_slice(), [column] if follows(effect, *channel, column));
+    is_followed || is_named_for(effect, *channel, columns)
 }
 
 /// Whether an effect is named for what a channel does with a column, or with a product of which that is one.
-fn is_named_for(effect: &EffectForm, channel: Reading, columns: &str) -> bool {
+fn is_named_for(effect: &EffectForm, channel: Reading, columns: &[String]) -> bool {
     let named = NAMED_FOR.iter().find(|(id, of, _)| *id == effect.info.id && *of == channel);
-    named.is_some_and(|(.., by)| columns.split('*').any(|column| column == by.name()))
+    named.is_some_and(|(.., by)| columns.iter().any(|column| column == by.name()))
 }
 
 /// Whether a form acts on a channel and follows a column there.
@@ -107,10 +108,14 @@ mod tests {
     fn a_rate_is_whatever_sinkage_does_with_speed() {
         let info = effect_info("rate").expect("listed");
         let rate = EffectForm::new(info, &info.forms[0]);
-        assert!(is_named_for(&rate, Reading::Sinkage, "speed_m_s"));
-        assert!(is_named_for(&rate, Reading::Sinkage, "slip*speed_m_s"));
-        assert!(!is_named_for(&rate, Reading::DrawbarPull, "speed_m_s"));
-        assert!(!is_named_for(&rate, Reading::Sinkage, "temperature_c"));
+        let is_named_for = |channel, columns: &[&str]| {
+            let columns: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
+            is_named_for(&rate, channel, &columns)
+        };
+        assert!(is_named_for(Reading::Sinkage, &["speed_m_s"]));
+        assert!(is_named_for(Reading::Sinkage, &["slip", "speed_m_s"]));
+        assert!(!is_named_for(Reading::DrawbarPull, &["speed_m_s"]));
+        assert!(!is_named_for(Reading::Sinkage, &["temperature_c"]));
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! How noisy the readings of a campaign are.
 
 use crate::data::campaign::Campaign;
+use crate::data::campaign::like_rows::{Pairing, WheelState, like_pairs};
 
 use super::fit::{CHANNELS, Reading};
 use super::measurements::{COLUMNS, median};
+use super::usable_rows::UsableRow;
 use crate::statistics::{robust_std, sorted};
 
 /// Noise of a channel.
@@ -27,17 +29,15 @@ const LEAST_BENDS: usize = 8;
 const LEAST_LIKE: usize = 3;
 /// Fewest pairs of like rows of two runs from which noise is known.
 const LEAST_REPEATS: usize = 8;
-/// Rows alike in slip.
-const LIKE_SLIP: f64 = 0.01;
 /// Rows alike in load, as a share of it.
 const LIKE_LOAD: f64 = 0.05;
 
 /// The noise of every reading of some rows: as stated, or guessed from rows that are alike in slip and load. A fit estimates
 /// those that are guessed.
-pub fn channel_noise(campaign: &Campaign, rows: &[(usize, [Option<f64>; CHANNELS])]) -> [Noise; CHANNELS] {
+pub fn channel_noise(campaign: &Campaign, rows: &[UsableRow]) -> [Noise; CHANNELS] {
     Reading::ALL.map(|reading| {
         let channel = COLUMNS[reading.index()];
-        let values = || rows.iter().filter_map(|(_, readings)| readings[reading.index()]).collect::<Vec<_>>();
+        let values = || rows.iter().filter_map(|row| row.readings[reading.index()]).collect::<Vec<_>>();
         match campaign.noise.of(channel) {
             Some(std) if std > 0.0 => Noise { std, stated: true, of_repeats: None },
             _ => Noise {
@@ -49,13 +49,13 @@ pub fn channel_noise(campaign: &Campaign, rows: &[(usize, [Option<f64>; CHANNELS
     })
 }
 
-fn guess(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> f64 {
-    let values = || rows.iter().filter_map(|(_, readings)| readings[reading.index()]).collect::<Vec<_>>();
+fn guess(campaign: &Campaign, reading: Reading, rows: &[UsableRow]) -> f64 {
+    let values = || rows.iter().filter_map(|row| row.readings[reading.index()]).collect::<Vec<_>>();
     let at_most = |std: f64| within_runs(campaign, reading, rows).map_or(std, |scatter| std.min(scatter));
     match reading {
         Reading::Slip => at_most(SLIP_STD),
         Reading::Load => at_most(LOAD_SHARE * median(values()).unwrap_or(0.0).abs()),
-        _ => from_like_rows(reading, rows).unwrap_or(0.1 * spread(values())),
+        _ => from_like_rows(campaign, reading, rows).unwrap_or(0.1 * spread(values())),
     }
 }
 
@@ -68,11 +68,11 @@ fn spread(values: Vec<f64>) -> f64 {
 
 /// From the middle size of how far a reading is from the mean of those before and after it in its run: white noise, and how it bends. None
 /// where there are few, or most are the same number: it was set, and nothing read it.
-fn within_runs(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
-    let bend = |three: &[(usize, [Option<f64>; CHANNELS])]| {
-        let [(before, _), (at, _), (after, _)] = three else { return None };
-        let runs = [before, at, after].map(|row| &campaign.rows()[*row].run);
-        let [before, at, after] = [three[0].1, three[1].1, three[2].1].map(|readings| readings[reading.index()]);
+fn within_runs(campaign: &Campaign, reading: Reading, rows: &[UsableRow]) -> Option<f64> {
+    let bend = |three: &[UsableRow]| {
+        let three: &[UsableRow; 3] = three.try_into().ok()?;
+        let runs = three.map(|row| &campaign.rows()[row.place].run_in_file);
+        let [before, at, after] = three.map(|row| row.readings[reading.index()]);
         (runs[0] == runs[1] && runs[1] == runs[2]).then_some(before? - 2.0 * at? + after?)
     };
     let bends: Vec<f64> = rows.windows(3).filter_map(bend).collect();
@@ -81,16 +81,14 @@ fn within_runs(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f6
 }
 
 /// From the middle size of the differences of like rows.
-fn from_like_rows(reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
-    let differences: Vec<f64> = like_rows(reading, rows).into_iter().map(|(_, difference)| difference).collect();
-    of_differences(differences, LEAST_LIKE)
+fn from_like_rows(campaign: &Campaign, reading: Reading, rows: &[UsableRow]) -> Option<f64> {
+    of_differences(differences(campaign, reading, rows, |_, _| true), LEAST_LIKE)
 }
 
 /// The same of like rows of two runs.
-fn of_repeats(campaign: &Campaign, reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Option<f64> {
-    let run = |row: usize| &campaign.rows()[row].run;
-    let of_two_runs = like_rows(reading, rows).into_iter().filter(|([one, other], _)| run(*one) != run(*other));
-    of_differences(of_two_runs.map(|(_, difference)| difference).collect(), LEAST_REPEATS)
+fn of_repeats(campaign: &Campaign, reading: Reading, rows: &[UsableRow]) -> Option<f64> {
+    let run = |row: usize| &campaign.rows()[row].run_in_file;
+    of_differences(differences(campaign, reading, rows, |one, other| run(one) != run(other)), LEAST_REPEATS)
 }
 
 /// Differences have twice the variance of a reading.
@@ -99,25 +97,20 @@ fn of_differences(differences: Vec<f64>, least: usize) -> Option<f64> {
     std.filter(|std| *std > 0.0)
 }
 
-/// The rows that follow each other in slip and are alike, by their places in the campaign, and by how much their readings differ.
-fn like_rows(reading: Reading, rows: &[(usize, [Option<f64>; CHANNELS])]) -> Vec<([usize; 2], f64)> {
-    struct State {
-        row: usize,
-        slip: f64,
-        load_n: f64,
-        reading: f64,
-    }
-    let state = |(row, readings): &(usize, [Option<f64>; CHANNELS])| {
-        let at = |reading: Reading| readings[reading.index()];
-        let load_n = at(Reading::Load).unwrap_or(0.0);
-        Some(State { row: *row, slip: at(Reading::Slip)?, load_n, reading: at(reading)? })
+/// By how much the readings of like rows that may be mates differ.
+fn differences(
+    campaign: &Campaign,
+    reading: Reading,
+    rows: &[UsableRow],
+    may_be_mates: impl Fn(usize, usize) -> bool,
+) -> Vec<f64> {
+    let state = |row: &UsableRow| {
+        let at = |reading: Reading| row.readings[reading.index()];
+        at(reading)?;
+        Some(WheelState { place: row.place, slip: at(Reading::Slip)?, load_n: at(Reading::Load).unwrap_or(0.0) })
     };
-    let mut states: Vec<State> = rows.iter().filter_map(state).collect();
-    states.sort_by(|a, b| a.slip.total_cmp(&b.slip));
-    let pairs = states.windows(2).filter_map(|pair| {
-        let [a, b] = pair else { return None };
-        let is_like = (b.slip - a.slip).abs() <= LIKE_SLIP && (b.load_n - a.load_n).abs() <= LIKE_LOAD * a.load_n.abs();
-        is_like.then_some(([a.row, b.row], b.reading - a.reading))
-    });
-    pairs.collect()
+    let states = rows.iter().filter_map(state).collect();
+    let value = |place: usize| campaign.value(place, COLUMNS[reading.index()]);
+    let pairs = like_pairs(states, LIKE_LOAD, Pairing::Chained, may_be_mates);
+    pairs.into_iter().filter_map(|[one, other]| Some(value(other)? - value(one)?)).collect()
 }

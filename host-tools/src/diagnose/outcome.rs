@@ -6,7 +6,7 @@ use super::candidates::is_measured;
 use super::curvature::{add_curvature, curvature};
 use super::declared_effects::declared_effects;
 use super::document::{Diagnosis, Verdict};
-use super::force_channels;
+use super::force_channels::force_channels;
 use super::formula_search::law;
 use super::forward::{Selected, select};
 use super::held_out_errors::{HeldOutErrors, held_out_errors};
@@ -155,7 +155,7 @@ impl Whole<'_> {
     /// What came of a selection.
     fn concluded(&self, bench: &Bench<'_>, selected: &Selected<'_>, set_aside: &[LoneRow]) -> Outcome {
         // Rows of one run may share what the force channels would take for an effect: these judge by runs as they are.
-        let by_themselves = force_channels::examine(self.as_given);
+        let by_themselves = force_channels(self.as_given, set_aside);
         let measurements = bench.measurements;
         let errors = held_out_errors(bench, &selected.base, &shortlists(selected), self.progress);
         let levels = levels_left_out(measurements, selected);

@@ -6,7 +6,7 @@
 
 use super::forward::{FoundStep, found, winner};
 use super::residual_search::search;
-use super::selection::{PARAMETER_COST, Step, with_better_fit, worth};
+use super::selection::{Step, with_better_fit, worth, worth_of_all};
 use super::specification::EffectForm;
 use super::steps::Steps;
 use super::trial::Trial;
@@ -104,8 +104,8 @@ fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundS
             let kept = first.step.ranking.iter().position(|judged| judged.id() == id && judged.is_significant())?;
             let again = &first.step.ranking[kept].trial;
             let [again_in, both_in] = [again, both].map(|trial| trial.specification.effect(id).map(EffectForm::name));
-            let worth = worth_of_both(both);
-            if left == 0 || again_in == both_in || worth_of_both(again) <= worth {
+            let worth = worth_of_all(both);
+            if left == 0 || again_in == both_in || worth_of_all(again) <= worth {
                 return Some(Pair { first: found(first.step, kept), second, worth });
             }
             again
@@ -115,10 +115,6 @@ fn settled<'a>(steps: &Steps<'_, 'a>, start: Trial<'a>, mut known: Option<FoundS
         one = steps.bench.without_effect(next, other.added_id())?;
     }
     None
-}
-
-fn worth_of_both(trial: &Trial<'_>) -> f64 {
-    trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64
 }
 
 fn companion<'a>(steps: &Steps<'_, 'a>, trial: &Trial<'a>) -> Option<FoundStep<'a>> {

@@ -17,8 +17,8 @@ use super::unseen_runs::HeldOutGain;
 pub struct Structure {
     /// The channel.
     pub channel: Reading,
-    /// The column, or the product of two.
-    pub regressor: String,
+    /// The column, or the two of which it follows the product.
+    pub columns: Vec<String>,
     /// Whether the column is one of what the contact itself is made of: slip, load and sinkage.
     pub of_contact: bool,
     /// The terms by which it was fitted.
@@ -36,6 +36,11 @@ pub struct Structure {
 }
 
 impl Structure {
+    /// What it follows, as it is written: `slip*sinkage_m` is a product.
+    pub fn regressor(&self) -> String {
+        self.columns.join("*")
+    }
+
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
         let is_held = self.held_out.is_some_and(|gain| gain.chance() < BY_RUNS && gain.is_shared());
@@ -78,8 +83,8 @@ fn simpler_first(found: &mut [Structure]) {
         let single = &found[place];
         let holds = |product: &Structure| {
             product.channel == single.channel
-                && product.regressor.contains('*')
-                && product.regressor.split('*').any(|column| column == single.regressor)
+                && product.columns.len() > 1
+                && product.columns.iter().any(|column| single.columns == [column.as_str()])
                 && product.score < single.score + TELLS_APART
         };
         if let Some(product) = found[..place].iter().position(holds) {
@@ -116,7 +121,7 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
         let fit = linearised.fit_with(&added).ok()?;
         Some(Structure {
             channel,
-            regressor: regressor.name.clone(),
+            columns: regressor.columns(),
             of_contact: regressor.is_of_contact(),
             score: gain(trial, &nothing, &fit) / dispersion - PARAMETER_COST * added.terms.len() as f64,
             share_of_variance: share(&nothing, &fit, channel),
@@ -128,9 +133,9 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
     };
     let mut found: Vec<_> = promising.par_iter().filter_map(examine).collect();
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let mut seen: Vec<(Reading, String)> = Vec::new();
+    let mut seen: Vec<(Reading, Vec<String>)> = Vec::new();
     found.retain(|structure| {
-        let key = (structure.channel, structure.regressor.clone());
+        let key = (structure.channel, structure.columns.clone());
         let in_channel = seen.iter().filter(|(channel, _)| *channel == structure.channel).count();
         let wanted = in_channel < OF_CHANNEL && !seen.contains(&key);
         seen.extend(wanted.then_some(key));

@@ -118,13 +118,13 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
     let ahead = if misfit { look_ahead(bench, &trials) } else { Vec::new() };
     let dispersion = dispersion(&base, &trials, &ahead);
     let errors_wanted = if misfit { HELD_OUT_ERRORS_OF_A_MISFIT } else { HELD_OUT_ERRORS };
-    let before = Predicted { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
+    let before = Before { exactly: held_out(bench, &base), nearly: nearly_held_out(bench, &base) };
     let enough = enough(&trials, dispersion);
     // What a second effect does along a run is no memory of noise.
     let of_noise = ahead.iter().map(|both| both.fit.rows_per_reading()).fold(f64::INFINITY, f64::min);
     let judge = |(place, trial): (usize, Trial<'a>)| {
-        let in_question = place < FINISHED && worth(&trial) > enough;
-        let (before, after) = if in_question {
+        let is_exact = place < FINISHED && worth(&trial) > enough;
+        let (before, after) = if is_exact {
             (&before.exactly, held_out(bench, &trial))
         } else {
             (&before.nearly, nearly_held_out(bench, &trial))
@@ -134,7 +134,7 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
         let gain = Gain { rows_per_reading, ..Gain::over(&base, &trial, dispersion) };
         let score = gain.in_dispersions() - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = gain.chance(trial.added_parameters(), tried);
-        (Judged { score, p_value, held_out, errors_wanted, trial }, after)
+        Predicted { judged: Judged { score, p_value, held_out, errors_wanted, trial }, runs: after, is_exact }
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
     let mut ranking: Vec<Judged<'a>> = Vec::new();
@@ -146,28 +146,48 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
     Step { base, ranking, dispersion, ahead }
 }
 
-/// What a model says of runs that it has not seen.
-struct Predicted {
+/// What the model without any candidate says of runs that it has not seen.
+struct Before {
     exactly: Vec<HeldOutRun>,
     nearly: Vec<HeldOutRun>,
+}
+
+/// A candidate, with what it says of runs that it has not seen.
+struct Predicted<'a> {
+    judged: Judged<'a>,
+    runs: Vec<HeldOutRun>,
+    /// Whether by fits without them; else to first order from the fit to all.
+    is_exact: bool,
 }
 
 /// Candidates with their predictions of unseen runs, the best first; those that earn a place come before the others. An effect
 /// that frees the right latents can fit the runs that it sees as well as the true one does. So the best by fit yields to those
 /// that predict unseen runs better beyond chance, and where more than one effect is missing and a fit says little, to those that
-/// predict them better at all.
-fn in_order<'a>(mut judged: Vec<(Judged<'a>, Vec<HeldOutRun>)>, misfit: bool) -> Vec<Judged<'a>> {
-    let significant = judged.iter().filter(|(judged, _)| judged.is_significant());
-    let leader = significant.max_by(|a, b| a.0.score.total_cmp(&b.0.score)).map(|(_, runs)| runs.clone());
-    let place = |(judged, runs): &(Judged<'a>, Vec<HeldOutRun>)| match &leader {
-        Some(leader) if judged.is_significant() && (misfit || predicts_better(runs, leader)) => {
-            (2, judged.held_out.per_row)
+/// predict them better at all. What is predicted to first order only outruns nobody: along a valley that bends such a step ends anywhere.
+fn in_order(mut candidates: Vec<Predicted<'_>>, misfit: bool) -> Vec<Judged<'_>> {
+    let significant = candidates.iter().filter(|candidate| candidate.judged.is_significant());
+    let leader = significant.max_by(|a, b| a.judged.score.total_cmp(&b.judged.score));
+    let leader = leader.map(|leader| leader.runs.clone());
+    let place = |Predicted { judged, runs, is_exact }: &Predicted<'_>| match &leader {
+        Some(leader) if judged.is_significant() && *is_exact && (misfit || predicts_better(runs, leader)) => {
+            (Place::PredictsBetter, judged.held_out.per_row)
         }
-        Some(_) if judged.is_significant() => (1, judged.score),
-        _ => (0, judged.held_out.per_row),
+        Some(_) if judged.is_significant() => (Place::Earned, judged.score),
+        _ => (Place::None, judged.held_out.per_row),
     };
-    judged.sort_by(|a, b| place(b).0.cmp(&place(a).0).then(place(b).1.total_cmp(&place(a).1)));
-    judged.into_iter().map(|(judged, _)| judged).collect()
+    candidates.sort_by(|a, b| place(b).0.cmp(&place(a).0).then(place(b).1.total_cmp(&place(a).1)));
+    candidates.into_iter().map(|candidate| candidate.judged).collect()
+}
+
+/// Where a candidate stands among others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    /// It earns no place.
+    None,
+    /// It earns one.
+    Earned,
+    /// It earns one, and predicts unseen runs better than the best by fit does.
+    PredictsBetter,
 }
 
 /// Whether runs that were not seen are predicted better by more than one standard error over runs.
@@ -315,9 +335,13 @@ pub fn look_ahead<'a>(bench: &Bench<'a>, trials: &[Trial<'a>]) -> Vec<Trial<'a>>
         chosen.into_par_iter().filter_map(|form| bench.with_effect_near(first, form)).collect::<Vec<_>>()
     };
     let mut both: Vec<_> = leaders.par_iter().take(LEADERS).flat_map_iter(seconds).collect();
-    let total = |trial: &Trial<'_>| trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64;
-    both.sort_by(|a, b| total(b).total_cmp(&total(a)));
+    both.sort_by(|a, b| worth_of_all(b).total_cmp(&worth_of_all(a)));
     both
+}
+
+/// What models with any effects are compared by: ln posterior, less the cost of what all their effects free.
+pub fn worth_of_all(trial: &Trial<'_>) -> f64 {
+    trial.log_posterior() - PARAMETER_COST * trial.effect_parameters() as f64
 }
 
 /// The dispersion that gains are measured in, 1 or more: that of the best model with one more effect, or with two where that

@@ -31,7 +31,7 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, o
     };
     let of = &campaign.name;
     let left = document.unexplained.first().map(|left| match left.regressor.as_str() {
-        "t_s" => format!("{} along runs (t_s)", left.channel),
+        _ if left.is_along_runs() => format!("{} along runs (t_s)", left.channel),
         column => format!("{} against {column}", left.channel),
     });
     match document.verdict {
@@ -76,8 +76,9 @@ fn found(document: &Diagnosis) -> String {
 fn from_run_to_run(off_by_run: &[&str]) -> Option<String> {
     (!off_by_run.is_empty()).then(|| {
         format!(
-            "from run to run {} differs by more than its noise, which nothing measured explains",
-            off_by_run.join(" and ")
+            "from run to run {} {} noise, which nothing measured explains",
+            off_by_run.join(" and "),
+            if off_by_run.len() == 1 { "differs by more than its" } else { "differ by more than their" }
         )
     })
 }
@@ -85,7 +86,7 @@ fn from_run_to_run(off_by_run: &[&str]) -> Option<String> {
 /// The channel of stated noise that is missed by most of what noise allows on held-out runs, and by how much, where that is far from one. None
 /// where no load is measured: what stands in for it has a noise of its own.
 fn beyond_noise(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) -> Option<(&'static str, f64)> {
-    campaign.column(Channel::Load.name())?;
+    campaign.column(Channel::Load.name())?.iter().flatten().next()?;
     let is_stated = |channel| document.channels.get(channel).is_some_and(|errors| errors.noise_stated);
     let channels = Reading::JUDGED.into_iter().map(|reading| (reading, column_name(reading)));
     let stated = channels.filter(|(_, channel)| is_stated(*channel));

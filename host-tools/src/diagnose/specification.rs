@@ -167,13 +167,12 @@ impl EffectForm {
 
 /// The forms that a declared effect may have: the one that the file states, or those that show and have the parameters it knows.
 fn possible_forms(declared: &DeclaredEffect, measured: impl Fn(&Form) -> bool) -> Vec<&'static Form> {
-    let all = declared.info.forms.iter();
     let mut forms: Vec<_> = match declared.form {
         Some(form) => vec![form],
-        None => all.clone().filter(|form| measured(form) && declared.may_be(form)).collect(),
+        None => declared.open_forms().filter(|form| measured(form)).collect(),
     };
     if forms.is_empty() {
-        forms.extend(all.take(1));
+        forms.extend(declared.first_form());
     }
     forms
 }

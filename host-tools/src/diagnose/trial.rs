@@ -1,5 +1,7 @@
 //! A model with a fit of it to a campaign, and what the fit says of its parameters.
 
+use kapvik_firmware::terramechanics::effects::Role;
+
 use super::campaign_model::CampaignModel;
 use super::fit::{Coordinate, Fit, Model, Start};
 use super::specification::{EffectForm, Specification};
@@ -68,8 +70,9 @@ impl Trial<'_> {
     pub fn is_out_of_bounds(&self) -> bool {
         let Some(effect) = self.added() else { return false };
         self.places_of(effect.info.id).any(|(place, name)| {
-            let is_size = effect.form.free.first() == Some(&name);
-            let neutral = effect.info.parameter(name).map(|info| info.neutral);
+            let info = effect.info.parameter(name);
+            let is_size = info.is_some_and(|info| info.role == Role::Size);
+            let neutral = info.map(|info| info.neutral);
             let beyond = self.fit.beyond_bound(place);
             if is_size { beyond > BEYOND_BOUND } else { beyond > 0.0 && neutral != Some(self.fit.parameters[place]) }
         })

@@ -3,6 +3,7 @@
 use kapvik_firmware::wheel_state::WheelNoise;
 use serde::Serialize;
 
+use crate::data::campaign::like_rows::{Pairing, WheelState, like_pairs};
 use crate::data::campaign::{Campaign, Channel};
 use crate::prior::{AVERAGING, INSTANT_NOISE};
 use crate::statistics::{robust_std, root_mean_square};
@@ -47,8 +48,6 @@ pub struct SensorNoise {
 
 /// Fewest pairs of like rows that say something: their standard deviation is then known to a fifth of itself.
 const LEAST_PAIRS: usize = 12;
-/// Slips of like rows differ by no more.
-const LIKE_SLIP: f64 = 0.01;
 /// Loads of like rows differ by no more than this share.
 const LIKE_LOAD: f64 = 0.1;
 /// Times what is usual from which a difference between like rows is a gross error's.
@@ -59,7 +58,7 @@ impl SensorNoise {
     ///
     /// Slip is never taken from repeats: like rows are found by their slip.
     pub fn of(campaign: &Campaign) -> Self {
-        let pairs = like_pairs(campaign);
+        let pairs = of_each_run(campaign);
         let scale = INSTANT_NOISE.on(mean_load(campaign), campaign.wheel.radius_m);
         let channel = |channel, flight_sensors| {
             let stated = campaign.noise.of(channel).map(|std| ChannelStd { std, source: NoiseSource::Campaign });
@@ -117,32 +116,23 @@ fn mean_load(campaign: &Campaign) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// Pairs of rows of one run that are alike in slip and load; no row is in two pairs. Of several mates the one of the nearest slip is taken,
-/// whatever its load: the nearest load would make that seem better known than it is.
-fn like_pairs(campaign: &Campaign) -> Vec<(usize, usize)> {
-    let state = |row| Some((campaign.value(row, Channel::Slip)?, campaign.value(row, Channel::Load)?));
-    let mut pairs = Vec::new();
-    for (_, rows) in campaign.runs() {
-        let sound = rows.into_iter().filter(|row| campaign.gross_error(*row).is_none());
-        let mut states: Vec<_> = sound.filter_map(|row| Some((row, state(row)?))).collect();
-        let time = |row: usize| campaign.rows()[row].t_s;
-        states.sort_by(|(one, a), (other, b)| a.0.total_cmp(&b.0).then(time(*one).total_cmp(&time(*other))));
-        let mut single: Vec<(usize, (f64, f64))> = Vec::new();
-        for (row, (slip, load)) in states {
-            single.retain(|(_, (its_slip, _))| slip - its_slip <= LIKE_SLIP);
-            match single.iter().rposition(|(_, (_, its_load))| (load - its_load).abs() <= LIKE_LOAD * its_load.abs()) {
-                Some(place) => pairs.push((single.remove(place).0, row)),
-                None => single.push((row, (slip, load))),
-            }
-        }
-    }
-    pairs
+/// Pairs of rows of one run that are alike in slip and load; no row is in two pairs.
+fn of_each_run(campaign: &Campaign) -> Vec<[usize; 2]> {
+    let state = |place| {
+        let (slip, load_n) = (campaign.value(place, Channel::Slip)?, campaign.value(place, Channel::Load)?);
+        Some(WheelState { place, slip, load_n })
+    };
+    let pairs = |(_, mut rows): (&str, Vec<usize>)| {
+        rows.retain(|row| campaign.gross_error(*row).is_none());
+        rows.sort_by(|one, other| campaign.rows()[*one].t_s.total_cmp(&campaign.rows()[*other].t_s));
+        like_pairs(rows.into_iter().filter_map(state).collect(), LIKE_LOAD, Pairing::Apart, |_, _| true)
+    };
+    campaign.runs().into_iter().flat_map(pairs).collect()
 }
 
 /// Half the mean square of the differences is the variance, but for those of gross errors.
-fn from_pairs(campaign: &Campaign, pairs: &[(usize, usize)], channel: Channel) -> Option<f64> {
-    let difference =
-        |&(one, other): &(usize, usize)| Some(campaign.value(one, channel)? - campaign.value(other, channel)?);
+fn from_pairs(campaign: &Campaign, pairs: &[[usize; 2]], channel: Channel) -> Option<f64> {
+    let difference = |&[one, other]: &[usize; 2]| Some(campaign.value(one, channel)? - campaign.value(other, channel)?);
     let differences: Vec<f64> = pairs.iter().filter_map(difference).collect();
     // More than half of them are nothing where a logger rounds: then what is usual tells nothing.
     let usual = Some(robust_std(differences.iter().copied())).filter(|usual| *usual > 0.0).unwrap_or(f64::INFINITY);

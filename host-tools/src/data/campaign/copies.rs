@@ -8,9 +8,13 @@ use super::{Campaign, repeats};
 const FEWEST: usize = 12;
 
 impl Campaign {
-    /// Of each row whether its run says in every channel of the wheel's sensors, row by row, what an earlier run says. Such a run is no
-    /// independent one.
-    pub fn copies(&self) -> Vec<bool> {
+    /// Of each row whether its run, as the file has it, says in every channel of the wheel's sensors, row by row, what an earlier run says.
+    /// Such a run is no independent one.
+    pub fn copies(&self) -> &[bool] {
+        &self.copies
+    }
+
+    pub(super) fn find_copies(&self) -> Vec<bool> {
         let varying = repeats::varying(&self.columns);
         let mut firsts = HashMap::new();
         let mut copies = vec![false; self.rows.len()];

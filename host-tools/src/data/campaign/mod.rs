@@ -10,6 +10,7 @@ mod fingerprint;
 mod further_columns;
 mod gross_error;
 mod ground;
+pub mod like_rows;
 mod noise;
 mod repeats;
 
@@ -66,6 +67,7 @@ pub struct Campaign {
     rows: Vec<RowId>,
     columns: Vec<Measured>,
     repeats: usize,
+    copies: Vec<bool>,
     plausible: Plausible,
 }
 
@@ -74,6 +76,8 @@ pub struct Campaign {
 pub struct RowId {
     /// The run: rows of one run are correlated, and lie on one soil.
     pub run: String,
+    /// The run that the file has the row in.
+    pub run_in_file: String,
     /// Time within the run, s.
     pub t_s: f64,
     /// Line of the file, from 1.
@@ -137,12 +141,14 @@ impl Campaign {
             rows,
             columns,
             repeats,
+            copies: Vec::new(),
             plausible: Plausible::unknown(),
         };
         if campaign.rows.is_empty() {
             return Err(table.error_in_header("no rows below the header: expected one for each wheel and time"));
         }
         campaign.plausible = Plausible::of(&campaign);
+        campaign.copies = campaign.find_copies();
         campaign.check_units()?;
         unused.tell();
         Ok(campaign)
@@ -182,6 +188,11 @@ impl Campaign {
             runs[place].1.push(row);
         }
         runs
+    }
+
+    /// Whether the file has more than one run.
+    pub fn has_several_runs(&self) -> bool {
+        self.rows.windows(2).any(|pair| pair[0].run_in_file != pair[1].run_in_file)
     }
 
     /// The same with every row a run of its own, named after its run and its place from 1: for tests that were done one after
@@ -258,7 +269,8 @@ fn row_ids(table: &Table) -> Result<Vec<RowId>, HostError> {
         let t_s = table.number(row, t_s)?.ok_or_else(|| {
             table.error_at(row, t_s, "nothing here: expected the time in s, 0 for the mean over a window")
         })?;
-        Ok(RowId { run: on_one_line(name).to_string(), t_s, line: table.line(row) })
+        let run = on_one_line(name).to_string();
+        Ok(RowId { run_in_file: run.clone(), run, t_s, line: table.line(row) })
     };
     (0..table.len()).map(id).collect()
 }

@@ -1,10 +1,10 @@
 //! The load against its set levels.
 
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::Channel;
 
 use super::load_levels::{LoadLevels, LoadReading};
 use super::regression::{Problem, Term, without_gaps};
-use super::sources::{Source, available, complete_rows, run_numbers, varies};
+use super::sources::{SensorRows, Source};
 
 /// Powers of the slip that the forces are seen through.
 const POWERS: i32 = 4;
@@ -63,16 +63,17 @@ const SOURCES: [Source; 6] = [
 
 /// The load where it comes in levels, each with an intercept of its own; none where it does not, or where nothing moves that
 /// it could follow. A drift with temperature has no zero of its own here: the intercepts take it up.
-pub fn load_channel(campaign: &Campaign) -> Option<Problem> {
-    let sources = available(campaign, &SOURCES);
+pub fn load_channel(of: &SensorRows<'_>) -> Option<Problem> {
+    let campaign = of.campaign();
+    let sources = of.available(&SOURCES);
     let mut needed = vec![Channel::Load];
     needed.extend(sources.iter().map(|source| source.channel));
     let by_slip = sources.iter().any(|source| source.by_instruments);
     needed.extend(by_slip.then_some(Channel::Slip));
-    let angled = by_slip && varies(campaign, Channel::SlipAngle);
+    let angled = by_slip && of.varies(Channel::SlipAngle);
     needed.extend(angled.then_some(Channel::SlipAngle));
-    let rows = complete_rows(campaign, &needed);
-    let runs = run_numbers(campaign);
+    let rows = of.complete(&needed);
+    let runs = of.run_numbers();
     let value = |row: usize, channel| campaign.value(row, channel).unwrap_or(0.0);
     let loads: Vec<_> =
         rows.iter().map(|row| LoadReading { run: runs[*row], load_n: value(*row, Channel::Load) }).collect();
@@ -100,7 +101,7 @@ pub fn load_channel(campaign: &Campaign) -> Option<Problem> {
     };
     let terms: Vec<Term> = sources.iter().map(term).collect();
     (!terms.is_empty()).then(|| Problem {
-        channel: Channel::Load.name(),
+        channel: Channel::Load,
         readings_n: column(&|row, _| value(row, Channel::Load)),
         run: without_gaps(&kept.iter().map(|(row, _)| runs[*row]).collect::<Vec<_>>()),
         fixed: (0..levels.means_n.len()).map(intercept).collect(),

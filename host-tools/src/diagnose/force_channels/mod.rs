@@ -12,38 +12,53 @@ mod select;
 mod side_channel;
 mod sources;
 
-use crate::data::campaign::Campaign;
+use crate::data::campaign::{Campaign, Channel};
 
 use super::document::FoundEffect;
+use super::lone_rows::LoneRow;
+use sources::SensorRows;
 
-/// What the force channels say by themselves.
+/// What the force channels say by themselves: the load first, then the side force, where they say anything.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ForceChannels {
-    /// Effects on the load or the side force, in the order in which they were found, the load's first.
+pub struct ForceChannels(Vec<ForceChannel>);
+
+/// What one of them says by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceChannel {
+    /// The load or the side force.
+    pub channel: Channel,
+    /// Effects on it, in the order in which they were found.
     pub effects: Vec<FoundEffect>,
-    /// What these readings cannot tell apart, sentence by sentence.
+    /// What its readings cannot tell apart, sentence by sentence.
     pub caveats: Vec<String>,
 }
 
-/// The effects that load and side force show by themselves; none where the loads come in no levels, the wheel runs at a slip
-/// angle, or there are too few runs.
-pub fn force_channels(campaign: &Campaign) -> Vec<FoundEffect> {
-    examine(campaign).effects
+impl ForceChannels {
+    /// Effects on the load or the side force.
+    pub fn effects(&self) -> impl Iterator<Item = &FoundEffect> {
+        self.0.iter().flat_map(|of_channel| &of_channel.effects)
+    }
+
+    /// Effects on one of the two.
+    pub fn effects_on(&self, channel: Channel) -> impl Iterator<Item = &FoundEffect> {
+        self.0.iter().filter(move |of_channel| of_channel.channel == channel).flat_map(|of_channel| &of_channel.effects)
+    }
+
+    /// What these readings cannot tell apart, sentence by sentence.
+    pub fn caveats(&self) -> impl Iterator<Item = &String> {
+        self.0.iter().flat_map(|of_channel| &of_channel.caveats)
+    }
 }
 
-/// As [`force_channels`], with what these readings cannot tell apart.
-pub fn examine(campaign: &Campaign) -> ForceChannels {
-    let channels = [load_channel::load_channel(campaign), side_channel::side_channel(campaign)];
+/// The effects that load and side force show by themselves, apart from rows that are set aside; none where the loads come in no levels, the
+/// wheel runs at a slip angle, or there are too few runs.
+pub fn force_channels(campaign: &Campaign, set_aside: &[LoneRow]) -> ForceChannels {
+    let rows = SensorRows::of(campaign, set_aside);
+    let channels = [load_channel::load_channel(&rows), side_channel::side_channel(&rows)];
     let problems: Vec<_> = channels.into_iter().flatten().collect();
     // One family: what is tried on one channel makes chance finds on the other no rarer.
     let tried = problems.iter().map(|problem| problem.terms.len()).sum();
-    let mut found = ForceChannels::default();
-    for problem in &problems {
-        let of_channel = select::select(problem, tried);
-        found.effects.extend(of_channel.effects);
-        found.caveats.extend(of_channel.caveats);
-    }
-    found
+    ForceChannels(problems.iter().map(|problem| select::select(problem, tried)).collect())
 }
 
 #[cfg(test)]

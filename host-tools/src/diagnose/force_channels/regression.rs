@@ -1,10 +1,12 @@
 //! A force channel as a sum of terms.
 
+use crate::data::campaign::Channel;
+
 /// A channel and what it may follow, row by row.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// The channel's column.
-    pub channel: &'static str,
+    /// The channel.
+    pub channel: Channel,
     /// Its readings, N.
     pub readings_n: Vec<f64>,
     /// The run of each row, counted from 0 without gaps.

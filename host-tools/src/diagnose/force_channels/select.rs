@@ -9,7 +9,7 @@ use super::super::chance::over_all;
 use super::super::document::{Estimate, FoundEffect};
 use super::super::selection::{BEYOND_DOUBT, TELLS_APART};
 use super::super::unseen_runs::summed;
-use super::ForceChannels;
+use super::ForceChannel;
 use super::jackknife::{Jackknife, first_stage_strength};
 use super::regression::{Problem, Term};
 
@@ -46,18 +46,14 @@ impl Tried<'_> {
 }
 
 /// The terms of a channel beyond chance; `tried` terms make up the family that chance chooses from.
-pub fn select(problem: &Problem, tried: usize) -> ForceChannels {
+pub fn select(problem: &Problem, tried: usize) -> ForceChannel {
     let mut chosen: Vec<Tried<'_>> = Vec::new();
     let mut caveats = Vec::new();
-    while chosen.len() < MOST_TERMS {
-        let terms: Vec<&Term> = chosen.iter().map(|tried| tried.term).collect();
-        let mut step = significant(problem, &terms, tried);
+    let mut step = significant(problem, &[], tried);
+    while chosen.len() < MOST_TERMS && !step.is_empty() {
         step.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        if step.is_empty() {
-            break;
-        }
         let mut best = step.remove(0);
-        let beside: Vec<&Term> = terms.iter().copied().chain([best.term]).collect();
+        let beside: Vec<&Term> = chosen.iter().map(|tried| tried.term).chain([best.term]).collect();
         let left = significant(problem, &beside, tried);
         let is_rival = |other: &&Tried<'_>| {
             best.gain - other.gain < TELLS_APART && !left.iter().any(|tried| std::ptr::eq(tried.term, other.term))
@@ -68,8 +64,9 @@ pub fn select(problem: &Problem, tried: usize) -> ForceChannels {
         }
         best.not_told_from = other_effects(best.term, &rivals);
         chosen.push(best);
+        step = left;
     }
-    ForceChannels { effects: effects(problem, &chosen), caveats }
+    ForceChannel { channel: problem.channel, effects: effects(problem, &chosen), caveats }
 }
 
 /// The ids of terms that are of another effect, each once.
@@ -87,7 +84,7 @@ fn not_told_apart(problem: &Problem, best: &Term, rivals: &[&Term]) -> String {
     let rivals: Vec<String> = rivals.iter().map(|rival| rival.words()).collect();
     format!(
         "Force channels by themselves: {} follows {} best, but these readings do not tell that from {}.",
-        problem.channel,
+        problem.channel.name(),
         best.words(),
         rivals.join(" or ")
     )

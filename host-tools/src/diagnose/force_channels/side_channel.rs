@@ -1,9 +1,9 @@
 //! The side force of a wheel that runs straight: a symmetric wheel has none.
 
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::Channel;
 
 use super::regression::{Problem, Term, without_gaps};
-use super::sources::{Source, available, complete_rows, run_numbers, varies};
+use super::sources::{SensorRows, Source};
 
 /// Temperature of no offset, °C: the neutral one of the effect's catalogue entry.
 const REFERENCE_C: f64 = 20.0;
@@ -45,17 +45,18 @@ const SOURCES: [Source; 4] = [
 ];
 
 /// The side force; none where it is not measured, or the wheel runs at an angle.
-pub fn side_channel(campaign: &Campaign) -> Option<Problem> {
+pub fn side_channel(of: &SensorRows<'_>) -> Option<Problem> {
+    let campaign = of.campaign();
     let angles = campaign.column(Channel::SlipAngle.name());
     let angled = angles.is_some_and(|column| column.iter().flatten().any(|angle| *angle != 0.0));
-    if angled || !varies(campaign, Channel::SideForce) {
+    if angled || !of.varies(Channel::SideForce) {
         return None;
     }
-    let sources = available(campaign, &SOURCES);
+    let sources = of.available(&SOURCES);
     let mut needed = vec![Channel::SideForce];
     needed.extend(sources.iter().map(|source| source.channel));
-    let rows = complete_rows(campaign, &needed);
-    let runs = run_numbers(campaign);
+    let rows = of.complete(&needed);
+    let runs = of.run_numbers();
     let column = |channel: Channel, of: fn(f64) -> f64| {
         rows.iter().map(|row| campaign.value(*row, channel).map_or(0.0, of)).collect::<Vec<f64>>()
     };
@@ -74,7 +75,7 @@ pub fn side_channel(campaign: &Campaign) -> Option<Problem> {
         by_instruments: source.by_instruments,
     };
     Some(Problem {
-        channel: Channel::SideForce.name(),
+        channel: Channel::SideForce,
         readings_n: column(Channel::SideForce, |side_n| side_n),
         run: without_gaps(&rows.iter().map(|row| runs[*row]).collect::<Vec<_>>()),
         fixed: Vec::new(),

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::{Campaign, Channel, RowId};
+use crate::diagnose::lone_rows::LoneRow;
 use crate::diagnose::measurements::KNOWN_SHARE;
 
 /// A column that an effect makes a force channel follow.
@@ -22,34 +23,54 @@ pub struct Source {
     pub by_instruments: bool,
 }
 
-/// The sources whose columns most rows have, and that vary.
-pub fn available(campaign: &Campaign, sources: &'static [Source]) -> Vec<&'static Source> {
-    let slips = varies(campaign, Channel::Slip);
-    let usable = |source: &&Source| varies(campaign, source.channel) && (slips || !source.by_instruments);
-    sources.iter().filter(usable).collect()
+/// The rows of a campaign in which its sensors count.
+#[derive(Debug)]
+pub struct SensorRows<'a> {
+    campaign: &'a Campaign,
+    rows: Vec<usize>,
 }
 
-/// Whether most rows have a channel, and it is not the same in all; gross errors aside.
-pub fn varies(campaign: &Campaign, channel: Channel) -> bool {
-    let sound: Vec<usize> = campaign.sound_rows().collect();
-    let values: Vec<f64> = sound.iter().filter_map(|row| campaign.value(*row, channel)).collect();
-    let first = values.first().copied().unwrap_or(0.0);
-    values.len() as f64 >= KNOWN_SHARE * sound.len() as f64
-        && values.iter().any(|value| (value - first).abs() > 1e-9 * first.abs())
-}
+impl<'a> SensorRows<'a> {
+    /// All but those with a gross error, which would hide what all others show, copies of other rows, and those that are set aside.
+    pub fn of(campaign: &'a Campaign, set_aside: &[LoneRow]) -> Self {
+        let copies = campaign.copies();
+        let counts = |row: &usize| !copies[*row] && set_aside.iter().all(|lone| lone.place != *row);
+        Self { campaign, rows: campaign.sound_rows().filter(counts).collect() }
+    }
 
-/// The rows that have all of these channels, but for those with a gross error: one would hide what all others show.
-pub fn complete_rows(campaign: &Campaign, needed: &[Channel]) -> Vec<usize> {
-    let has_all = |row: &usize| needed.iter().all(|channel| campaign.value(*row, *channel).is_some());
-    campaign.sound_rows().filter(has_all).collect()
-}
+    /// The campaign.
+    pub fn campaign(&self) -> &'a Campaign {
+        self.campaign
+    }
 
-/// The number of each row's run.
-pub fn run_numbers(campaign: &Campaign) -> Vec<usize> {
-    let mut numbers = HashMap::new();
-    let number = |row: &crate::data::campaign::RowId| {
-        let next = numbers.len();
-        *numbers.entry(row.run.clone()).or_insert(next)
-    };
-    campaign.rows().iter().map(number).collect()
+    /// The sources whose columns most rows have, and that vary.
+    pub fn available(&self, sources: &'static [Source]) -> Vec<&'static Source> {
+        let slips = self.varies(Channel::Slip);
+        let usable = |source: &&Source| self.varies(source.channel) && (slips || !source.by_instruments);
+        sources.iter().filter(usable).collect()
+    }
+
+    /// Whether most rows have a channel, and it is not the same in all.
+    pub fn varies(&self, channel: Channel) -> bool {
+        let values: Vec<f64> = self.rows.iter().filter_map(|row| self.campaign.value(*row, channel)).collect();
+        let first = values.first().copied().unwrap_or(0.0);
+        values.len() as f64 >= KNOWN_SHARE * self.rows.len() as f64
+            && values.iter().any(|value| (value - first).abs() > 1e-9 * first.abs())
+    }
+
+    /// The rows that have all of these channels, by their places in the campaign.
+    pub fn complete(&self, needed: &[Channel]) -> Vec<usize> {
+        let has_all = |row: &&usize| needed.iter().all(|channel| self.campaign.value(**row, *channel).is_some());
+        self.rows.iter().filter(has_all).copied().collect()
+    }
+
+    /// The number of each row's run, of all rows of the campaign.
+    pub fn run_numbers(&self) -> Vec<usize> {
+        let mut numbers = HashMap::new();
+        let number = |row: &'a RowId| {
+            let next = numbers.len();
+            *numbers.entry(row.run.as_str()).or_insert(next)
+        };
+        self.campaign.rows().iter().map(number).collect()
+    }
 }

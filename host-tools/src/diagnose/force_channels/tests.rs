@@ -84,9 +84,13 @@ impl Made {
     }
 }
 
+fn found(campaign: &Campaign) -> Vec<FoundEffect> {
+    force_channels(campaign, &[]).effects().cloned().collect()
+}
+
 /// The one effect found, and how far its parameter is from the truth in standard deviations.
 fn is_found(made: &Made, seed: u64, (id, form, parameter): (&str, &str, &str), truth: f64) {
-    let found = force_channels(&made.campaign(seed));
+    let found = found(&made.campaign(seed));
     let [effect] = found.as_slice() else { panic!("{form}: {found:?}") };
     assert_eq!((effect.id.as_str(), effect.form.as_str()), (id, form));
     let estimate = effect.parameters[parameter];
@@ -121,7 +125,7 @@ fn a_gross_error_hides_nothing() {
     let side = text.lines().nth(1).and_then(|row| row.rsplit(',').nth(2)).expect("a side force");
     let spoiled = Campaign::parse(Path::new("made.csv"), &text.replacen(side, "2000", 1), TOML).expect("a campaign");
     assert!(spoiled.gross_error(0).is_some());
-    let [sound, beside] = [&made.campaign(5), &spoiled].map(force_channels);
+    let [sound, beside] = [&made.campaign(5), &spoiled].map(found);
     let size = |found: &[FoundEffect]| found[0].parameters["side_force_n"].value;
     assert!(beside.len() == 1 && (size(&beside) - size(&sound)).abs() < 0.1, "{beside:?}, {sound:?}");
 }
@@ -129,15 +133,15 @@ fn a_gross_error_hides_nothing() {
 #[test]
 fn torque_is_told_from_drawbar_pull_or_the_doubt_is_said() {
     let made = Made { law: |at| (1.5 * at.torque_nm, 0.0), runs: 60, ..PLAIN };
-    let found = examine(&made.campaign(9));
-    let names = found.effects.iter().map(|effect| effect.form.as_str()).chain(found.caveats.iter().map(String::as_str));
+    let found = force_channels(&made.campaign(9), &[]);
+    let names = found.effects().map(|effect| effect.form.as_str()).chain(found.caveats().map(String::as_str));
     assert!(names.into_iter().any(|name| name.contains("torque into load")), "{found:?}");
 }
 
 #[test]
 fn two_laws_are_found_one_after_the_other() {
     let made = Made { law: |at| (-0.25 * at.pull_n.abs() + 0.8 * at.hours, 0.0), runs: 50, ..PLAIN };
-    let found = force_channels(&made.campaign(10));
+    let found = found(&made.campaign(10));
     let mut ids: Vec<&str> = found.iter().map(|effect| effect.id.as_str()).collect();
     ids.sort_unstable();
     assert_eq!(ids, ["force-drift", "guide-friction"]);
@@ -154,7 +158,7 @@ fn clean_campaigns_show_nothing() {
         Made { runs: 60, rows_per_run: 6, levels_n: &[20.0, 40.0, 80.0], jitter: 0.04, ..PLAIN },
     ];
     let each = 80;
-    let fired = |made: &Made| (0..each).filter(|seed| !force_channels(&made.campaign(100 + seed)).is_empty()).count();
+    let fired = |made: &Made| (0..each).filter(|seed| !found(&made.campaign(100 + seed)).is_empty()).count();
     let alarms: Vec<usize> = layouts.iter().map(fired).collect();
     assert!(alarms.iter().sum::<usize>() as f64 <= 0.02 * (each as usize * layouts.len()) as f64, "{alarms:?}");
 }
@@ -162,16 +166,16 @@ fn clean_campaigns_show_nothing() {
 #[test]
 fn one_run_constant_slip_and_equal_loads_say_nothing_of_the_load() {
     let law: Law = |at| (-0.3 * at.pull_n.abs(), 0.0);
-    assert_eq!(force_channels(&Made { runs: 1, rows_per_run: 40, law, ..PLAIN }.campaign(11)), []);
+    assert_eq!(found(&Made { runs: 1, rows_per_run: 40, law, ..PLAIN }.campaign(11)), []);
     let equal = "run,t_s,slip,load_n,drawbar_pull_n\n".to_owned()
         + &(0..20)
             .map(|run| format!("r{run},0,{},50,{}\n", 0.04 * f64::from(run), 0.5 * f64::from(run)))
             .collect::<String>();
     let equal = Campaign::parse(Path::new("equal.csv"), &equal, TOML).expect("a campaign");
-    assert_eq!(force_channels(&equal), []);
+    assert_eq!(found(&equal), []);
     // At one slip the forces follow the scatter of the load, and nothing tells which follows which.
     let jittered = Made { jitter: 0.05, levels_n: &[60.0], still: true, ..PLAIN };
-    assert_eq!(force_channels(&jittered.campaign(12)), []);
+    assert_eq!(found(&jittered.campaign(12)), []);
 }
 
 /// Load lost per horizontal force on the rig's measured steady runs: 0.135 ± 0.015 by a least-squares line through them
@@ -179,9 +183,9 @@ fn one_run_constant_slip_and_equal_loads_say_nothing_of_the_load() {
 #[test]
 fn the_measured_rig_loses_load_and_its_side_force_drifts() {
     let campaign = Carried::CmuSmoothStraight.campaign().expect("the project's own figures");
-    let found = examine(&campaign);
-    let mu = found.effects.iter().find_map(|effect| effect.parameters.get("mu")).expect("guide friction");
+    let found = force_channels(&campaign, &[]);
+    let mu = found.effects().find_map(|effect| effect.parameters.get("mu")).expect("guide friction");
     assert!((mu.value - 0.135).abs() < 0.003 && (mu.std - 0.015).abs() < 0.002, "{mu:?}");
-    let side = found.effects.iter().find_map(|effect| effect.parameters.get("side_force_n_per_h")).expect("a drift");
+    let side = found.effects().find_map(|effect| effect.parameters.get("side_force_n_per_h")).expect("a drift");
     assert!((side.value - 0.23).abs() < 0.06 && side.std < 0.06, "{side:?}");
 }

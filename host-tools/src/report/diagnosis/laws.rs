@@ -110,7 +110,7 @@ pub fn unexplained(unexplained: &[Unexplained]) -> Markup {
                         @for entry in unexplained {
                             tr {
                                 td { (Quantity::of_column(&entry.channel).name) }
-                                td { code { (entry.regressor) } }
+                                td { @if entry.is_along_runs() { "its runs, along " } code { (entry.regressor) } }
                                 td { (significant(100.0 * entry.share_of_variance, 2)) " %" }
                                 td { (probability(entry.p_value)) }
                             }

@@ -123,8 +123,9 @@ fn left(diagnosis: &Diagnosis) -> String {
         text += "nothing is left that follows any column beyond chance\n";
     }
     for entry in &diagnosis.unexplained {
+        let follows = if entry.is_along_runs() { "changes along runs with" } else { "follows" };
         let line = format!(
-            "left unexplained: {} follows {} ({} % of its variance, p = {})",
+            "left unexplained: {} {follows} {} ({} % of its variance, p = {})",
             entry.channel,
             entry.regressor,
             significant(100.0 * entry.share_of_variance, 2),

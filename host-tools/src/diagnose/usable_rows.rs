@@ -1,0 +1,101 @@
+//! The rows that a diagnosis can use, and why it leaves out the others.
+
+use std::collections::BTreeMap;
+
+use crate::data::campaign::Campaign;
+use crate::digits::counted;
+use crate::error::HostError;
+
+use super::document::LeftOut;
+use super::fit::{CHANNELS, Reading};
+use super::lone_rows::LoneRow;
+use super::measurements::COLUMNS;
+
+/// Slip below which a row is braking. A slip zero that is off by a few per cent does not make a driven wheel one that brakes.
+const BRAKING: f64 = -0.05;
+
+/// A row that can be used.
+#[derive(Debug, Clone, Copy)]
+pub struct UsableRow {
+    /// Its place in the campaign.
+    pub place: usize,
+    /// What was read.
+    pub readings: [Option<f64>; CHANNELS],
+}
+
+/// Why a row is left out, in the order in which reasons are told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Reason {
+    NothingToJudge,
+    Braking,
+    GrossError,
+    FarOut,
+    Copy,
+}
+
+impl Reason {
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::NothingToJudge => "nothing to judge: no slip, neither load nor sinkage, or nothing else",
+            Self::Braking => "braking",
+            Self::GrossError => "gross errors: a force or sinkage that no wheel can have felt",
+            Self::FarOut => "far out of what all other rows say",
+            Self::Copy => "copies: in runs that say, row by row, what another run says",
+        }
+    }
+}
+
+/// The rows that can be used, in the order of the campaign, and how many others are left out for what; those that stand alone are named.
+///
+/// # Errors
+/// Where no row is left.
+pub fn usable_rows(
+    campaign: &Campaign,
+    braking: bool,
+    lone: &[LoneRow],
+) -> Result<(Vec<UsableRow>, Vec<LeftOut>), HostError> {
+    let mut usable = Vec::new();
+    let mut left_out = BTreeMap::<Reason, usize>::new();
+    for (place, is_copy) in campaign.copies().iter().enumerate() {
+        let readings = COLUMNS.map(|channel| campaign.value(place, channel));
+        let brakes = readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING);
+        let reasons = [
+            (!has_something_to_judge(&readings), Reason::NothingToJudge),
+            (!braking && brakes, Reason::Braking),
+            (campaign.gross_error(place).is_some(), Reason::GrossError),
+            (lone.iter().any(|lone| lone.place == place), Reason::FarOut),
+            (*is_copy, Reason::Copy),
+        ];
+        match reasons.into_iter().find(|(holds, _)| *holds) {
+            Some((_, reason)) => *left_out.entry(reason).or_default() += 1,
+            None => usable.push(UsableRow { place, readings }),
+        }
+    }
+    if usable.is_empty() {
+        let braking = left_out.get(&Reason::Braking).copied().unwrap_or_default();
+        return Err(campaign.error(nothing_usable(braking)));
+    }
+    let told = left_out.into_iter().map(|(reason, rows)| LeftOut { reason: reason.in_words().to_owned(), rows });
+    Ok((usable, told.collect()))
+}
+
+/// What is said where no row is left, of which so many brake.
+fn nothing_usable(braking: usize) -> String {
+    let missing = "no row that drives and has a slip, a load or a sinkage, and a force or a sinkage to judge";
+    match braking {
+        0 => missing.to_owned(),
+        _ => format!("{missing}; {} below slip {BRAKING}: --braking takes such rows as well", rows_are(braking)),
+    }
+}
+
+fn rows_are(rows: usize) -> String {
+    format!("{} {}", counted(rows as u64, "row", "rows"), if rows == 1 { "is" } else { "are" })
+}
+
+/// A slip, what determines the sinkage, and something to judge that by.
+fn has_something_to_judge(readings: &[Option<f64>; CHANNELS]) -> bool {
+    let has = |reading: Reading| readings[reading.index()].is_some();
+    let forces = [Reading::DrawbarPull, Reading::Torque, Reading::SideForce].into_iter().filter(|r| has(*r)).count();
+    let carried = has(Reading::Load);
+    has(Reading::Slip) && ((carried && (forces > 0 || has(Reading::Sinkage))) || (has(Reading::Sinkage) && forces > 0))
+}
