@@ -75,6 +75,23 @@ fn the_split_states_its_errors_where_one_wheel_bears_far_more_than_the_other() {
     }
 }
 
+/// A bogie that backs up: pull and torque are those of the mirror image, whatever each wheel bears.
+#[test]
+fn wheels_that_back_up_split_their_pull_as_their_mirror_image_does() {
+    let wheel = |load_n, rim_force_n, slip| BogieWheel { load_n, rim_force_n, slip, direction: 1.0 };
+    for (middle, rear, sum_n) in [
+        (wheel(100.0, 22.0, 0.3), wheel(40.0, 9.0, 0.1), 8.0),
+        (wheel(65.0, 12.0, -0.1), wheel(66.0, 18.0, 0.2), -4.0),
+        (wheel(20.0, 3.0, 0.05), wheel(120.0, 30.0, 0.4), 15.0),
+    ] {
+        let back = |wheel: &BogieWheel<f64>| BogieWheel { rim_force_n: -wheel.rim_force_n, direction: -1.0, ..*wheel };
+        let forward = DrawbarSplit::by_torque(&middle, &rear, sum_n);
+        let backward = DrawbarSplit::by_torque(&back(&middle), &back(&rear), -sum_n);
+        assert!((forward.difference_n + backward.difference_n).abs() < 1e-12, "{forward:?}, {backward:?}");
+        assert_eq!(forward.std_n, backward.std_n);
+    }
+}
+
 /// Errors of filter 2 may make a load negative.
 #[test]
 fn wheels_whose_loads_sum_to_nothing_have_a_split() {

@@ -178,16 +178,22 @@ impl<S: Scalar> Attitude<S> {
     fn turn(&mut self, gyro: Axes<Option<S>>, step_s: S, noise_rad_s: S) {
         let known = gyro.y.is_some();
         let turn = gyro.map(|rate| rate.unwrap_or(S::zero()));
-        let Axes { x, y, z } = self.specific_force;
-        let in_plane_squared = x * x + z * z;
-        let coupling =
-            if in_plane_squared > S::zero() { y * (turn.z * z + turn.x * x) / in_plane_squared } else { S::zero() };
         let rate_std = if known { noise_rad_s } else { S::constant(UNSEEN_TURN) };
-        self.rate_rad_s = (coupling - turn.y, rate_std);
+        self.rate_rad_s = (pitch_rate(turn, self.specific_force), rate_std);
         self.pitch.mean += step_s * self.rate_rad_s.0;
         let drift = step_s * rate_std;
         self.pitch.variance = (self.pitch.variance + drift * drift).min(S::one());
     }
+}
+
+/// How fast gravity turns nose-up in the plane of the sides, rad/s, where a body turns at these rates, rad/s, and this is felt: one that leans
+/// to a side pitches by yawing.
+pub fn pitch_rate<S: Scalar>(turn: Axes<S>, felt: Axes<S>) -> S {
+    let Axes { x, y, z } = felt;
+    let in_plane_squared = x * x + z * z;
+    let coupling =
+        if in_plane_squared > S::zero() { y * (turn.z * z + turn.x * x) / in_plane_squared } else { S::zero() };
+    coupling - turn.y
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::load_shift::LoadShift;
 use super::roughness::{ANGLE_DRIFT, Motion, RATIO_DRIFT, Roughness, of_front_alone, of_unlike};
 use super::runs::Runs;
 use super::trend::{Trends, beside_trend, restlessness};
+use super::troubles::Troubles;
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Gate, Gaussian, Innovation, SigmaPointFilter};
 use crate::rover::{PerAxle, Planar, RollingMotion, RollingSide, Rover, SensorNoise, hub_speed_slopes};
@@ -251,9 +252,9 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.roughness.restart();
     }
 
-    /// How often the filter fell back to its floor, and how often it gave up what it believed.
-    pub fn troubles(&self) -> (u32, u32) {
-        (self.filter.resets(), self.watch.relearned())
+    /// How often the filter was in trouble.
+    pub fn troubles(&self) -> Troubles {
+        Troubles { resets: self.filter.resets(), relearned: self.watch.relearned() }
     }
 
     /// Carries the state a step further, with rims that move at `rim_speed_m_s`, and takes what was measured.

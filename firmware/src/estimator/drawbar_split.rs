@@ -70,7 +70,9 @@ impl<S: Scalar> DrawbarSplit<S> {
             // Where one bears all it is 1; errors of filter 2 may make a load negative.
             let uneven = unequal_load / loads;
             (S::constant(OF_PULL) * sum_n - S::constant(OF_TORQUES) * torques) / loads
-                + S::constant(4.0 * OF_LOAD_CUBED) * ((uneven * uneven).min(S::one()) - S::constant(EVEN_SHARE))
+                + middle.direction
+                    * S::constant(4.0 * OF_LOAD_CUBED)
+                    * ((uneven * uneven).min(S::one()) - S::constant(EVEN_SHARE))
         } else {
             S::zero()
         };

@@ -17,6 +17,7 @@ use super::runs::Runs;
 use super::scale::Scale;
 use super::slip_torque::TORQUE_DRIFT_NM;
 use super::trend::{Trends, beside_trend, restlessness};
+use super::troubles::Troubles;
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Fate, Gaussian, Innovation, SigmaPointFilter};
@@ -143,9 +144,9 @@ impl<S: Scalar> HubForceFilter<S> {
         self.held
     }
 
-    /// How often the filter fell back to its floor, and how often it gave up what it believed.
-    pub fn troubles(&self) -> (u32, u32) {
-        (self.filter.resets(), self.watch.relearned())
+    /// How often the filter was in trouble.
+    pub fn troubles(&self) -> Troubles {
+        Troubles { resets: self.filter.resets(), relearned: self.watch.relearned() }
     }
 
     /// A wheel stands or has just started: the forces are not what they were a frame ago.

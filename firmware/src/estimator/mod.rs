@@ -64,15 +64,18 @@ mod swing;
 mod told_by_torque;
 mod track;
 mod trend;
+mod troubles;
 mod turn;
 mod walk_rate;
 mod watch;
 mod wheel_frame;
 mod whole_balance;
 
+pub use attitude::pitch_rate;
 pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 pub use health::{EstimatorHealth, PerSensor, SensorHealth};
 pub use rover_estimator::{RoverEstimator, Taken};
 pub use sensor::{Axis, Sensor};
 pub use side_estimate::{Believed, WheelCovariance};
 pub use side_estimator::SideInnovations;
+pub use troubles::Troubles;

@@ -8,6 +8,7 @@ use super::side_estimate::{Believed, HubForces, WheelCovariance};
 use super::side_estimator::{SideEstimator, SideInnovations};
 use super::side_frame::SideFrame;
 use super::surprise::Surprises;
+use super::troubles::Troubles;
 use super::whole_balance::{Steadiness, balanced};
 use crate::rover::{PerSide, PerWheel, Rover, Side};
 use crate::scalar::Scalar;
@@ -36,7 +37,7 @@ struct Common<S> {
     gates: SensorGates,
     attitude: Attitude<S>,
     health: EstimatorHealth,
-    troubles_before: (u32, u32),
+    troubles_before: Troubles,
     last_time_us: Option<u64>,
     from_the_past: u8,
 }
@@ -49,7 +50,7 @@ impl<S: Scalar> Common<S> {
             gates: SensorGates::new(&rover.map(Scalar::to_f32)),
             attitude: Attitude::new(rover.gravity_m_s2),
             health: EstimatorHealth::NOTHING,
-            troubles_before: (0, 0),
+            troubles_before: Troubles::default(),
             last_time_us: None,
             from_the_past: 0,
         }
@@ -226,19 +227,17 @@ impl<S: Scalar> RoverEstimator<S> {
         self.common.attitude = Attitude::new(self.common.rover.gravity_m_s2);
         let rover = self.common.rover;
         self.start_sides(&rover);
-        self.common.troubles_before = (0, 0);
+        self.common.troubles_before = Troubles::default();
     }
 
     /// Adds what the filters counted since the frame before.
     fn note_troubles(&mut self) {
-        let now =
-            self.sides.as_array().into_iter().flatten().map(SideEstimator::troubles).fold((0, 0), |sum, of_side| {
-                (u32::saturating_add(sum.0, of_side.0), u32::saturating_add(sum.1, of_side.1))
-            });
-        let before = core::mem::replace(&mut self.common.troubles_before, now);
+        let of_sides = self.sides.as_array().into_iter().flatten().map(SideEstimator::troubles);
+        let now = of_sides.fold(Troubles::default(), Troubles::plus);
+        let new = now.since(core::mem::replace(&mut self.common.troubles_before, now));
         let health = &mut self.common.health;
-        health.filter_resets = health.filter_resets.saturating_add(now.0.saturating_sub(before.0));
-        health.relearned = health.relearned.saturating_add(now.1.saturating_sub(before.1));
+        health.filter_resets = health.filter_resets.saturating_add(new.resets);
+        health.relearned = health.relearned.saturating_add(new.relearned);
     }
 }
 

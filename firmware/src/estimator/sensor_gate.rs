@@ -15,7 +15,7 @@ const PROBATION: u8 = 5;
 /// The most that a rover does. Rims and the body move at so much, m/s; links lie at so much, rad, and the body turns at so much, rad/s.
 const FASTEST_M_S: f32 = 2.0;
 const STEEPEST_RAD: f32 = 1.6;
-const FASTEST_TURN_RAD_S: f32 = 5.0;
+const FASTEST_TURN_RAD_S: f32 = 2.0;
 /// A wheel bears so many times the rover's weight, and its drive so many times its torque at the rim; accelerometers feel so many g.
 const MOST_WEIGHTS: f32 = 3.0;
 const MOST_GRAVITIES: f32 = 5.0;

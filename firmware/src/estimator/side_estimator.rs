@@ -22,6 +22,7 @@ use super::slip_by_speeds::SpeedReadings;
 use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use super::track::{Met, Track};
+use super::troubles::Troubles;
 use super::turn::Turn;
 use super::wheel_frame::WheelFrame;
 use crate::filter::Innovation;
@@ -128,12 +129,11 @@ impl<S: Scalar> SideEstimator<S> {
         }
     }
 
-    /// How often a filter fell back to its floor, and how often one gave up what it believed.
-    pub fn troubles(&self) -> (u32, u32) {
+    /// How often its filters were in trouble.
+    pub fn troubles(&self) -> Troubles {
         let of_wheels = self.wheels.as_array().map(SlipTorqueFilter::troubles);
-        of_wheels.into_iter().chain([self.angles.troubles(), self.forces.troubles()]).fold((0, 0), |sum, of_filter| {
-            (u32::saturating_add(sum.0, of_filter.0), u32::saturating_add(sum.1, of_filter.1))
-        })
+        let all = of_wheels.into_iter().chain([self.angles.troubles(), self.forces.troubles()]);
+        all.fold(Troubles::default(), Troubles::plus)
     }
 
     /// What the measurements told in the last frame.

@@ -19,6 +19,7 @@ use super::scale::Scale;
 use super::slip_by_speeds::SpeedReadings;
 use super::swing::Swing;
 use super::trend::Trends;
+use super::troubles::Troubles;
 use super::walk_rate::{Noise, WalkRate};
 use super::watch::{Contradiction, Watch};
 use crate::filter::{Fate, Gaussian, Innovation, SigmaPointFilter};
@@ -170,9 +171,9 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         motor_torque_nm - self.inertia.takes_nm(std_nm)
     }
 
-    /// How often the filter fell back to its floor, and how often it gave up what it believed.
-    pub fn troubles(&self) -> (u32, u32) {
-        (self.filter.resets(), self.watch.relearned())
+    /// How often the filter was in trouble.
+    pub fn troubles(&self) -> Troubles {
+        Troubles { resets: self.filter.resets(), relearned: self.watch.relearned() }
     }
 
     /// The wheel stands, or has just started: torque and slip are not what they were a frame ago.

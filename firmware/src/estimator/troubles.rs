@@ -1,0 +1,28 @@
+//! How often filters were in trouble.
+
+/// Counts, which stop at their greatest value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Troubles {
+    /// A filter fell back to its floor.
+    pub resets: u32,
+    /// A filter gave up what it believed.
+    pub relearned: u32,
+}
+
+impl Troubles {
+    /// Those of two filters together.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            resets: self.resets.saturating_add(other.resets),
+            relearned: self.relearned.saturating_add(other.relearned),
+        }
+    }
+
+    /// Those that came since `before`.
+    pub fn since(self, before: Self) -> Self {
+        Self {
+            resets: self.resets.saturating_sub(before.resets),
+            relearned: self.relearned.saturating_sub(before.relearned),
+        }
+    }
+}
