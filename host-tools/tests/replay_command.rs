@@ -188,7 +188,7 @@ fn a_sensor_in_other_units_is_told_of() {
         let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
         let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
         for words in [
-            "bogie_angle_l_rad says more than a rover can do in nearly all frames",
+            "bogie_angle_l_rad says more than a rover can do in nearly all readings",
             "out of range: bogie_angle_l_rad 61",
         ] {
             assert!(told.contains(words), "{subcommand}: {told}");

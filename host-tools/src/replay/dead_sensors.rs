@@ -3,19 +3,19 @@
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::{DRIVING_M_S, wide};
+use super::raw_sensors::drives;
 use crate::data::sensor_channels::{names, values};
 
 /// Fewest readings that tell, and the share of them that has to be zero.
 const LEAST_READINGS: u32 = 50;
 const MOST_SAY: f64 = 0.9;
-/// The fewest of six wheels that turn where a rover drives.
-const MOST_WHEELS: usize = 4;
 
 /// How columns begin that may say exact zeros: encoders of wheels that are blocked, and what goes sideways where that is left out.
 const MAY_BE_ZERO: [&str; 5] = ["wheel_rate_", "gyro_x", "gyro_z", "velocity_y", "accel_y"];
-/// Of which these say something else wherever sensors have noise.
-const SIDEWAYS: [&str; 3] = ["gyro_x", "gyro_z", "velocity_y"];
+/// Those which say something else wherever sensors have noise, on a plane, too.
+const NOISY: [&str; 7] = ["gyro_x", "gyro_z", "velocity_y", "bogie_angle_", "rocker_angle_", "gyro_y", "velocity_z"];
+/// How columns begin that are done without where they say zero.
+const DONE_WITHOUT: [&str; 2] = ["load_cell_", "motor_torque_"];
 /// How columns begin that are exactly zero on a plane, where there is no noise.
 const ZERO_ON_A_PLANE: [&str; 5] = ["bogie_angle_", "rocker_angle_", "gyro_y", "accel_x", "velocity_z"];
 
@@ -42,7 +42,7 @@ impl DeadSensors {
 
     /// Takes a frame: one in which the rover drives.
     pub fn take(&mut self, frame: &SensorFrame) {
-        if !self.drives(frame) {
+        if !drives(frame, self.radius_m) {
             return;
         }
         for (said, reading) in self.sensors.iter_mut().zip(values(frame)) {
@@ -51,28 +51,26 @@ impl DeadSensors {
         }
     }
 
-    /// By the velocimeter or by most of the encoders: either of them may be dead.
-    fn drives(&self, frame: &SensorFrame) -> bool {
-        let moves = |speed_m_s: f64| speed_m_s.abs() > DRIVING_M_S;
-        let turns = |rate_rad_s: f64| moves(self.radius_m * rate_rad_s);
-        let turning = frame.wheels.iter_wheels().filter(|wheel| wide(wheel.rate_rad_s).is_some_and(turns)).count();
-        turning >= MOST_WHEELS || wide(frame.velocity_m_s.x).is_some_and(moves)
-    }
-
     /// What came of it, without capital and stop.
     pub fn told(&self) -> Option<String> {
         let named = || names().into_iter().zip(&self.sensors);
-        let has_noise = named().any(|(name, said)| begins(&name, &SIDEWAYS) && said.zeros < said.readings);
+        let has_noise = named().any(|(name, said)| begins(&name, &NOISY) && said.zeros < said.readings);
         let may_be_zero = |name: &str| begins(name, &MAY_BE_ZERO) || !has_noise && begins(name, &ZERO_ON_A_PLANE);
-        let dead: Vec<String> = named()
-            .filter(|(name, said)| said.is_dead() && !may_be_zero(name))
-            .map(|(name, Said { readings, zeros })| format!("{name} (in {zeros} of {readings} frames)"))
-            .collect();
-        let [says, it] = if dead.len() == 1 { ["says", "it"] } else { ["say", "them"] };
+        let dead: Vec<_> = named().filter(|(name, said)| said.is_dead() && !may_be_zero(name)).collect();
+        let in_words =
+            |(name, said): &(String, &Said)| format!("{name} (in {} of {} frames)", said.zeros, said.readings);
+        let all: Vec<String> = dead.iter().map(in_words).collect();
+        let believed: Vec<&str> =
+            dead.iter().map(|(name, _)| name.as_str()).filter(|name| !begins(name, &DONE_WITHOUT)).collect();
+        let then = match believed.len() {
+            0 => "and it is done without".to_owned(),
+            _ => format!("and what rests on {} is wrong", believed.join(", ")),
+        };
         (!dead.is_empty()).then(|| {
             format!(
-                "{} {says} exactly 0 while the rover drives: a sensor that is not there is an empty field, and what rests on {it} is wrong",
-                dead.join(", ")
+                "{} {} exactly 0 while the rover drives: a sensor that is not there is an empty field, {then}",
+                all.join(", "),
+                if dead.len() == 1 { "says" } else { "say" }
             )
         })
     }
@@ -123,7 +121,9 @@ mod tests {
         // The encoders tell that it drives.
         let told = dead(&["velocity_x_m_s", "load_cell_rr_n"], 60).expect("two dead sensors");
         let both = "load_cell_rr_n (in 60 of 60 frames), velocity_x_m_s (in 60 of 60 frames) say exactly 0";
-        assert!(told.starts_with(both), "{told}");
+        assert!(told.starts_with(both) && told.ends_with("what rests on velocity_x_m_s is wrong"), "{told}");
+        let told = dead(&["load_cell_rr_n"], 60).expect("a dead cell");
+        assert!(told.ends_with("is an empty field, and it is done without"), "{told}");
     }
 
     #[test]
@@ -134,6 +134,14 @@ mod tests {
         // A wheel that is lifted for most of the drive, and a rover that stands.
         assert_eq!(said(100, |name, number| if name == "load_cell_fl_n" && number > 11 { 0.0 } else { 0.5 }), None);
         assert_eq!(said(100, |name, _| if name.starts_with("load_cell") { 70.0 } else { 0.0 }), None);
+    }
+
+    /// What goes sideways may be left out: any other sensor that has noise tells that a plane makes no zeros.
+    #[test]
+    fn a_dead_joint_is_named_where_nothing_goes_sideways() {
+        let sideways = |name: &str| begins(name, &["gyro_x", "gyro_z", "velocity_y"]);
+        let told = said(100, |name, _| if sideways(name) || name.starts_with("rocker") { 0.0 } else { 0.5 });
+        assert!(told.as_ref().is_some_and(|told| told.starts_with("rocker_angle_rad (in 100")), "{told:?}");
     }
 
     /// Without noise a rover on the level tilts and turns by exactly nothing; its loads and torques are some.

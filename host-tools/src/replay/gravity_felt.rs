@@ -5,6 +5,7 @@ use std::fmt;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
+use super::raw_sensors::wide;
 use super::running_median::RunningMedian;
 
 /// Share of gravity by which what is felt may be off: rovers on wheels hardly speed up, and no scale of a sensor errs by so much.
@@ -35,10 +36,12 @@ impl GravityFelt {
         Self { stated_m_s2: rover.gravity_m_s2.into(), times: RunningMedian::of_none(1e-4, 1.001, 20_000) }
     }
 
-    /// Takes a frame in which all axes say something.
+    /// Takes a frame. Without the axis across, what leans to a side is felt a little lighter.
     pub fn take(&mut self, frame: &SensorFrame) {
-        let Some(felt) = frame.accel_m_s2.map(|axis| axis.map(f64::from)).all() else { return };
-        let size_m_s2 = felt.x.hypot(felt.y).hypot(felt.z);
+        let felt = frame.accel_m_s2;
+        let axes = [felt.x, felt.y.or(Some(0.0)), felt.z].map(wide);
+        let [Some(x), Some(y), Some(z)] = axes else { return };
+        let size_m_s2 = x.hypot(y).hypot(z);
         self.times.take(size_m_s2 / self.stated_m_s2);
     }
 
@@ -69,10 +72,14 @@ mod tests {
     use super::*;
 
     fn felt(z_m_s2: f32, frames: u32) -> Option<OtherGravity> {
+        felt_beside(Some(0.0), z_m_s2, frames)
+    }
+
+    fn felt_beside(y_m_s2: Option<f32>, z_m_s2: f32, frames: u32) -> Option<OtherGravity> {
         let mut felt = GravityFelt::of(&Rover::<f64>::assumed().map(|value| value as f32));
         let accel_m_s2 = Axes { x: Some(0.3), y: Some(f32::NAN), z: Some(z_m_s2) };
         felt.take(&SensorFrame { accel_m_s2, ..SensorFrame::default() });
-        let accel_m_s2 = Axes { y: Some(0.0), ..accel_m_s2 };
+        let accel_m_s2 = Axes { y: y_m_s2, ..accel_m_s2 };
         (0..frames).for_each(|_| felt.take(&SensorFrame { accel_m_s2, ..SensorFrame::default() }));
         felt.other()
     }
@@ -81,6 +88,7 @@ mod tests {
     fn gravities_are_told_of_another() {
         assert_eq!(felt(9.7, 100), None);
         assert_eq!(felt(1.0, 10), None, "too few frames tell nothing");
+        assert!(felt_beside(None, 1.0, 100).is_some() && felt_beside(None, 9.7, 100).is_none());
         let said = felt(1.0, 100).expect("in gravities").to_string();
         assert!(said.contains("feels 1.04 m/s² where gravity is 9.81"), "{said}");
         let said = felt(9810.0, 100).expect("in millimetres").to_string();

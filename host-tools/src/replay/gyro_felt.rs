@@ -1,6 +1,7 @@
 //! Whether the gyro turns as the rover does: against gravity, which tells pitch, and while all wheels stand.
 
-use kapvik_firmware::rover::Rover;
+use kapvik_firmware::estimator::pitch_rate;
+use kapvik_firmware::rover::{Axes, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 use nalgebra::{Matrix3, Vector3};
 
@@ -80,8 +81,12 @@ impl GyroFelt {
 
     /// Takes a frame.
     pub fn take(&mut self, frame: &SensorFrame) {
-        let reading = wide(frame.gyro_rad_s.y).filter(|rate| rate.abs() <= FASTEST_RAD_S);
-        let Some(rate) = reading else { return };
+        let turns = frame.gyro_rad_s.map(|axis| wide(axis).filter(|rate| rate.abs() <= FASTEST_RAD_S));
+        let Some(y) = turns.y else { return };
+        // What is not measured counts as none of it.
+        let turns = Axes { y, ..turns.map(|rate| rate.unwrap_or(0.0)) };
+        let felt = frame.accel_m_s2.map(|axis| wide(axis).unwrap_or(0.0));
+        let rate = pitch_rate(turns, felt);
         let before = self.before.replace((frame.time_us, rate));
         let step = before.and_then(|(time_us, before)| {
             let step_s = 1e-6 * frame.time_us.checked_sub(time_us)? as f64;
@@ -92,8 +97,7 @@ impl GyroFelt {
             return;
         };
         self.time_s += step_s;
-        // Nose-up is a negative rotation about y.
-        self.turned_rad -= 0.5 * step_s * (rate_before + rate);
+        self.turned_rad += 0.5 * step_s * (rate_before + rate);
         if let Some(pitch) = self.pitch_rad(frame) {
             self.stretch.take(Vector3::new(self.time_s, self.turned_rad, pitch));
         }

@@ -13,6 +13,8 @@ pub struct HubPaths {
     /// Heights are compared wherever a hub comes by a multiple of this, m.
     step_m: f64,
     before_m: Option<PerAxle<Planar<f64>>>,
+    /// How far the front hub has come, m.
+    farthest_m: f64,
     /// Heights of the front hub there, each with the number of its place.
     front_m: [Option<(i64, f64)>; KEPT],
     middle: Running,
@@ -23,18 +25,26 @@ impl HubPaths {
     /// Of a rover of this length, m, before its first frame.
     pub fn of_length(length_m: f64) -> Self {
         let step_m = length_m / (KEPT / 2) as f64;
-        Self { step_m, before_m: None, front_m: [None; KEPT], middle: Running::default(), rear: Running::default() }
+        Self {
+            step_m,
+            before_m: None,
+            farthest_m: f64::NEG_INFINITY,
+            front_m: [None; KEPT],
+            middle: Running::default(),
+            rear: Running::default(),
+        }
     }
 
     /// What comes has nothing to do with what was.
     pub fn begin_anew(&mut self) {
-        *self = Self { before_m: None, front_m: [None; KEPT], ..self.clone() };
+        *self = Self { before_m: None, farthest_m: f64::NEG_INFINITY, front_m: [None; KEPT], ..self.clone() };
     }
 
     /// Takes where the hubs are now, m. Where the front one goes back all begin anew.
     pub fn take(&mut self, hubs_m: PerAxle<Planar<f64>>) {
         let Some(before_m) = self.before_m.replace(hubs_m) else { return };
-        if hubs_m.front.x < before_m.front.x - self.step_m {
+        self.farthest_m = self.farthest_m.max(before_m.front.x);
+        if hubs_m.front.x < self.farthest_m - self.step_m {
             self.begin_anew();
             return;
         }

@@ -7,7 +7,7 @@ use kapvik_firmware::rover::{PerSide, Planar, Rover, Side, SideLayout};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::hub_paths::HubPaths;
-use super::raw_sensors::{Steps, links_at, rockers, wide};
+use super::raw_sensors::{LONGEST_FRAME_S, Steps, links_at, rockers, wide};
 
 /// Fewest comparisons that tell, and the share of the rover's length by which hubs may differ by sinking, a root mean square.
 const LEAST_COMPARED: f64 = 30.0;
@@ -22,6 +22,7 @@ pub struct JointSigns {
     rover: Rover<f64>,
     length_m: f64,
     steps: Steps,
+    velocity: HeldVelocity,
     /// Where the midpoint of the differential axis is, m from where it was at first.
     at_m: Planar<f64>,
     /// The first of a side has both joints as they say.
@@ -34,6 +35,12 @@ struct Signs {
     rocker: f64,
     bogie: f64,
     paths: HubPaths,
+}
+
+/// What the velocimeter said last, and when, µs: it may speak in few of the frames.
+#[derive(Debug, Clone, Copy, Default)]
+struct HeldVelocity {
+    last: Option<(u64, Planar<f64>)>,
 }
 
 /// How the body lies and goes, and how its joints stand.
@@ -57,13 +64,21 @@ impl JointSigns {
             signs.map(|(rocker, bogie)| Signs { rocker, bogie, paths: HubPaths::of_length(length_m) })
         };
         let candidates = PerSide { left: of_side(), right: of_side() };
-        Self { rover, length_m, steps: Steps::default(), at_m: Planar::default(), candidates }
+        Self {
+            rover,
+            length_m,
+            steps: Steps::default(),
+            velocity: HeldVelocity::default(),
+            at_m: Planar::default(),
+            candidates,
+        }
     }
 
     /// Takes a frame.
     pub fn take(&mut self, frame: &SensorFrame) {
         let step_s = self.steps.since_before_s(frame);
-        let Some((posture, step_s)) = Posture::of(frame).zip(step_s) else {
+        let posture = self.velocity.at(frame).and_then(|velocity_m_s| Posture::of(frame, velocity_m_s));
+        let Some((posture, step_s)) = posture.zip(step_s) else {
             self.candidates.as_array_mut().into_iter().flatten().for_each(|signs| signs.paths.begin_anew());
             return;
         };
@@ -115,14 +130,25 @@ impl Signs {
     }
 }
 
+impl HeldVelocity {
+    /// That of a frame, or of one not long before it.
+    fn at(&mut self, frame: &SensorFrame) -> Option<Planar<f64>> {
+        if let Some((x, z)) = wide(frame.velocity_m_s.x).zip(wide(frame.velocity_m_s.z)) {
+            self.last = Some((frame.time_us, Planar { x, z }));
+        }
+        let is_fresh = |time_us: u64| 1e-6 * frame.time_us.saturating_sub(time_us) as f64 <= LONGEST_FRAME_S;
+        self.last.filter(|(time_us, _)| is_fresh(*time_us)).map(|(_, velocity_m_s)| velocity_m_s)
+    }
+}
+
 impl Posture {
-    /// Where a frame tells it.
-    fn of(frame: &SensorFrame) -> Option<Self> {
+    /// Of a rover that goes at this velocity, where a frame tells it.
+    fn of(frame: &SensorFrame, velocity_m_s: Planar<f64>) -> Option<Self> {
         let felt = frame.accel_m_s2.map(wide).all()?;
         let upright = felt.x.hypot(felt.z);
         let joints = rockers(frame).zip(frame.bogie_angle_rad.map(wide)).map(|(rocker, bogie)| rocker.zip(bogie));
         (upright > 0.0).then_some(Self {
-            velocity_m_s: Planar { x: wide(frame.velocity_m_s.x)?, z: wide(frame.velocity_m_s.z)? },
+            velocity_m_s,
             pitch: (felt.x / upright, felt.z / upright),
             roll: felt.y / upright.hypot(felt.y),
             joints_rad: PerSide { left: joints.left?, right: joints.right? },

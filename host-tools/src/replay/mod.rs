@@ -38,7 +38,7 @@ use crate::flight_computer::FlightComputer;
 
 pub use doubts::Doubts;
 pub use estimate_file::EstimateWriter;
-pub use health::{REASONS, SensorTrouble, troubles};
+pub use health::{REASONS, REPEATS, SensorTrouble, troubles};
 pub use motion_resistance::MotionResistance;
 pub use recording::{Recording, Remarks};
 pub use scatter::{Noisier, Scatter};

@@ -6,8 +6,11 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 /// Slower than this a rover does not drive, m/s.
 pub const DRIVING_M_S: f64 = 0.005;
 
+/// The fewest of six wheels that turn where a rover drives.
+const MOST_WHEELS: usize = 4;
+
 /// Longer than this no frame lasts, s.
-const LONGEST_FRAME_S: f64 = 1.0;
+pub const LONGEST_FRAME_S: f64 = 1.0;
 
 /// How long frames last, one after the other.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,6 +30,14 @@ impl Steps {
 /// A reading that is a number.
 pub fn wide(reading: Option<f32>) -> Option<f64> {
     reading.map(f64::from).filter(|number| number.is_finite())
+}
+
+/// Whether a rover on wheels of this radius, m, drives, by the velocimeter or by most of the encoders: either of them may be dead.
+pub fn drives(frame: &SensorFrame, radius_m: f64) -> bool {
+    let moves = |speed_m_s: f64| speed_m_s.abs() > DRIVING_M_S;
+    let turns = |rate_rad_s: f64| moves(radius_m * rate_rad_s);
+    let turning = frame.wheels.iter_wheels().filter(|wheel| wide(wheel.rate_rad_s).is_some_and(turns)).count();
+    turning >= MOST_WHEELS || wide(frame.velocity_m_s.x).is_some_and(moves)
 }
 
 /// Angles of the rockers against the body, rad: what one goes up, the other goes down.

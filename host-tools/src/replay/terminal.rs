@@ -3,7 +3,7 @@
 use kapvik_firmware::fusion::RoverSoil;
 use kapvik_firmware::soil::ParameterEstimate;
 
-use super::{Outcome, REASONS, troubles};
+use super::{Outcome, REASONS, REPEATS, troubles};
 use crate::digits::counted;
 use crate::identify::network_refusal;
 
@@ -82,14 +82,15 @@ fn sensor_lines(outcome: &Outcome) -> Vec<String> {
     let troubles = troubles(&outcome.estimator);
     let of_reason = |reason: &str| -> Vec<String> {
         let counts =
-            troubles.iter().filter_map(|trouble| Some(format!("{} {}", trouble.sensor, trouble.count(reason)?)));
+            troubles.iter().filter_map(|trouble| Some(format!("{} {}", trouble.sensor, trouble.counted(reason)?)));
         counts.collect()
     };
     let unused = REASONS.into_iter().map(|reason| (format!("readings not used, {reason}"), of_reason(reason)));
+    let repeated = ("readings that say the same over and over, believed less".to_owned(), of_reason(REPEATS));
     let dropped: Vec<String> =
         troubles.iter().filter(|trouble| trouble.dropped).map(|trouble| trouble.sensor.clone()).collect();
     unused
-        .chain([("sensors out of use at the end".to_owned(), dropped)])
+        .chain([repeated, ("sensors out of use at the end".to_owned(), dropped)])
         .filter(|(_, sensors)| !sensors.is_empty())
         .map(|(what, sensors)| format!("{what}: {}", sensors.join(", ")))
         .collect()

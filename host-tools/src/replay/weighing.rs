@@ -5,7 +5,7 @@ use std::fmt;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::{DRIVING_M_S, links, rockers, wide};
+use super::raw_sensors::{drives, links, rockers, wide};
 use crate::statistics::running::Running;
 
 /// Frames of so long are taken as one number, µs: over rough ground the errors of one frame are those of the next.
@@ -23,6 +23,7 @@ const LEAST_FELT: f64 = 0.5;
 #[derive(Debug, Clone)]
 pub struct Weighing {
     weight_n: f64,
+    radius_m: f64,
     block: Block,
     borne_n: Running,
     /// What of it is more than is due.
@@ -52,17 +53,18 @@ impl Weighing {
     pub fn of(rover: &Rover<f32>) -> Self {
         let weight_n = f64::from(rover.mass_kg) * f64::from(rover.gravity_m_s2);
         let [borne_n, excess_n] = Default::default();
-        Self { weight_n, block: Block::default(), borne_n, excess_n }
+        Self { weight_n, radius_m: rover.wheel.radius_m.into(), block: Block::default(), borne_n, excess_n }
     }
 
-    /// Takes a frame: one in which the rover drives, and all that is needed says something.
+    /// Takes a frame: one in which the rover drives, and all that is needed says something. Forces along the links of one that stands are whatever
+    /// friction left there.
     pub fn take(&mut self, frame: &SensorFrame) {
         let number = frame.time_us / BLOCK_US;
         if number != self.block.number {
             self.close_block();
             self.block.number = number;
         }
-        if let Some((borne_n, due_n)) = is_driving(frame).then(|| self.borne_and_due_n(frame)).flatten() {
+        if let Some((borne_n, due_n)) = drives(frame, self.radius_m).then(|| self.borne_and_due_n(frame)).flatten() {
             self.block.frames += 1;
             self.block.borne_n += borne_n;
             self.block.due_n += due_n;
@@ -110,11 +112,6 @@ impl fmt::Display for Misfit {
              the cells' zero is off, and loads, pulls and soil with it"
         )
     }
-}
-
-/// Forces along the links of a rover that stands are whatever friction left there.
-fn is_driving(frame: &SensorFrame) -> bool {
-    wide(frame.velocity_m_s.x).is_some_and(|speed| speed.abs() > DRIVING_M_S)
 }
 
 /// What the wheels bear together along a force that leans ahead of the body's upright by so much, rad, in N.

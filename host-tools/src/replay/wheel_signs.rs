@@ -39,9 +39,12 @@ impl Agreement {
         if agrees { self.with += 1 } else { self.against += 1 }
     }
 
+    fn tells(&self) -> bool {
+        self.with + self.against >= LEAST_FRAMES
+    }
+
     fn is_against(&self) -> bool {
-        let all = self.with + self.against;
-        all >= LEAST_FRAMES && f64::from(self.against) > MOST_SAY * f64::from(all)
+        self.tells() && f64::from(self.against) > MOST_SAY * f64::from(self.with + self.against)
     }
 }
 
@@ -83,9 +86,14 @@ impl WheelSigns {
             wheels.filter(|(_, agreement)| agreement.is_against()).map(|(name, _)| name).collect()
         };
         let turning = against(&self.turning);
+        let telling = self.turning.iter_wheels().filter(|agreement| agreement.tells()).count();
         let of_turning = match turning.len() {
             0 => None,
-            6 => Some("velocity_x and all encoders have other signs: one of them is not positive forward".to_owned()),
+            // That of the velocimeter is likelier than that of all of several.
+            against if against == telling && against > 1 => {
+                let all = if against == 6 { "all encoders" } else { "all encoders that tell" };
+                Some(format!("velocity_x and {all} have other signs: one of them is not positive forward"))
+            }
             _ => Some(format!(
                 "the encoders of {} turn against the velocimeter: their sign is wrong",
                 turning.join(", ")

@@ -12,7 +12,7 @@ use super::time_axis::{Spread, spreads};
 use super::wheel_chart::WHEEL_CHARTS;
 use crate::identify::network_refusal;
 use crate::parameter::Parameter;
-use crate::replay::{REASONS, SensorTrouble, troubles};
+use crate::replay::{REASONS, REPEATS, SensorTrouble, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
@@ -163,7 +163,7 @@ fn error_table(errors: &Errors) -> Markup {
 fn sensors(findings: &TraverseFindings) -> Markup {
     let troubles = troubles(&findings.outcome.estimator);
     let occurred = |reason: &&str| troubles.iter().any(|trouble| trouble.count(reason).is_some());
-    let reasons: Vec<&str> = REASONS.into_iter().filter(occurred).collect();
+    let reasons: Vec<&str> = REASONS.into_iter().chain([REPEATS]).filter(occurred).collect();
     html! {
         section {
             h2 { "Sensors" }
@@ -171,7 +171,10 @@ fn sensors(findings: &TraverseFindings) -> Markup {
             @if troubles.is_empty() {
                 p { "Every reading of every sensor was used." }
             } @else {
-                p { "Readings that were not used, of " (findings.outcome.estimator.frames) " frames; all others were." }
+                p {
+                    "Readings that were not used, of " (findings.outcome.estimator.frames) " frames; all others were. "
+                    @if reasons.contains(&REPEATS) { "Those of an encoder that are repeated over and over are used, and believed less." }
+                }
                 div class="scroll" {
                     table class="numbers long" {
                         thead { tr { th {} @for reason in &reasons { th { (reason) } } th {} } }
@@ -187,7 +190,7 @@ fn sensor_row(trouble: &SensorTrouble, reasons: &[&str]) -> Markup {
     html! {
         tr {
             td { code { (trouble.sensor) } }
-            @for reason in reasons { td { @if let Some(count) = trouble.count(reason) { (count) } } }
+            @for reason in reasons { td { @if let Some(count) = trouble.counted(reason) { (count) } } }
             td { @if trouble.dropped { "out of use at the end" } }
         }
     }
