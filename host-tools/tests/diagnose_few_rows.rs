@@ -125,3 +125,24 @@ fn of_two_instants_or_three_rows_a_diagnosis_comes_about() {
         assert!(document.effects.iter().all(|effect| effect.p_value.is_finite()), "{layout:?}");
     }
 }
+
+/// One run of nine points, and the same once more under another name, as where two tables are put together that share it.
+#[test]
+fn a_run_and_its_copy_say_what_the_run_says() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let soil = Sinking::drawn(0.4, &mut random);
+    let states = SLIPS.into_iter().flat_map(|slip| LOADS_N.map(|load_n| (slip, load_n))).enumerate();
+    let rows: Vec<String> = states
+        .map(|(t_s, (slip, load_n))| format!("{t_s},{}", readings(&soil.seen(slip, load_n, &NOISE, &mut random))))
+        .collect();
+    let diagnosis_of = |runs: &[&str]| {
+        let rows: String = runs.iter().flat_map(|run| rows.iter().map(move |row| format!("{run},{row}\n"))).collect();
+        let toml = description("A run", SOIL, None);
+        let campaign = Campaign::parse(Path::new("run.csv"), &format!("{COLUMNS}\n{rows}"), &toml);
+        diagnosed(&campaign.expect("a campaign"))
+    };
+    let [alone, copied] = [&["a"][..], &["a", "b"]].map(diagnosis_of);
+    assert!(!alone.effects.is_empty(), "{}", alone.sentence);
+    assert_eq!((copied.effects, copied.channels), (alone.effects, alone.channels));
+    assert!(copied.left_out.iter().any(|left| left.rows == 9 && left.reason.starts_with("copies")));
+}

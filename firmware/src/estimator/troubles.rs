@@ -1,6 +1,6 @@
 //! How often filters were in trouble.
 
-/// Counts, which stop at their greatest value.
+/// Counts, which begin anew beyond their greatest value: what they grow by from frame to frame is right all the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Troubles {
     /// A filter fell back to its floor.
@@ -12,17 +12,14 @@ pub struct Troubles {
 impl Troubles {
     /// Those of two filters together.
     pub fn plus(self, other: Self) -> Self {
-        Self {
-            resets: self.resets.saturating_add(other.resets),
-            relearned: self.relearned.saturating_add(other.relearned),
-        }
+        Self { resets: self.resets.wrapping_add(other.resets), relearned: self.relearned.wrapping_add(other.relearned) }
     }
 
     /// Those that came since `before`.
     pub fn since(self, before: Self) -> Self {
         Self {
-            resets: self.resets.saturating_sub(before.resets),
-            relearned: self.relearned.saturating_sub(before.relearned),
+            resets: self.resets.wrapping_sub(before.resets),
+            relearned: self.relearned.wrapping_sub(before.relearned),
         }
     }
 }

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use indicatif::{ParallelProgressIterator, ProgressBar};
-use kapvik_firmware::rover::{PerSide, Rover, SensorNoise};
+use kapvik_firmware::rover::{PerSide, Planar, Rover, SensorNoise, Suspension};
+use kapvik_firmware::terramechanics::Wheel;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -41,8 +42,16 @@ const FAILURES: [Failure; 4] = [Failure::Nan, Failure::Outlier, Failure::Stuck, 
 const FAILING_S: Range<f64> = 1.0..6.0;
 const WORKING_S: Range<f64> = 2.0..10.0;
 /// Kinds of sensors that speak seldom, in one of so many frames; or in none.
-const KINDS: [&str; 7] =
-    ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "gyro_*", "bogie_angle_*", "rocker_angle_rad"];
+const KINDS: [&str; 8] = [
+    "load_cell_*",
+    "velocity_*",
+    "motor_torque_*",
+    "wheel_rate_*",
+    "gyro_*",
+    "accel_*",
+    "bogie_angle_*",
+    "rocker_angle_rad",
+];
 const SPEAKS_EVERY: Range<u32> = 2..11;
 /// The share of drives with sensors that are silent for good in which it is one column of a frame, not all of a kind; and in which they have
 /// been so from the start.
@@ -90,8 +99,8 @@ enum Deviation {
     Silent,
     /// Frames are fewer or more a second.
     Rate,
-    /// The rover is lighter or heavier, on wheels of other sizes, and the flight side is told.
-    Mass,
+    /// The rover is lighter or heavier, on wheels and links of other sizes, and the flight side is told.
+    Build,
     /// Slip digs the wheels in.
     SlipSinkage,
     /// Torque and forces swing as grousers come to bear.
@@ -105,7 +114,7 @@ const DEVIATIONS: [Deviation; 8] = [
     Deviation::Seldom,
     Deviation::Silent,
     Deviation::Rate,
-    Deviation::Mass,
+    Deviation::Build,
     Deviation::SlipSinkage,
     Deviation::GrouserRipple,
 ];
@@ -236,9 +245,9 @@ impl Journey {
 
 impl Deviation {
     /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground, and no input is how often
-    /// frames come.
+    /// frames come or how large the rover is.
     fn times(self) -> u32 {
-        if matches!(self, Self::GrouserRipple | Self::Rate) { 2 } else { 1 }
+        if matches!(self, Self::GrouserRipple | Self::Rate | Self::Build) { 2 } else { 1 }
     }
 
     /// The rover, and what acts on it.
@@ -255,11 +264,7 @@ impl Deviation {
             Self::Seldom => faults = silences(random)?,
             Self::Silent => faults.push(silence(random)?),
             Self::Rate => rate_hz = Some(RATES_HZ.at(random.random())),
-            Self::Mass => {
-                rover.mass_kg = MASSES_KG.at(random.random());
-                rover.wheel.radius_m = RADII_M.at(random.random());
-                rover.wheel.width_m = rover.wheel.radius_m;
-            }
+            Self::Build => rover = other_build(&rover, random),
             Self::SlipSinkage => effects = only("slip-sinkage", random.random_range(0.0..0.3))?,
             Self::GrouserRipple => effects = only("grouser-ripple", random.random_range(0.0..0.25))?,
         }
@@ -301,6 +306,27 @@ fn silence(random: &mut ChaCha8Rng) -> Result<Fault, String> {
     Fault::new(Failure::Dropout, columns, (from_s, LONGEST_S))
 }
 
+/// Another mass on wheels of another size. The links grow with the wheels, by anything from not at all to as much as they do.
+fn other_build(rover: &Rover<f64>, random: &mut ChaCha8Rng) -> Rover<f64> {
+    let radius_m = RADII_M.at(random.random());
+    let larger = (radius_m / rover.wheel.radius_m).powf(random.random());
+    let link = |place: Planar<f64>| place.scaled(larger);
+    let Suspension { front_hub, bogie_pivot, middle_hub, rear_hub, half_track_m, centre_of_mass } = rover.suspension;
+    Rover {
+        mass_kg: MASSES_KG.at(random.random()),
+        wheel: Wheel { radius_m, width_m: radius_m },
+        suspension: Suspension {
+            front_hub: link(front_hub),
+            bogie_pivot: link(bogie_pivot),
+            middle_hub: link(middle_hub),
+            rear_hub: link(rear_hub),
+            half_track_m: larger * half_track_m,
+            centre_of_mass: centre_of_mass.map(|place| larger * place),
+        },
+        ..*rover
+    }
+}
+
 /// Each noise by itself is better or worse.
 fn other_noise(noise: &SensorNoise<f64>, random: &mut ChaCha8Rng) -> SensorNoise<f64> {
     let mut other = |std: f64| std * NOISE_FACTORS.at(random.random());
@@ -324,7 +350,7 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 3 * 32 + 4 * 16 + 7 * (6 + 2 * 2) * 3 + 4 * 3);
+        assert_eq!(training.len(), 3 * 32 + 4 * 16 + 7 * (5 + 3 * 2) * 3 + 4 * 3);
         let held_out = plan.held_out();
         assert!(held_out.iter().all(|journeys| journeys.len() == 3));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();

@@ -185,3 +185,34 @@ impl GyroFelt {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of a rover that turns left by a quarter on a slope, at first straight uphill, of which the gyro says so much more about y.
+    fn turning_on_a_slope(zero_rad_s: f32) -> Vec<String> {
+        const SLOPE_RAD: f32 = 0.17;
+        let rover = Rover::<f64>::assumed().map(|value| value as f32);
+        let mut felt = GyroFelt::of(&rover);
+        let turn_rad_s = 0.01_f32;
+        for number in 0..1570_u64 {
+            let heading_rad = turn_rad_s * 0.1 * number as f32;
+            let (ahead, left) = (SLOPE_RAD.sin() * heading_rad.cos(), -SLOPE_RAD.sin() * heading_rad.sin());
+            felt.take(&SensorFrame {
+                time_us: 100_000 * number,
+                gyro_rad_s: Axes { x: Some(0.0), y: Some(zero_rad_s), z: Some(turn_rad_s) },
+                accel_m_s2: Axes { x: ahead, y: left, z: SLOPE_RAD.cos() }.map(|share| Some(9.81 * share)),
+                ..SensorFrame::default()
+            });
+        }
+        felt.told()
+    }
+
+    #[test]
+    fn a_gyro_that_turns_on_a_slope_has_no_zero_of_its_own() {
+        assert_eq!(turning_on_a_slope(0.0), Vec::<String>::new());
+        let said = turning_on_a_slope(0.002);
+        assert!(said.len() == 1 && said[0].starts_with("gyro_y says 0.0020 rad/s more than gravity tells"), "{said:?}");
+    }
+}
