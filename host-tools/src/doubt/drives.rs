@@ -244,10 +244,10 @@ impl Journey {
 }
 
 impl Deviation {
-    /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground, and no input is how often
-    /// frames come or how large the rover is.
+    /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground, no input is how often frames
+    /// come, and sensors that may be silent are many.
     fn times(self) -> u32 {
-        if matches!(self, Self::GrouserRipple | Self::Rate | Self::Build) { 2 } else { 1 }
+        if matches!(self, Self::GrouserRipple | Self::Rate | Self::Silent) { 2 } else { 1 }
     }
 
     /// The rover, and what acts on it.
