@@ -30,25 +30,30 @@ pub fn declared_file(campaign: &Campaign, diagnosis: &Diagnosis) -> String {
             let _ = writeln!(text, "form = \"{form}\"");
         }
         for (name, known) in &effect.known {
-            let _ = match known {
-                Knowledge::Value { value, std } => writeln!(text, "{name} = {{ value = {value:?}, std = {std:?} }}"),
-                Knowledge::Between { min, max } => writeln!(text, "{name} = {{ min = {min:?}, max = {max:?} }}"),
+            text += &match known {
+                Knowledge::Value { value, std } => parameter(name, *value, *std),
+                Knowledge::Between { min, max } => format!("{name} = {{ min = {min:?}, max = {max:?} }}\n"),
             };
         }
         let referred = fitted.into_iter().flat_map(|fit| &fit.parameters);
         for (name, estimate) in
             referred.filter(|(name, _)| is_reference(name) && !effect.known.contains_key(name.as_str()))
         {
-            let _ = writeln!(text, "{name} = {{ value = {:?}, std = {:?} }}", estimate.value, estimate.std);
+            text += &parameter(name, estimate.value, estimate.std);
         }
     }
     for effect in &diagnosis.effects {
         let _ = writeln!(text, "[declared.{}]\nform = \"{}\"", effect.id, effect.form);
         for (name, estimate) in &effect.parameters {
-            let _ = writeln!(text, "{name} = {{ value = {:?}, std = {:?} }}", estimate.value, estimate.std);
+            text += &parameter(name, estimate.value, estimate.std);
         }
     }
     text
+}
+
+/// What is known of a parameter, as a line.
+fn parameter(name: &str, value: f64, std: f64) -> String {
+    format!("{name} = {{ value = {value:?}, std = {std:?} }}\n")
 }
 
 fn one_line(text: &str) -> String {

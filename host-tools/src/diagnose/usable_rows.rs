@@ -58,18 +58,21 @@ pub fn usable_rows(
     let mut left_out = BTreeMap::<Reason, usize>::new();
     for (place, is_copy) in campaign.copies().iter().enumerate() {
         let readings = COLUMNS.map(|channel| campaign.value(place, channel));
-        let brakes = readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING);
-        let reasons = [
-            (!has_something_to_judge(&readings), Reason::NothingToJudge),
-            (!braking && brakes, Reason::Braking),
-            (campaign.gross_error(place).is_some(), Reason::GrossError),
-            (lone.iter().any(|lone| lone.place == place), Reason::FarOut),
-            (*is_copy, Reason::Copy),
-        ];
-        match reasons.into_iter().find(|(holds, _)| *holds) {
-            Some((_, reason)) => *left_out.entry(reason).or_default() += 1,
-            None => usable.push(UsableRow { place, readings }),
-        }
+        let reason = if !has_something_to_judge(&readings) {
+            Reason::NothingToJudge
+        } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
+            Reason::Braking
+        } else if campaign.gross_error(place).is_some() {
+            Reason::GrossError
+        } else if lone.iter().any(|lone| lone.place == place) {
+            Reason::FarOut
+        } else if *is_copy {
+            Reason::Copy
+        } else {
+            usable.push(UsableRow { place, readings });
+            continue;
+        };
+        *left_out.entry(reason).or_default() += 1;
     }
     if usable.is_empty() {
         let braking = left_out.get(&Reason::Braking).copied().unwrap_or_default();

@@ -39,12 +39,16 @@ impl Agreement {
         if agrees { self.with += 1 } else { self.against += 1 }
     }
 
+    fn frames(&self) -> u32 {
+        self.with + self.against
+    }
+
     fn tells(&self) -> bool {
-        self.with + self.against >= LEAST_FRAMES
+        self.frames() >= LEAST_FRAMES
     }
 
     fn is_against(&self) -> bool {
-        self.tells() && f64::from(self.against) > MOST_SAY * f64::from(self.with + self.against)
+        self.tells() && f64::from(self.against) > MOST_SAY * f64::from(self.frames())
     }
 }
 
