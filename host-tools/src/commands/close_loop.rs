@@ -6,7 +6,7 @@ use std::time::Instant;
 use clap::Args;
 use kapvik_firmware::terramechanics::Soil;
 
-use crate::close_loop::{Options, close};
+use crate::close_loop::{ClosedSoil, Options, close};
 use crate::data::atomic_write::{write_json, write_text};
 use crate::data::campaign::{Campaign, Fingerprint, Provenance};
 use crate::data::outputs;
@@ -64,10 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         Some(diagnosis) => diagnosis,
         None => {
             say("diagnosis");
-            let outcome = diagnose::with_progress(&campaign, false)?;
-            write_text(&folder.join("diagnosis.html"), &page(&diagnose::findings(&campaign, &outcome)))?;
-            write_json(&folder.join("diagnosis.json"), &outcome.document)?;
-            outcome.document
+            diagnosed(&campaign, &folder)?
         }
     };
     let (plan, rovers) = match arguments.quick {
@@ -89,6 +86,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         }
         return Ok(());
     };
+    print_training(&soil, &options);
+    println!("\n{}\n\n{}", title_of_estimates(&campaign, truth.is_some()), soil.estimates);
+    println!("\ntable: {}\nto fly it: kapvik run --weights {0}", table.display());
+    Ok(())
+}
+
+/// A new diagnosis, written to the folder as a page and as a document.
+fn diagnosed(campaign: &Campaign, folder: &Path) -> Result<Diagnosis, HostError> {
+    let outcome = diagnose::with_progress(campaign, false)?;
+    write_text(&folder.join("diagnosis.html"), &page(&diagnose::findings(campaign, &outcome)))?;
+    write_json(&folder.join("diagnosis.json"), &outcome.document)?;
+    Ok(outcome.document)
+}
+
+fn print_training(soil: &ClosedSoil, options: &Options) {
+    let (plan, rovers) = (&options.plan, options.rovers);
     let [before, after] = &soil.effects;
     println!("\nRover network trained for\n  before  {before}\n  after   {after}");
     println!("by the same plan: {} scenes, {} epochs.", plan.scenes, plan.rover.epochs);
@@ -96,9 +109,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         "\nErrors on {rovers} simulated rovers of each kind, on soil with the effects of after\n\n{}",
         soil.errors
     );
-    println!("\n{}\n\n{}", title_of_estimates(&campaign, truth.is_some()), soil.estimates);
-    println!("\ntable: {}\nto fly it: kapvik run --weights {0}", table.display());
-    Ok(())
 }
 
 /// What is written to the folder must not take the place of what is read.

@@ -53,6 +53,9 @@ pub struct Arguments {
     /// Another soil from METRES on, in place of the scenario's; also ice-cemented or sublimated: the soil before it, changed
     #[arg(long, value_name = "SOIL@METRES")]
     then: Vec<String>,
+    /// From then on every wheel turns the other way: the rover backs up over the ground that it came by
+    #[arg(long, value_name = "S", value_parser = duration)]
+    turn_back: Option<f64>,
     /// An effect or a fault, may be repeated
     ///
     /// Effects of the soil, each with the number of its first parameter: slip-sinkage, multi-pass, load-stiffening, rate,
@@ -94,6 +97,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         right_soil: arguments.right_soil.as_deref().map(soil_argument::soil).transpose()?,
         changes: (!changes.is_empty()).then_some(changes),
         grousers: Some(grousers),
+        turns_back_s: arguments.turn_back,
         effects,
         faults,
     };

@@ -91,12 +91,7 @@ impl Measurements {
             radius_m: campaign.wheel.radius_m,
         };
         let by_place: HashMap<usize, &UsableRow> = usable.iter().map(|row| (row.place, row)).collect();
-        let mut runs = campaign.runs();
-        for (_, places) in &mut runs {
-            places.retain(|place| by_place.contains_key(place));
-            places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
-        }
-        runs.retain(|(_, places)| !places.is_empty());
+        let runs = runs_in_time(campaign, &by_place);
         let runs = some_runs(&runs);
         let rows = runs.iter().map(|(_, places)| places.len()).sum();
         for (number, (name, places)) in runs.into_iter().enumerate() {
@@ -115,15 +110,20 @@ impl Measurements {
             let reason = "thinned evenly, to keep within seconds".to_owned();
             found.left_out.push(LeftOut { reason, rows: usable.len() - found.rows.len() });
         }
-        let rates = wheel_rates(campaign, &found.places, &found.rows, &found.rows_of_run);
-        for (conditions, rate_rad_s) in found.conditions.iter_mut().zip(rates) {
+        found.take_wheel_rates(campaign);
+        found.settled = settle(&mut found.rows, &found.rows_of_run);
+        found
+    }
+
+    /// Where the rate of the wheel is known, the speed follows from it.
+    fn take_wheel_rates(&mut self, campaign: &Campaign) {
+        let rates = wheel_rates(campaign, &self.places, &self.rows, &self.rows_of_run);
+        for (conditions, rate_rad_s) in self.conditions.iter_mut().zip(rates) {
             if rate_rad_s.is_some() {
                 conditions.wheel_rate_rad_s = rate_rad_s;
                 conditions.speed_m_s = None;
             }
         }
-        found.settled = settle(&mut found.rows, &found.rows_of_run);
-        found
     }
 
     /// Radius of the wheel, m.
@@ -172,6 +172,17 @@ impl Measurements {
     pub fn median(&self, reading: Reading) -> Option<f64> {
         median(self.rows.iter().filter_map(|row| row.readings[reading.index()]).collect())
     }
+}
+
+/// The usable rows of each run that has any, by their places, in the order of time.
+fn runs_in_time<'a>(campaign: &'a Campaign, usable: &HashMap<usize, &UsableRow>) -> Vec<(&'a str, Vec<usize>)> {
+    let mut runs = campaign.runs();
+    for (_, places) in &mut runs {
+        places.retain(|place| usable.contains_key(place));
+        places.sort_by(|a, b| campaign.rows()[*a].t_s.total_cmp(&campaign.rows()[*b].t_s));
+    }
+    runs.retain(|(_, places)| !places.is_empty());
+    runs
 }
 
 /// The middle of some numbers; none of none.

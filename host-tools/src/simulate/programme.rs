@@ -46,6 +46,18 @@ pub struct WheelTurn {
 }
 
 impl Programme {
+    /// From a time on every wheel turns the other way, at the speed that it was to have.
+    pub fn turn_back(&mut self, at_s: f64) {
+        let back = |speeds: &mut PerWheel<f64>| speeds.iter_wheels_mut().for_each(|speed| *speed = -*speed);
+        let later = self.commands.partition_point(|command| command.from_s < at_s);
+        self.commands[later..].iter_mut().for_each(|command| back(&mut command.rim_speed_m_s));
+        if let Some(before) = later.checked_sub(1) {
+            let mut turned = Command { from_s: at_s, ..self.commands[before] };
+            back(&mut turned.rim_speed_m_s);
+            self.commands.insert(later, turned);
+        }
+    }
+
     /// How the wheels turn at a time.
     pub fn at(&self, time_s: f64) -> PerWheel<WheelTurn> {
         let mut turns = PerWheel::<WheelTurn>::default();
@@ -84,6 +96,19 @@ mod tests {
     use kapvik_firmware::rover::{PerAxle, PerSide};
 
     use super::{Command, Programme, Wander};
+
+    #[test]
+    fn a_rover_that_turns_back_goes_as_far_the_other_way() {
+        let commands = [(1.0, 0.02), (6.0, 0.03)]
+            .map(|(from_s, speed)| Command { from_s, rim_speed_m_s: PerSide::both(PerAxle::all(speed)) })
+            .to_vec();
+        let mut programme = Programme { commands, wander: PerSide::default() };
+        programme.turn_back(4.0);
+        let speed = |time: f64| programme.at(time).right.middle.rim_speed_m_s;
+        for (time, expected) in [(3.0, 0.02), (5.6, -0.02), (8.0, -0.03)] {
+            assert!((speed(time) - expected).abs() < 1.0e-12, "at {time} s: {}", speed(time));
+        }
+    }
 
     #[test]
     fn accelerations_are_the_rates_of_the_speeds() {

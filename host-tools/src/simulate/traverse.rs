@@ -44,6 +44,8 @@ pub struct Options {
     pub changes: Option<Vec<Change>>,
     /// The wheels' grousers, which act only through an effect; absent: those of the assumed set K0.
     pub grousers: Option<Grousers>,
+    /// When every wheel begins to turn the other way, s; absent: never.
+    pub turns_back_s: Option<f64>,
     /// Effects on soil, sensors and drives.
     pub effects: RoverEffects,
     /// Faults of sensors, beside those of the scenario.
@@ -134,6 +136,9 @@ impl Traverse {
         let mut programme = course.programme;
         if let Some(share) = options.effects.rim_wander {
             programme.wander.iter_wheels_mut().for_each(|wander| wander.share = share);
+        }
+        if let Some(at_s) = options.turns_back_s {
+            programme.turn_back(at_s);
         }
         let grousers = options.grousers.unwrap_or(RoverFile::assumed().grousers);
         let changes = options.changes.clone().unwrap_or(course.changes);

@@ -1,8 +1,15 @@
 //! Validation curves, and their picture.
 
+use std::ops::Range;
+
 use plotters::prelude::*;
 
 use crate::error::HostError;
+use crate::statistics::ends;
+
+/// Colours that readers of any sight tell apart (Okabe and Ito 2008).
+const COLOURS: [RGBColor; 5] =
+    [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167), RGBColor(90, 90, 90)];
 
 /// Loss on held-out cases over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +35,7 @@ impl Curve {
 /// Draws curves side by side into one SVG: a panel for each group, seconds on a logarithmic axis.
 ///
 /// # Errors
-/// Where the drawing library refuses; it does so for empty curves.
+/// Where the drawing library refuses.
 pub fn draw(panels: &[(&str, &[Curve])]) -> Result<String, HostError> {
     let mut svg = String::new();
     {
@@ -46,22 +53,27 @@ fn failed<E: std::fmt::Display>(error: E) -> HostError {
     HostError::Failed(format!("the curves could not be drawn: {error}"))
 }
 
+/// Seconds and losses that hold the points of all curves, and some more.
+fn ranges(curves: &[Curve]) -> (Range<f64>, Range<f64>) {
+    let points = || curves.iter().flat_map(|curve| curve.points.iter().copied());
+    let (early, late) = ends(points().map(|(seconds, _)| seconds)).unwrap_or((0.05, 0.1));
+    let (low, high) = ends(points().map(|(_, loss)| loss)).unwrap_or((0.0, 0.0));
+    let margin = 0.05 * (high - low).max(1e-3);
+    (early.max(0.05)..late.max(0.1) * 1.05, low - margin..high + margin)
+}
+
 fn draw_panel(
     area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
     title: &str,
     curves: &[Curve],
 ) -> Result<(), HostError> {
-    let points = || curves.iter().flat_map(|curve| &curve.points);
-    let bound = |pick: fn(&(f64, f64)) -> f64, fold: fn(f64, f64) -> f64, start| points().map(pick).fold(start, fold);
-    let (early, late) = (bound(|p| p.0, f64::min, f64::MAX).max(0.05), bound(|p| p.0, f64::max, 0.1));
-    let (low, high) = (bound(|p| p.1, f64::min, f64::MAX), bound(|p| p.1, f64::max, f64::MIN));
-    let margin = 0.05 * (high - low).max(1e-3);
+    let (seconds, losses) = ranges(curves);
     let mut chart = ChartBuilder::on(area)
         .caption(title, ("sans-serif", 17))
         .margin(12)
         .x_label_area_size(36)
         .y_label_area_size(52)
-        .build_cartesian_2d((early..late * 1.05).log_scale(), low - margin..high + margin)
+        .build_cartesian_2d(seconds.log_scale(), losses)
         .map_err(failed)?;
     chart
         .configure_mesh()
@@ -74,14 +86,7 @@ fn draw_panel(
         .label_style(("sans-serif", 12))
         .draw()
         .map_err(failed)?;
-    let colours = [
-        RGBColor(0, 114, 178),
-        RGBColor(213, 94, 0),
-        RGBColor(0, 158, 115),
-        RGBColor(204, 121, 167),
-        RGBColor(90, 90, 90),
-    ];
-    for (curve, colour) in curves.iter().zip(colours) {
+    for (curve, colour) in curves.iter().zip(COLOURS) {
         chart
             .draw_series(LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2)))
             .map_err(failed)?
@@ -91,12 +96,11 @@ fn draw_panel(
     if curves.len() < 2 {
         return Ok(());
     }
-    let style = ("sans-serif", 12);
     chart
         .configure_series_labels()
         .position(SeriesLabelPosition::UpperRight)
         .background_style(WHITE.mix(0.85))
-        .label_font(style)
+        .label_font(("sans-serif", 12))
         .draw()
         .map_err(failed)
 }
