@@ -22,11 +22,12 @@ pub fn errors_of_forces(diagnosis: &Diagnosis) -> String {
     for (channel, errors) in &diagnosis.channels {
         let shown = Quantity::of_column(channel);
         let number = |value: f64| format!("{:.3}", shown.factor * value);
+        let error = |value: Option<f64>| value.map_or_else(|| NOTHING_THERE.to_owned(), number);
         table.add_row([
             shown.titled(),
-            number(errors.rmse_before),
-            number(errors.rmse_after),
-            number(errors.noise),
+            error(errors.rmse_before),
+            error(errors.rmse_after),
+            number(errors.noise_of_error()),
             errors.runs.to_string(),
         ]);
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::data::campaign::{Campaign, Channel};
 
+use super::beyond_noise::beyond_noise;
 use super::caveats::{caveats, error_of_load};
 use super::document::{
     Candidate, ChannelErrors, Diagnosis, EndsApart, ErrorPair, Estimate, FoundEffect, LevelsLeftOut, RunnerUp,
@@ -18,6 +19,7 @@ use super::left_over::{LeftOver, left_over};
 use super::measurements::{Measurements, column_name};
 use super::noise::Noise;
 use super::selection::Judged;
+use super::sentence::Open;
 use super::trial::Trial;
 
 /// Entries of `unexplained`.
@@ -36,7 +38,10 @@ pub fn assemble(
     levels: Option<LevelsLeftOut>,
     by_themselves: &ForceChannels,
 ) -> Diagnosis {
-    let unexplained = unexplained(selected, &left_over(measurements, selected.model()));
+    let channels = channels(measurements, selected, errors);
+    let beyond_noise = beyond_noise(campaign, &channels, errors);
+    let left_over = left_over(measurements, selected.model());
+    let unexplained = unexplained(selected, &left_over, beyond_noise.is_some());
     let mut document = Diagnosis {
         campaign: campaign.name.clone(),
         data: None,
@@ -51,7 +56,7 @@ pub fn assemble(
         force_channels: by_themselves.effects().cloned().collect(),
         unexplained,
         found_law: None,
-        channels: channels(measurements, selected, errors),
+        channels,
         leave_level_out: levels,
         ends_apart: ends_apart(measurements, selected, errors),
         soil_before: soil(&selected.base),
@@ -65,8 +70,12 @@ pub fn assemble(
     document.caveats.extend(error_of_load(selected, by_themselves));
     document.caveats.extend(of_errors(measurements, &document));
     let off_by_run = measurements.off_by_run(&selected.model().fit.offset_std);
-    let off_by_run: Vec<&str> = off_by_run.map(|(reading, _)| column_name(reading)).collect();
-    super::sentence::tell(&mut document, campaign, errors, &off_by_run);
+    let open = Open {
+        beyond_noise,
+        off_by_run: off_by_run.map(|(reading, _)| column_name(reading)).collect(),
+        nearest: selected.guilty.as_ref(),
+    };
+    super::sentence::tell(&mut document, campaign, &open);
     document
 }
 
@@ -117,7 +126,9 @@ fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
 }
 
 /// Dependences on columns, and of the channels that show none, what is left of them.
-fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver]) -> Vec<Unexplained> {
+/// Structure that is left beyond chance. Where nothing was found and errors are beyond noise, so that something is missing in any case, also
+/// the column that comes nearest, if chance does not do that easily.
+fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver], is_beyond_noise: bool) -> Vec<Unexplained> {
     let entry = |structure: &super::residual_search::Structure| Unexplained {
         channel: name(structure.channel),
         regressor: structure.regressor(),
@@ -132,18 +143,22 @@ fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver]) -> Vec<Unexplain
     };
     let is_told = |left: &&LeftOver| selected.left.iter().any(|structure| structure.channel == left.channel);
     let others = left_over.iter().filter(|left| !is_told(left)).map(of_no_column);
-    selected.left.iter().map(entry).chain(others).take(MOST_UNEXPLAINED).collect()
+    let mut found: Vec<_> = selected.left.iter().map(entry).chain(others).take(MOST_UNEXPLAINED).collect();
+    if found.is_empty() && selected.found.is_empty() && is_beyond_noise {
+        found.extend(selected.guilty.iter().filter(|guilty| guilty.explains_a_misfit()).map(entry));
+    }
+    found
 }
 
-/// The measured channels whose errors are told. Those of a load say in newtons what those of the sinkage say in metres; a sinkage that lags
-/// behind tells of no load.
+/// The measured channels of which a model may have errors. Those of a load say in newtons what those of the sinkage say in metres; a sinkage
+/// that lags behind tells of no load.
 pub fn told(measurements: &Measurements, selected: &Selected<'_>) -> Vec<Reading> {
     let lags = selected.model().specification.effect("sinkage-lag").is_some();
     let load = (!lags).then_some(Reading::Load);
     Reading::JUDGED.into_iter().chain(load).filter(|reading| measurements.has(*reading)).collect()
 }
 
-/// Every measured channel that a model predicts.
+/// Every measured channel, with the errors of those that a model predicts.
 fn channels(
     measurements: &Measurements,
     selected: &Selected<'_>,
@@ -158,25 +173,30 @@ fn channels(
         let by_fit = std * selected.model().fit.noise_scale[reading.index()];
         of_repeats.map_or(by_fit, |of_repeats| of_repeats.min(by_fit))
     };
+    let predicted = told(measurements, selected);
+    let pair =
+        |reading: Reading| predicted.contains(&reading).then(|| errors.pair(reading.index(), |_| true)).flatten();
     // As many newtons as a metre of sinkage is worth.
-    let by_sinkage = || {
-        let rmse = |reading: Reading| errors.pair(reading.index(), |_| true).map(|pair| pair.rmse_after);
-        noise_of(Reading::Sinkage) * rmse(Reading::Load).unwrap_or(0.0) / rmse(Reading::Sinkage).unwrap_or(1.0)
+    let with_sinkage = || {
+        let (load, sinkage) = (pair(Reading::Load)?, pair(Reading::Sinkage)?);
+        let of_sinkage = noise_of(Reading::Sinkage) * load.rmse_after / sinkage.rmse_after;
+        Some(noise_of(Reading::Load).hypot(of_sinkage))
     };
     let of = |reading: Reading| {
         let channel = reading.index();
-        let runs = measurements.rows_of_run.iter().filter(|rows| rows.iter().any(|row| errors.has(*row, channel)));
-        let noise = measurements.noise[channel];
-        let ErrorPair { rmse_before, rmse_after } = errors.pair(channel, |_| true)?;
-        Some(ChannelErrors {
-            rmse_before,
-            rmse_after,
-            noise: if reading == Reading::Load { noise_of(reading).hypot(by_sinkage()) } else { noise_of(reading) },
-            noise_stated: noise.stated,
-            runs: runs.count(),
-        })
+        let pair = pair(reading);
+        let has_any = |rows: &&Vec<usize>| pair.is_some() && rows.iter().any(|row| errors.has(*row, channel));
+        ChannelErrors {
+            rmse_before: pair.map(|pair| pair.rmse_before),
+            rmse_after: pair.map(|pair| pair.rmse_after),
+            noise: noise_of(reading),
+            noise_with_sinkage: (reading == Reading::Load).then(with_sinkage).flatten(),
+            noise_stated: measurements.noise[channel].stated,
+            runs: measurements.rows_of_run.iter().filter(has_any).count(),
+        }
     };
-    told(measurements, selected).into_iter().filter_map(|reading| Some((name(reading), of(reading)?))).collect()
+    let measured = Reading::JUDGED.into_iter().chain([Reading::Load]).filter(|reading| measurements.has(*reading));
+    measured.map(|reading| (name(reading), of(reading))).collect()
 }
 
 fn name(reading: Reading) -> String {

@@ -11,9 +11,11 @@ use super::fit::{Model, Reading};
 use super::force_channels::ForceChannels;
 use super::forward::{FoundStep, Selected};
 use super::measurements::{Measurements, column_name};
-use super::selection::MISFIT;
+use super::residual_search::Structure;
+use super::selection::{Judged, MISFIT};
 use super::soil_coordinates::SoilParameter;
 use super::trial::Trial;
+use super::usable_rows::brakes;
 
 /// Spread of slip below which it counts as constant.
 const ONE_SLIP: f64 = 0.03;
@@ -28,6 +30,9 @@ const SET_LOAD: &str = "The load is the same number in every row: it is what was
 const NO_LOAD: &str = "No load: the sinkage stands in for it, so that the sinkage is not judged itself. What makes a wheel sink deeper \
                        under the same load cannot be told from more load but through the forces, and load-stiffening, \
                        guide-friction and errors of the load are not looked for: what they do may stand under another effect.";
+/// Said where all rows brake.
+const ALL_BRAKE: &str = "No row drives: all are of wheels that are braked or towed, and used as with --braking. The equations know of skid \
+                         but its sign, so that what they lack there may be no more than that.";
 /// Said where rows of a run are not independent.
 const REMEMBERS: &str = "What is left of a channel goes together from row to row along a run: its noise is not independent, or a law is \
                          missing. Rows then tell less than they seem to: gains count in as many independent rows as there seem to \
@@ -38,39 +43,44 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     let model = selected.model();
     let found = selected.found.iter();
     let ends = found.clone().flat_map(|found| at_an_end(model, found.winner.id()));
-    let untold_by_verdict = found.enumerate().filter(|(place, found)| *place > 0 || !found.also_near.is_empty());
+    let first = selected.found.first().filter(|first| !first.also_near.is_empty());
     let noted = campaign.notes.iter().cloned().chain(campaign.remarks());
     noted
         .chain(of_data(campaign, measurements).into_iter().flatten())
         .chain(of_fit(model).into_iter().flatten())
         .chain(off_by_run(measurements, selected))
         .chain(ends)
-        .chain(untold_by_verdict.filter_map(|(_, found)| left_open(found)))
+        .chain(first.and_then(left_open))
+        .chain(found.filter_map(|found| form_left_open(&found.winner)))
         .chain(untold(selected))
+        .chain(selected.left.iter().filter_map(says_the_same))
         .collect()
 }
 
 /// What these data cannot tell, whatever the model.
-fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>; 8] {
+fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>; 9] {
     let runs = measurements.runs.len();
     let has = |reading| measurements.has(reading);
     let slips = spread(measurements, Reading::Slip);
     [
+        measurements.rows.iter().all(|row| brakes(&row.readings)).then(|| ALL_BRAKE.to_owned()),
         (runs < 5 && campaign.has_several_runs()).then(|| {
             let runs = counted(runs as u64, "run", "runs");
             format!("Only {runs}: what is found rests on few independent observations.")
         }),
         (has(Reading::Load) && !loads_differ(measurements)).then(|| {
-            "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load; an \
-             offset of the drawbar pull, a tilt and a share of the load look alike."
-                .to_owned()
+            let of_pull = "; an offset of the drawbar pull, a tilt and a share of the load look alike";
+            format!(
+                "One load level: cohesion and friction angle cannot be told apart by these data, nor any effect of the load{}.",
+                if has(Reading::DrawbarPull) { of_pull } else { "" }
+            )
         }),
         measurements.is_load_set.then(|| SET_LOAD.to_owned()),
         (!has(Reading::Load)).then(|| NO_LOAD.to_owned()),
         slips
             .filter(|(low, high)| high - low < ONE_SLIP)
             .map(|_| "Constant slip: the shear modulus and every effect of slip are beyond these data.".to_owned()),
-        (!has(Reading::Torque)).then(|| {
+        (!has(Reading::Torque) && has(Reading::DrawbarPull)).then(|| {
             "No torque: what resists the wheel and what drives it are seen only in their difference.".to_owned()
         }),
         (!has(Reading::Sinkage))
@@ -137,11 +147,19 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
     said.collect()
 }
 
-/// What is said of an effect that others are not told from; of the first the verdict itself names the likeliest of them.
+/// What is said of an effect that more others are not told from than the verdict names.
 fn left_open(found: &FoundStep<'_>) -> Option<String> {
     let others = found.not_told_from();
     (!others.is_empty())
         .then(|| format!("{}: these data do not tell it from {}.", found.winner.id(), others.join(" or ")))
+}
+
+/// What is said of an effect whose form is not told from others.
+fn form_left_open(winner: &Judged<'_>) -> Option<String> {
+    let form = winner.effect()?.form.name;
+    (!winner.other_forms.is_empty()).then(|| {
+        format!("{}: these data do not tell its form, {form}, from {}.", winner.id(), winner.other_forms.join(" or "))
+    })
 }
 
 /// The soil's parameters about which the data say next to nothing.
@@ -157,6 +175,18 @@ fn untold(selected: &Selected<'_>) -> Option<String> {
     let names: Vec<_> = free.filter(is_untold).map(|(_, parameter)| parameter.key()).collect();
     (!names.is_empty()).then(|| {
         format!("These data say little or nothing of {}: what stands there is the prior or a bound.", names.join(", "))
+    })
+}
+
+/// What is said of structure that other columns would explain as well.
+fn says_the_same(structure: &Structure) -> Option<String> {
+    (!structure.also.is_empty()).then(|| {
+        format!(
+            "What {} follows in {} it follows in {} as well: these columns rise and fall together in these rows.",
+            column_name(structure.channel),
+            structure.regressor(),
+            structure.also.join(" and ")
+        )
     })
 }
 

@@ -1,6 +1,6 @@
 //! Chance where many things are tried, or where a noise is estimated beside what is tried.
 
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// ln of a ratio of squares beyond which nothing more is learned.
 const GREATEST_LN_RATIO: f64 = 300.0;
@@ -19,6 +19,11 @@ pub fn beside_noise(squares: f64, parameters: f64, freedom: f64) -> f64 {
         return 1.0;
     }
     FisherSnedecor::new(parameters, freedom).map_or(1.0, |law| law.sf(squares / parameters))
+}
+
+/// The chance that a sum of squares of so many independent errors of known size is as large: of χ². 1 where there are none.
+pub fn of_known_noise(squares: f64, count: f64) -> f64 {
+    ChiSquared::new(count).map_or(1.0, |law| law.sf(squares))
 }
 
 /// The chance that the best of `tried` independent things comes about that each has the chance `alone` of (Šidák):

@@ -187,18 +187,33 @@ pub struct FoundLaw {
 /// the candidates that all runs leave in question; two that show only together, and how many there are, all runs chose.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ChannelErrors {
-    /// Root mean square error of the declared model.
-    pub rmse_before: f64,
-    /// Root mean square error with the effects found.
-    pub rmse_after: f64,
-    /// One standard deviation of a reading; of a load that is held against a sinkage, with what the sinkage's noise is worth. Where it is not
-    /// stated, what the last fit takes it for, or what like rows of two runs scatter by where that is less.
+    /// Root mean square error of the declared model; none of a channel that no model predicts, as a load beside which no sinkage is measured.
+    pub rmse_before: Option<f64>,
+    /// Root mean square error with the effects found; none of the same.
+    pub rmse_after: Option<f64>,
+    /// One standard deviation of a reading. Where it is not stated, what the last fit takes it for, or what like rows of two runs scatter by
+    /// where that is less.
     pub noise: f64,
+    /// Of a load, whose error is against the sinkage: the same with what the sinkage's noise is worth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise_with_sinkage: Option<f64>,
     /// Whether that was stated by the campaign, or estimated.
     #[serde(default)]
     pub noise_stated: bool,
     /// Held-out runs that have the channel.
     pub runs: usize,
+}
+
+impl ChannelErrors {
+    /// Both errors, where there are any.
+    pub fn pair(&self) -> Option<ErrorPair> {
+        Some(ErrorPair { rmse_before: self.rmse_before?, rmse_after: self.rmse_after? })
+    }
+
+    /// What noise alone makes of an error.
+    pub fn noise_of_error(&self) -> f64 {
+        self.noise_with_sinkage.unwrap_or(self.noise)
+    }
 }
 
 /// Errors of a channel before and after, in its unit.

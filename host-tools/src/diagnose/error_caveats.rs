@@ -1,6 +1,6 @@
 //! What a reader of errors on held-out runs should know about them.
 
-use super::document::{ChannelErrors, Diagnosis};
+use super::document::{ChannelErrors, Diagnosis, ErrorPair};
 use super::measurements::Measurements;
 
 /// Times the error of the declared model from which one has grown by more than what changes with the runs that are left out.
@@ -30,8 +30,10 @@ fn without_answer(measurements: &Measurements, predicted: &[String]) -> Option<S
 
 /// What is said where something was found and no channel is predicted the better for it.
 fn no_error_falls(document: &Diagnosis) -> Option<String> {
-    let falls = document.channels.values().any(|errors| errors.rmse_after < errors.rmse_before);
-    (!document.effects.is_empty() && !document.channels.is_empty() && !falls).then(|| {
+    let mut pairs = document.channels.values().filter_map(ChannelErrors::pair).peekable();
+    let is_any = pairs.peek().is_some();
+    let falls = pairs.any(|pair| pair.rmse_after < pair.rmse_before);
+    (!document.effects.is_empty() && is_any && !falls).then(|| {
         "No root mean square error falls on runs that no fit knew: what was found makes them more probable, as by saying better what is \
          uncertain, but predicts none of them better."
             .to_owned()
@@ -40,10 +42,11 @@ fn no_error_falls(document: &Diagnosis) -> Option<String> {
 
 /// What is said of channels that something found predicts worse.
 fn errors_that_grow(document: &Diagnosis) -> Option<String> {
-    let grows = |errors: &ChannelErrors| errors.rmse_after > GROWS * errors.rmse_before && errors.rmse_before > 0.0;
-    let percent = |errors: &ChannelErrors| 100.0 * (errors.rmse_after / errors.rmse_before - 1.0);
-    let worse = document.channels.iter().filter(|(_, errors)| grows(errors));
-    let worse: Vec<_> = worse.map(|(channel, errors)| format!("{channel} (by {:.0} %)", percent(errors))).collect();
+    let grows = |pair: &ErrorPair| pair.rmse_after > GROWS * pair.rmse_before && pair.rmse_before > 0.0;
+    let percent = |pair: ErrorPair| 100.0 * (pair.rmse_after / pair.rmse_before - 1.0);
+    let pairs = document.channels.iter().filter_map(|(channel, errors)| Some((channel, errors.pair()?)));
+    let worse = pairs.filter(|(_, pair)| grows(pair));
+    let worse: Vec<_> = worse.map(|(channel, pair)| format!("{channel} (by {:.0} %)", percent(pair))).collect();
     (!document.effects.is_empty() && !worse.is_empty()).then(|| {
         format!(
             "With what was found, root mean square errors grow on runs that no fit knew, of {}: there the declared model predicts better.",
@@ -58,9 +61,10 @@ mod tests {
 
     fn document(effects: serde_json::Value) -> Diagnosis {
         let errors = |rmse_before, rmse_after| ChannelErrors {
-            rmse_before,
-            rmse_after,
+            rmse_before: Some(rmse_before),
+            rmse_after: Some(rmse_after),
             noise: 1.0,
+            noise_with_sinkage: None,
             noise_stated: true,
             runs: 9,
         };

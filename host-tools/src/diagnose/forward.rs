@@ -1,10 +1,11 @@
 //! Forward selection: one effect after the other, while each earns its place.
 
 use super::bench::Bench;
+use super::candidates::candidates;
 use super::mimicry::{is_mimic, is_own_law};
 use super::pairs::{Known, Pair, alone, from_ahead, from_known};
 use super::residual_search::{Structure, search};
-use super::selection::{Judged, Step, TELLS_APART, look_ahead};
+use super::selection::{Judged, Step, look_ahead};
 use super::steps::Steps;
 use super::trial::Trial;
 
@@ -26,8 +27,8 @@ pub struct Selected<'a> {
     pub last: Option<Step<'a>>,
     /// Structure that is left.
     pub left: Vec<Structure>,
-    /// The column that the declared model's residuals follow most.
-    pub guilty: Option<String>,
+    /// The column that the declared model's residuals follow most, beyond chance or not.
+    pub guilty: Option<Structure>,
 }
 
 /// An effect that earned its place, and the field that it won in.
@@ -76,7 +77,7 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             None => selected.base = here.base.clone(),
         }
         if selected.found.is_empty() {
-            selected.guilty = selected.left.first().map(|structure| structure.regressor());
+            selected.guilty = selected.left.first().cloned();
         }
         let won = winner(bench, &here, &selected.left);
         let place = won.as_ref().map(|(place, _)| *place);
@@ -84,7 +85,9 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             selected.found = vec![instead];
             continue;
         }
-        if let Some(both) = together(&steps, &selected, &here, place) {
+        let tried = candidates(bench.campaign, bench.measurements, &selected.base.specification).len();
+        let is_beyond_chance = |both: &Pair<'_>| both.is_beyond_chance(&selected.base, tried);
+        if let Some(both) = together(&steps, &selected, &here, place).filter(is_beyond_chance) {
             // What was tried without any effect is what the first was found among, whichever it became.
             let step = selected.found.pop().map_or(here, |found| found.step);
             let [first, second] = both.in_order_of(&step);
@@ -185,13 +188,8 @@ pub fn winner(bench: &Bench<'_>, step: &Step<'_>, structures: &[Structure]) -> O
 /// The candidate at a place of a step's ranking, as an effect that was found.
 pub fn found(step: Step<'_>, place: usize) -> FoundStep<'_> {
     let winner = step.ranking[place].clone();
-    // Both must leave it open: the likelihood of the runs that were seen, and the density of those that were not.
-    let is_near = |other: &Judged<'_>| {
-        let errors = winner.held_out.std.hypot(other.held_out.std);
-        other.score > winner.score - TELLS_APART && other.held_out.per_row > winner.held_out.per_row - errors
-    };
     let is_another = |other: &Judged<'_>| other.id() != winner.id() && !other.trial.has_no_reference();
-    let near = |other: &&Judged<'_>| is_another(other) && is_near(other);
+    let near = |other: &&Judged<'_>| is_another(other) && winner.is_near(other);
     let mut ambiguous_with: Vec<_> = step.ranking.iter().filter(near).map(Judged::id).collect();
     let also_near = ambiguous_with.split_off(MOST_ALTERNATIVES.min(ambiguous_with.len()));
     FoundStep { winner, ambiguous_with, also_near, step }

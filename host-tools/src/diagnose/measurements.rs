@@ -8,6 +8,7 @@ use crate::data::campaign::{Campaign, Channel};
 use crate::error::HostError;
 use crate::statistics;
 
+use super::chance::of_known_noise;
 use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
 use super::lone_rows::LoneRow;
@@ -23,8 +24,9 @@ pub const COLUMNS: [Channel; CHANNELS] =
 
 /// Share of the rows that must have a column for something to be said to follow it.
 pub const KNOWN_SHARE: f64 = 0.8;
-/// Times the stated noise from which runs are far off.
-const OFF: f64 = 2.0;
+/// Times the stated noise from which runs are far off; and the chance below which that noise does not make the means of runs scatter so.
+const OFF: f64 = 1.0;
+const CHANCE: f64 = 1e-3;
 
 /// The name of a reading's column.
 pub fn column_name(reading: Reading) -> &'static str {
@@ -141,7 +143,15 @@ impl Measurements {
         let judged =
             Reading::JUDGED.into_iter().filter(|reading| self.noise[reading.index()].stated && self.has(*reading));
         let times = |reading: Reading| (reading, offset_std[reading.index()] / self.noise[reading.index()].std);
-        judged.map(times).filter(|(_, times)| *times > OFF)
+        let is_off = |(reading, times): &(Reading, f64)| {
+            let channel = reading.index();
+            let rows = |run: &Vec<usize>| run.iter().filter(|row| self.rows[**row].readings[channel].is_some()).count();
+            let rows: Vec<f64> =
+                self.rows_of_run.iter().map(rows).filter(|rows| *rows > 0).map(|rows| rows as f64).collect();
+            let squares: f64 = rows.iter().map(|rows| 1.0 + rows * times * times).sum();
+            *times > OFF && of_known_noise(squares, rows.len() as f64) < CHANCE
+        };
+        judged.map(times).filter(is_off)
     }
 
     /// The slips of a run.
@@ -238,13 +248,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wheels_that_all_brake_are_told_of_braking() {
+    fn rows_that_brake_are_used_where_no_other_is_left() {
         let toml = "name = \"skid\"\nkind = \"simulated\"\nsource = \"\"\ngravity_m_s2 = 9.81\n[wheel]\nradius_m = 0.1\n\
                     width_m = 0.1\n";
         let csv = "run,t_s,slip,load_n,drawbar_pull_n\na,0,-0.3,50,-20\na,1,-0.4,51,-22\n";
-        let campaign = Campaign::parse(Path::new("skid.csv"), csv, toml).expect("a campaign");
-        let said = Measurements::of(&campaign, false).expect_err("no row drives").to_string();
-        assert!(said.ends_with("2 rows are below slip -0.05: --braking takes such rows as well"), "{said}");
-        assert_eq!(Measurements::of(&campaign, true).expect("both brake").rows.len(), 2);
+        let rows = |csv: &str, braking: bool| {
+            let campaign = Campaign::parse(Path::new("skid.csv"), csv, toml).expect("a campaign");
+            let found = Measurements::of(&campaign, braking).expect("rows");
+            (found.rows.len(), found.left_out.iter().map(|left_out| left_out.rows).sum())
+        };
+        assert_eq!(rows(csv, false), (2, 0));
+        let with_one_that_drives = format!("{csv}a,2,0.3,52,9\n");
+        assert_eq!([false, true].map(|braking| rows(&with_one_that_drives, braking)), [(1, 2), (3, 0)]);
     }
 }

@@ -10,6 +10,7 @@
 
 mod assemble;
 mod bench;
+mod beyond_noise;
 pub mod campaign_model;
 mod candidates;
 mod caveats;

@@ -14,6 +14,7 @@ use super::levels::levels_left_out;
 use super::lone_rows::{LoneRow, in_words, lone_rows};
 use super::measurements::Measurements;
 use super::other_forms::in_other_forms;
+use super::residual_search::Structure;
 use super::specification::Specification;
 use super::trial::Trial;
 use crate::data::campaign::{Campaign, Fingerprint};
@@ -173,7 +174,12 @@ impl Whole<'_> {
         if self.is_single {
             document.caveats.insert(0, ONE_RUN.to_owned());
         }
-        Outcome { document, measurements: measurements.clone(), errors, guilty: selected.guilty.clone() }
+        Outcome {
+            document,
+            measurements: measurements.clone(),
+            errors,
+            guilty: selected.guilty.as_ref().map(Structure::regressor),
+        }
     }
 }
 

@@ -5,8 +5,9 @@
 //! 15:1119-1125), until each is the best companion of the other and earns its place beside it.
 
 use super::forward::{FoundStep, found, winner};
+use super::gain_chance::Gain;
 use super::residual_search::search;
-use super::selection::{Step, with_better_fit, worth, worth_of_all};
+use super::selection::{SIGNIFICANT, Step, with_better_fit, worth, worth_of_all};
 use super::specification::EffectForm;
 use super::steps::Steps;
 use super::trial::Trial;
@@ -25,6 +26,16 @@ pub struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
+    /// Whether chance does not explain what both gain together over the model without either, over all pairs of so many candidates: two that
+    /// are of little worth alone may each make up for what the other does wrong.
+    pub fn is_beyond_chance(&self, without: &Trial<'_>, tried: usize) -> bool {
+        let both = &self.second.winner.trial;
+        let parameters = both.effect_parameters() - without.effect_parameters();
+        let gain = Gain::over(without, both, self.second.step.dispersion);
+        let gain = Gain { rows_per_reading: both.fit.rows_per_reading(), ..gain };
+        gain.chance(parameters, tried * tried.saturating_sub(1) / 2) < SIGNIFICANT
+    }
+
     /// The two in the order in which a step without either ranks them: each stands on top of the other, and which of them the
     /// search set out from says nothing.
     pub fn in_order_of(self, step: &Step<'a>) -> [FoundStep<'a>; 2] {

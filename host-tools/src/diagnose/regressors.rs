@@ -34,6 +34,8 @@ pub struct Regressor {
 #[derive(Debug, Clone, PartialEq)]
 struct Part {
     name: String,
+    /// Other columns that say the same in these rows.
+    also: Vec<String>,
     /// Whether it is slip, load or sinkage, or says no more than these do, as the rate of a wheel whose carriage keeps its speed, or measures
     /// again what the contact does, as a second sensor of the sinkage.
     is_of_contact: bool,
@@ -47,6 +49,11 @@ impl Regressor {
     /// The names of the columns that it is made of: one, or of a product two.
     pub fn columns(&self) -> Vec<String> {
         self.parts.iter().map(|part| part.name.clone()).collect()
+    }
+
+    /// Other columns that say in these rows what one of its own does.
+    pub fn also(&self) -> Vec<String> {
+        self.parts.iter().flat_map(|part| part.also.iter().cloned()).collect()
     }
 
     /// Whether it is made of what a channel reads.
@@ -69,7 +76,7 @@ impl Part {
     fn of(name: &str, values: &[Option<f64>], measurements: &Measurements, latents: &[Latent]) -> Self {
         let is_contact = CONTACT.iter().any(|reading| name == column_name(*reading));
         let is_of_contact = || says_no_more(values, latents) || is_second_sensor(name, values, measurements, latents);
-        Self { name: name.to_owned(), is_of_contact: is_contact || is_of_contact() }
+        Self { name: name.to_owned(), also: Vec::new(), is_of_contact: is_contact || is_of_contact() }
     }
 }
 
@@ -78,8 +85,10 @@ const CONTACT: [Reading; 3] = [Reading::Slip, Reading::Load, Reading::Sinkage];
 
 /// The columns of a campaign that vary, the ones that the format names first, about a fitted model.
 pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor> {
-    let mut names: Vec<&str> = causes().map(Channel::name).collect();
+    let mut names: Vec<&str> = causes().filter(|channel| *channel != Channel::Time).map(Channel::name).collect();
     names.extend(other_causes(bench.campaign));
+    // What rises steadily through a run does more than a clock.
+    names.push(Channel::Time.name());
     // About one level they scatter by their errors.
     let one_level =
         [(Channel::WheelRate, !rates_differ(bench.measurements)), (Channel::Load, !loads_differ(bench.measurements))];
@@ -88,14 +97,16 @@ pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor>
     let mut found: Vec<Regressor> = Vec::new();
     for name in names {
         let column = column(bench, linearised, name);
-        let new = |regressor: &Regressor| {
-            !found.iter().any(|other| correlation(&other.term.values, &regressor.term.values).abs() > SAME)
-        };
         let part = Part::of(name, &column.values, bench.measurements, linearised.latents());
-        if let Some(regressor) = standardised(vec![part], &column, &at).filter(new) {
-            let turns = (name == Channel::WheelAngle.name()).then(|| turns(&column.values));
-            found.push(Regressor { turns, ..regressor });
+        let Some(regressor) = standardised(vec![part], &column, &at) else { continue };
+        let says_the_same =
+            |other: &&mut Regressor| correlation(&other.term.values, &regressor.term.values).abs() > SAME;
+        if let Some(other) = found.iter_mut().find(says_the_same) {
+            other.parts.iter_mut().for_each(|part| part.also.push(name.to_owned()));
+            continue;
         }
+        let turns = (name == Channel::WheelAngle.name()).then(|| turns(&column.values));
+        found.push(Regressor { turns, ..regressor });
     }
     found
 }

@@ -19,6 +19,8 @@ pub struct Structure {
     pub channel: Reading,
     /// The column, or the two of which it follows the product.
     pub columns: Vec<String>,
+    /// Other columns that say the same in these rows.
+    pub also: Vec<String>,
     /// Whether the column is one of what the contact itself is made of: slip, load and sinkage.
     pub of_contact: bool,
     /// The terms by which it was fitted.
@@ -46,8 +48,16 @@ impl Structure {
         let is_held = self.held_out.is_some_and(|gain| gain.chance() < BY_RUNS && gain.is_shared());
         self.p_value < SIGNIFICANT_STRUCTURE && is_held
     }
+
+    /// Whether it is a single column that is no part of the contact, and likely what a misfit beyond doubt follows.
+    pub fn explains_a_misfit(&self) -> bool {
+        let is_held = self.held_out.is_some_and(|gain| gain.exceeds(1.0) && gain.is_shared());
+        self.columns.len() == 1 && !self.of_contact && self.p_value < SIGNIFICANT_OF_A_MISFIT && is_held
+    }
 }
 
+/// The same where the data show by themselves that something is missing: what is asked is then which column it follows, and not whether.
+const SIGNIFICANT_OF_A_MISFIT: f64 = 0.01;
 /// The chance, over all channels and columns, below which a dependence is taken for one. Less than for an effect: behind an
 /// effect stands an equation that was written before the data.
 const SIGNIFICANT_STRUCTURE: f64 = 0.001;
@@ -122,6 +132,7 @@ fn screen(bench: &Bench<'_>, trial: &Trial<'_>, dispersion: f64) -> Option<(Vec<
         Some(Structure {
             channel,
             columns: regressor.columns(),
+            also: regressor.also(),
             of_contact: regressor.is_of_contact(),
             score: gain(trial, &nothing, &fit) / dispersion - PARAMETER_COST * added.terms.len() as f64,
             share_of_variance: share(&nothing, &fit, channel),

@@ -53,6 +53,8 @@ pub struct Judged<'a> {
     pub held_out: HeldOutGain,
     /// Standard errors by which that gain must exceed nothing.
     pub errors_wanted: f64,
+    /// Other forms of the effect that the data do not tell from this one.
+    pub other_forms: Vec<&'static str>,
 }
 
 impl Judged<'_> {
@@ -74,6 +76,13 @@ impl Judged<'_> {
         // of whole runs, it may come out far too small.
         let is_contradicted = self.p_value < BY_FAR && self.trial.may_be_neutral(NEUTRAL_ERRORS);
         self.p_value < SIGNIFICANT && is_held && !is_contradicted && !self.trial.is_out_of_bounds()
+    }
+
+    /// Whether the data do not tell another from it. Both must leave it open: the likelihood of the runs that were seen, and the density of
+    /// those that were not.
+    pub fn is_near(&self, other: &Self) -> bool {
+        let errors = self.held_out.std.hypot(other.held_out.std);
+        other.score > self.score - TELLS_APART && other.held_out.per_row > self.held_out.per_row - errors
     }
 
     /// Whether chance does not explain what it gains, whether or not it may be the effect.
@@ -134,16 +143,26 @@ fn judged<'a>(bench: &Bench<'a>, base: Trial<'a>, trials: Vec<Trial<'a>>, tried:
         let gain = Gain { rows_per_reading, ..Gain::over(&base, &trial, dispersion) };
         let score = gain.in_dispersions() - PARAMETER_COST * trial.added_parameters() as f64;
         let p_value = gain.chance(trial.added_parameters(), tried);
-        Predicted { judged: Judged { score, p_value, held_out, errors_wanted, trial }, runs: after, is_exact }
+        let judged = Judged { score, p_value, held_out, errors_wanted, trial, other_forms: Vec::new() };
+        Predicted { judged, runs: after, is_exact }
     };
     let all = in_order(trials.into_par_iter().enumerate().map(judge).collect(), misfit);
-    let mut ranking: Vec<Judged<'a>> = Vec::new();
+    Step { base, ranking: best_forms_judged(all), dispersion, ahead }
+}
+
+/// Of each effect the best form, with those that the data do not tell from it.
+fn best_forms_judged(all: Vec<Judged<'_>>) -> Vec<Judged<'_>> {
+    let mut ranking: Vec<Judged<'_>> = Vec::new();
     for judged in all {
-        if ranking.iter().all(|other| other.id() != judged.id()) {
-            ranking.push(judged);
+        match ranking.iter_mut().find(|best| best.id() == judged.id()) {
+            Some(best) if best.is_near(&judged) && judged.is_significant() => {
+                best.other_forms.extend(judged.effect().map(|effect| effect.form.name));
+            }
+            Some(_) => {}
+            None => ranking.push(judged),
         }
     }
-    Step { base, ranking, dispersion, ahead }
+    ranking
 }
 
 /// What the model without any candidate says of runs that it has not seen.

@@ -2,20 +2,29 @@
 
 use kapvik_firmware::terramechanics::effects::effect_info;
 
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::Campaign;
 
-use super::document::{Diagnosis, Verdict};
-use super::fit::Reading;
-use super::held_out_errors::HeldOutErrors;
+use super::document::{Diagnosis, FoundEffect, Verdict};
 use super::measurements::column_name;
+use super::residual_search::Structure;
 
-/// Times what the stated noise allows from which errors on held-out runs are not that noise.
-const BEYOND_NOISE: f64 = 2.0;
+/// The chance from which what comes nearest says nothing.
+const ANYHOW: f64 = 0.3;
 
-/// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document; `off_by_run` are the channels that are off by
-/// another amount in each run.
-pub fn tell(document: &mut Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, off_by_run: &[&str]) {
-    document.sentence = sentence(document, campaign, errors, off_by_run);
+/// What a diagnosis leaves open beside its verdict.
+#[derive(Debug, Clone, Default)]
+pub struct Open<'a> {
+    /// The channel that is missed by more than noise allows, and by how many times as much.
+    pub beyond_noise: Option<(&'static str, f64)>,
+    /// The channels that are off by another amount in each run.
+    pub off_by_run: Vec<&'static str>,
+    /// The column that the declared model's residuals follow most, beyond chance or not.
+    pub nearest: Option<&'a Structure>,
+}
+
+/// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document.
+pub fn tell(document: &mut Diagnosis, campaign: &Campaign, open: &Open<'_>) {
+    document.sentence = sentence(document, campaign, open);
     if document.verdict == Verdict::Ambiguous {
         let ids = document.effects.iter().take(1).map(|effect| &effect.id).chain(&document.ambiguous_with);
         let tests: Vec<_> = ids.filter_map(|id| effect_info(id).map(|info| format!("{id}: {}", info.test))).collect();
@@ -23,7 +32,7 @@ pub fn tell(document: &mut Diagnosis, campaign: &Campaign, errors: &HeldOutError
     }
 }
 
-fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, off_by_run: &[&str]) -> String {
+fn sentence(document: &Diagnosis, campaign: &Campaign, open: &Open<'_>) -> String {
     let model = if document.declared.is_empty() {
         "the seed's equations".to_owned()
     } else {
@@ -35,15 +44,17 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, o
         column => format!("{} against {column}", left.channel),
     });
     match document.verdict {
-        Verdict::None if document.channels.is_empty() => {
+        Verdict::None if document.channels.values().all(|errors| errors.pair().is_none()) => {
             format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
         }
-        Verdict::None if let Some((channel, times)) = beyond_noise(document, campaign, errors) => format!(
+        Verdict::None if let Some((channel, times)) = open.beyond_noise => format!(
             "{of}: {model} miss {channel} by {times:.1} times its stated noise and that of slip and load, and no candidate and no column \
-             explains that: the noise is larger, or a law is missing that follows nothing measured."
+             explains that beyond chance: the noise is larger, or a law is missing.{}",
+            nearest(document, open)
         ),
-        Verdict::None if let Some(differs) = from_run_to_run(off_by_run) => format!(
-            "{of}: within each run {model} explain the data as well as their noise allows, and no candidate earns a place; but {differs}."
+        Verdict::None if let Some(differs) = from_run_to_run(&open.off_by_run) => format!(
+            "{of}: within each run {model} explain the data as well as their noise allows, and no candidate earns a place; but {differs}.{}",
+            nearest(document, open)
         ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
@@ -53,45 +64,52 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors, o
         }
         Verdict::Effect | Verdict::Ambiguous => {
             let left = left.map(|left| format!("structure is left in {left}"));
-            let besides = left.into_iter().chain(from_run_to_run(off_by_run).map(|differs| format!("and {differs}")));
+            let besides =
+                left.into_iter().chain(from_run_to_run(&open.off_by_run).map(|differs| format!("and {differs}")));
             let besides: String = besides.map(|besides| format!("; {besides}")).collect();
             format!("{of}: {model} lack {}{besides}.", found(document))
         }
     }
 }
 
-/// The effects that were found, and what the first is not told from.
+/// The effects that were found, and what each is not told from: of the first the likeliest.
 fn found(document: &Diagnosis) -> String {
-    let found: Vec<_> = document.effects.iter().map(|effect| what(&effect.id)).collect();
-    let or = match document.ambiguous_with.as_slice() {
-        [] => String::new(),
-        others => format!(" (these data do not tell it from {})", others.join(" or ")),
+    let one = |(place, effect): (usize, &FoundEffect)| {
+        let others = if place == 0 { &document.ambiguous_with } else { &effect.ambiguous_with };
+        match others.as_slice() {
+            [] => what(&effect.id),
+            others => format!("{} (these data do not tell it from {})", what(&effect.id), others.join(" or ")),
+        }
     };
-    let first = found.first().cloned().unwrap_or_default();
-    let then = if found.len() > 1 { format!("; then {}", found[1..].join("; then ")) } else { String::new() };
-    format!("{first}{or}{then}")
+    document.effects.iter().enumerate().map(one).collect::<Vec<_>>().join("; then ")
+}
+
+/// What is said of the candidate and the column that come nearest to explaining something, where chance does not do as much anyhow.
+fn nearest(document: &Diagnosis, open: &Open<'_>) -> String {
+    let candidates =
+        document.candidates.iter().filter_map(|candidate| Some((candidate.id.clone(), candidate.p_value?)));
+    let candidate = candidates.min_by(|a, b| a.1.total_cmp(&b.1));
+    let of_column = |nearest: &Structure| {
+        (format!("{} against {}", column_name(nearest.channel), nearest.regressor()), nearest.p_value)
+    };
+    let both = candidate.into_iter().chain(open.nearest.map(of_column)).filter(|(_, chance)| *chance < ANYHOW);
+    let both: Vec<_> =
+        both.map(|(what, chance)| format!("{what} (by chance in {:.1} % of searches)", 100.0 * chance)).collect();
+    match both.as_slice() {
+        [] => String::new(),
+        both => format!(" Nearest comes {}.", both.join(", and ")),
+    }
 }
 
 /// What is said of channels that are off by another amount in each run; none where none is.
 fn from_run_to_run(off_by_run: &[&str]) -> Option<String> {
     (!off_by_run.is_empty()).then(|| {
         format!(
-            "from run to run {} {} noise, which nothing measured explains",
+            "from run to run {} {} noise, which nothing measured explains beyond chance",
             off_by_run.join(" and "),
             if off_by_run.len() == 1 { "differs by more than its" } else { "differ by more than their" }
         )
     })
-}
-
-/// The channel of stated noise that is missed by most of what noise allows on held-out runs, and by how much, where that is far from one. None
-/// where no load is measured: what stands in for it has a noise of its own.
-fn beyond_noise(document: &Diagnosis, campaign: &Campaign, errors: &HeldOutErrors) -> Option<(&'static str, f64)> {
-    campaign.column(Channel::Load.name())?.iter().flatten().next()?;
-    let is_stated = |channel| document.channels.get(channel).is_some_and(|errors| errors.noise_stated);
-    let channels = Reading::JUDGED.into_iter().map(|reading| (reading, column_name(reading)));
-    let stated = channels.filter(|(_, channel)| is_stated(*channel));
-    let missed = stated.filter_map(|(reading, channel)| Some((channel, errors.times_expected(reading.index())?)));
-    missed.filter(|(_, times)| *times > BEYOND_NOISE).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 fn what(id: &str) -> String {
@@ -103,7 +121,7 @@ mod tests {
     use super::*;
     use crate::data::campaign::Carried;
 
-    fn told(verdict: &str, effects: &[&str], off_by_run: &[&str]) -> String {
+    fn told(verdict: &str, effects: &[&str], off_by_run: &[&'static str]) -> String {
         let effect = |id: &&str| serde_json::json!({ "id": id, "parameters": {}, "gain_per_row": 1.0, "p_value": 0.0 });
         let document = serde_json::json!({
             "campaign": "sand", "declared": [], "verdict": verdict,
@@ -114,12 +132,14 @@ mod tests {
         });
         let document: Diagnosis = serde_json::from_value(document).expect("a diagnosis");
         let campaign = Carried::CmuSmoothStraight.campaign().expect("the project's own figures");
-        sentence(&document, &campaign, &HeldOutErrors::none_yet(0), off_by_run).split_off(campaign.name.len())
+        let open = Open { off_by_run: off_by_run.to_vec(), ..Open::default() };
+        sentence(&document, &campaign, &open).split_off(campaign.name.len())
     }
 
     #[test]
     fn what_differs_from_run_to_run_is_said_beside_an_effect_and_without_one() {
-        let differs = "from run to run sinkage_m differs by more than its noise, which nothing measured explains.";
+        let differs =
+            "from run to run sinkage_m differs by more than its noise, which nothing measured explains beyond chance.";
         let [alone, beside] = [("none", &[][..]), ("effect", &["rate", "multi-pass"][..])]
             .map(|(verdict, effects)| told(verdict, effects, &["sinkage_m"]));
         assert!(alone.ends_with(&format!("no candidate earns a place; but {differs}")), "{alone}");

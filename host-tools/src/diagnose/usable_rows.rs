@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::data::campaign::Campaign;
-use crate::digits::counted;
 use crate::error::HostError;
 
 use super::document::LeftOut;
@@ -45,7 +44,15 @@ impl Reason {
     }
 }
 
+impl UsableRow {
+    /// Whether the wheel is braked or towed.
+    fn brakes(&self) -> bool {
+        brakes(&self.readings)
+    }
+}
+
 /// The rows that can be used, in the order of the campaign, and how many others are left out for what; those that stand alone are named.
+/// Rows that brake are used where that is asked for, and where no other is left.
 ///
 /// # Errors
 /// Where no row is left.
@@ -54,14 +61,28 @@ pub fn usable_rows(
     braking: bool,
     lone: &[LoneRow],
 ) -> Result<(Vec<UsableRow>, Vec<LeftOut>), HostError> {
+    let (mut usable, mut left_out) = sorted_out(campaign, lone);
+    let only_brake = usable.iter().all(UsableRow::brakes);
+    if !braking && !only_brake {
+        let all = usable.len();
+        usable.retain(|row| !row.brakes());
+        left_out.extend((usable.len() < all).then_some((Reason::Braking, all - usable.len())));
+    }
+    if usable.is_empty() {
+        return Err(campaign.error("no row that has a slip, a load or a sinkage, and a force or a sinkage to judge"));
+    }
+    let told = left_out.into_iter().map(|(reason, rows)| LeftOut { reason: reason.in_words().to_owned(), rows });
+    Ok((usable, told.collect()))
+}
+
+/// The rows that can be used, those that brake among them, and how many others cannot for what.
+fn sorted_out(campaign: &Campaign, lone: &[LoneRow]) -> (Vec<UsableRow>, BTreeMap<Reason, usize>) {
     let mut usable = Vec::new();
     let mut left_out = BTreeMap::<Reason, usize>::new();
     for (place, is_copy) in campaign.copies().iter().enumerate() {
         let readings = COLUMNS.map(|channel| campaign.value(place, channel));
         let reason = if !has_something_to_judge(&readings) {
             Reason::NothingToJudge
-        } else if !braking && readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING) {
-            Reason::Braking
         } else if campaign.gross_error(place).is_some() {
             Reason::GrossError
         } else if lone.iter().any(|lone| lone.place == place) {
@@ -74,25 +95,12 @@ pub fn usable_rows(
         };
         *left_out.entry(reason).or_default() += 1;
     }
-    if usable.is_empty() {
-        let braking = left_out.get(&Reason::Braking).copied().unwrap_or_default();
-        return Err(campaign.error(nothing_usable(braking)));
-    }
-    let told = left_out.into_iter().map(|(reason, rows)| LeftOut { reason: reason.in_words().to_owned(), rows });
-    Ok((usable, told.collect()))
+    (usable, left_out)
 }
 
-/// What is said where no row is left, of which so many brake.
-fn nothing_usable(braking: usize) -> String {
-    let missing = "no row that drives and has a slip, a load or a sinkage, and a force or a sinkage to judge";
-    match braking {
-        0 => missing.to_owned(),
-        _ => format!("{missing}; {} below slip {BRAKING}: --braking takes such rows as well", rows_are(braking)),
-    }
-}
-
-fn rows_are(rows: usize) -> String {
-    format!("{} {}", counted(rows as u64, "row", "rows"), if rows == 1 { "is" } else { "are" })
+/// Whether a wheel that reads so is braked or towed.
+pub fn brakes(readings: &[Option<f64>; CHANNELS]) -> bool {
+    readings[Reading::Slip.index()].is_some_and(|slip| slip < BRAKING)
 }
 
 /// A slip, what determines the sinkage, and something to judge that by.

@@ -25,18 +25,22 @@ pub fn section(findings: &DiagnosisFindings) -> Markup {
 
 /// Every channel as a line from before to after, in units of its noise.
 fn picture(findings: &DiagnosisFindings) -> Markup {
-    let channels = &findings.diagnosis.channels;
-    let in_noise = |errors: &ChannelErrors| [errors.rmse_before, errors.rmse_after].map(|error| error / errors.noise);
-    let scale = Scale::around(channels.values().flat_map(in_noise).chain([1.2]), (LEFT, RIGHT));
+    let in_noise = |errors: &ChannelErrors| {
+        let ErrorPair { rmse_before, rmse_after } = errors.pair()?;
+        Some([rmse_before, rmse_after].map(|error| error / errors.noise_of_error()))
+    };
+    let channels = findings.diagnosis.channels.iter();
+    let channels: Vec<_> = channels.filter_map(|(name, errors)| Some((name, in_noise(errors)?))).collect();
+    let scale = Scale::around(channels.iter().flat_map(|(_, errors)| *errors).chain([1.2]), (LEFT, RIGHT));
     let bottom = TOP + ROW * channels.len() as f64;
     let height = bottom + 42.0;
     let content = html! {
         (vertical_band("expected", (scale.at(0.0), scale.at(1.0)), (TOP, bottom)))
         (bottom_axis(&scale, (TOP, bottom)))
         (text("tick", (scale.at(0.5), TOP - 2.0), Anchor::Middle, "noise"))
-        @for ((name, errors), place) in channels.iter().zip(0..) {
+        @for ((name, errors), place) in channels.iter().zip(0_u32..) {
             @let y = TOP + ROW * (f64::from(place) + 0.5);
-            @let [before, after] = in_noise(errors).map(|error| scale.at(error));
+            @let [before, after] = errors.map(|error| scale.at(error));
             (text("label", (LEFT - 12.0, y + 4.0), Anchor::End, &Quantity::of_column(name).name))
             (line("step", (before, y), (after, y)))
             (dot("before", (before, y), 5.0))
@@ -83,16 +87,15 @@ fn table(findings: &DiagnosisFindings) -> Markup {
 
 fn row(name: &str, errors: &ChannelErrors, level: Option<Option<&ErrorPair>>) -> Markup {
     let quantity = Quantity::of_column(name);
-    let shown = |value: f64| beside_noise(quantity.factor * value, quantity.factor * errors.noise);
+    let noise = errors.noise_of_error();
     html! {
         tr {
             td { (quantity.titled()) }
-            td { (shown(errors.noise)) @if !errors.noise_stated { " *" } }
-            td class="before" { (shown(errors.rmse_before)) }
-            td class="after" { (shown(errors.rmse_after)) }
-            td { (change(errors.rmse_before, errors.rmse_after)) }
+            td { (beside_noise(quantity.factor * noise, quantity.factor * noise)) @if !errors.noise_stated { " *" } }
+            (pair_cells(errors.pair().as_ref(), quantity.factor, noise))
+            td { (errors.pair().map_or_else(|| "–".to_owned(), |pair| change(pair.rmse_before, pair.rmse_after))) }
             td { (errors.runs) }
-            @if let Some(pair) = level { (pair_cells(pair, quantity.factor, errors.noise)) }
+            @if let Some(pair) = level { (pair_cells(pair, quantity.factor, noise)) }
         }
     }
 }
@@ -111,7 +114,7 @@ fn ends_table(diagnosis: &Diagnosis, ends: &EndsApart) -> Markup {
                             tr {
                                 td { (quantity.titled()) }
                                 @for pair in [ends.ends.get(name), ends.between.get(name)] {
-                                    (pair_cells(pair, quantity.factor, errors.noise))
+                                    (pair_cells(pair, quantity.factor, errors.noise_of_error()))
                                 }
                             }
                         }

@@ -134,7 +134,8 @@ fn diagnosis(campaign: &Campaign) -> Diagnosis {
 }
 
 fn errors(rmse_before: f64, rmse_after: f64, noise: f64, noise_stated: bool) -> ChannelErrors {
-    ChannelErrors { rmse_before, rmse_after, noise, noise_stated, runs: 15 }
+    let [rmse_before, rmse_after] = [rmse_before, rmse_after].map(Some);
+    ChannelErrors { rmse_before, rmse_after, noise, noise_with_sinkage: None, noise_stated, runs: 15 }
 }
 
 /// Fewer gains, and less sure, down the list; the last are worse than nothing.

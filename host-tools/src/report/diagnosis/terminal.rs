@@ -6,7 +6,7 @@ use super::figures::{beside_noise, change, probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::laws::{declared, parameters};
 use super::quantity::Quantity;
-use crate::diagnose::document::{Candidate, Diagnosis};
+use crate::diagnose::document::{Candidate, Diagnosis, ErrorPair};
 use crate::report::terminal::wrapped;
 use crate::terminal_table::{align_right, plain_table};
 
@@ -55,15 +55,14 @@ fn errors(diagnosis: &Diagnosis) -> Table {
     table.set_header(head);
     for (name, errors) in &diagnosis.channels {
         let quantity = Quantity::of_column(name);
-        let shown = |value: f64| beside_noise(quantity.factor * value, quantity.factor * errors.noise);
-        let mut cells = vec![
-            quantity.titled(),
-            shown(errors.noise),
-            shown(errors.rmse_before),
-            shown(errors.rmse_after),
-            change(errors.rmse_before, errors.rmse_after),
-            errors.runs.to_string(),
-        ];
+        let noise = errors.noise_of_error();
+        let shown = |value: f64| beside_noise(quantity.factor * value, quantity.factor * noise);
+        let of_pair = |pair: ErrorPair| {
+            let change = change(pair.rmse_before, pair.rmse_after);
+            [shown(pair.rmse_before), shown(pair.rmse_after), change]
+        };
+        let [before, after, change] = errors.pair().map_or_else(|| [(); 3].map(|()| "–".to_owned()), of_pair);
+        let mut cells = vec![quantity.titled(), shown(noise), before, after, change, errors.runs.to_string()];
         if let Some(pair) = levels.and_then(|levels| levels.channels.get(name)) {
             cells.extend([shown(pair.rmse_before), shown(pair.rmse_after)]);
         }
@@ -74,7 +73,8 @@ fn errors(diagnosis: &Diagnosis) -> Table {
             for (name, errors) in &diagnosis.channels {
                 let Some(pair) = channels.get(name) else { continue };
                 let quantity = Quantity::of_column(name);
-                let shown = |value: f64| beside_noise(quantity.factor * value, quantity.factor * errors.noise);
+                let noise = quantity.factor * errors.noise_of_error();
+                let shown = |value: f64| beside_noise(quantity.factor * value, noise);
                 let change = change(pair.rmse_before, pair.rmse_after);
                 let title = format!("{}, {part}", quantity.titled());
                 table.add_row([title, String::new(), shown(pair.rmse_before), shown(pair.rmse_after), change]);
