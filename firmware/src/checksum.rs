@@ -25,6 +25,11 @@ impl Checksum {
         self.add(&word.to_le_bytes());
     }
 
+    /// What adds words: of one type whatever it walks over, so that one walk is in the image.
+    pub fn words(&mut self) -> impl FnMut(u32) {
+        |word| self.add_word(word)
+    }
+
     /// By itself: the bits of many bytes, unrolled, were as long as the table of steps.
     #[inline(never)]
     fn add_byte(&mut self, byte: u8) {

@@ -121,6 +121,6 @@ fn same_bits(left: &[f32; OUTPUTS], right: &[f32; OUTPUTS]) -> bool {
 /// CRC-32 (ISO-HDLC) over the words of all numbers of a table, least significant byte first.
 pub fn checksum(table: &impl Words) -> u32 {
     let mut checksum = Checksum::new();
-    table.for_each(&mut |word| checksum.add_word(word));
+    table.for_each(&mut checksum.words());
     checksum.finish()
 }

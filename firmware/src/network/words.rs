@@ -6,6 +6,16 @@ pub trait Words {
     fn for_each(&self, see: &mut impl FnMut(u32));
     /// Calls `set` with a place for each word, in the same order.
     fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32));
+
+    /// Calls `see` with each word of a row of such things. By itself: unrolled through all layers of a table, the checksum's walk would take
+    /// 5 KB of the image.
+    #[cfg_attr(target_arch = "arm", inline(never))]
+    fn for_each_of(row: &[Self], see: &mut impl FnMut(u32))
+    where
+        Self: Sized,
+    {
+        row.iter().for_each(|part| part.for_each(see));
+    }
 }
 
 impl Words for u32 {
@@ -41,18 +51,15 @@ impl Words for f32 {
 
 impl<T: Words, const N: usize> Words for [T; N] {
     fn for_each(&self, see: &mut impl FnMut(u32)) {
-        for_each_of(self, see);
+        T::for_each_of(self, see);
     }
     fn for_each_mut(&mut self, set: &mut impl FnMut(&mut u32)) {
         self.iter_mut().for_each(|part| part.for_each_mut(set));
     }
-}
-
-/// The words of arrays of any length. Unrolled through all layers of a table, the checksum's walk would take 5 KB of the
-/// image.
-#[cfg_attr(target_arch = "arm", inline(never))]
-fn for_each_of<T: Words>(parts: &[T], see: &mut impl FnMut(u32)) {
-    parts.iter().for_each(|part| part.for_each(see));
+    /// Arrays in a row are one longer row of what they hold: one walk in the image for arrays of all lengths.
+    fn for_each_of(row: &[Self], see: &mut impl FnMut(u32)) {
+        T::for_each_of(row.as_flattened(), see);
+    }
 }
 
 /// Writes [`Words`](crate::network::Words) for a struct: its fields in the order given.
