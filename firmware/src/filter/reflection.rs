@@ -64,10 +64,9 @@ pub(super) fn triangularise<T: Scalar, C, const N: usize>(
     let mut rest = columns.as_mut_slice();
     for (index, (row, pivot)) in root.iter_mut().zip(pivots).enumerate() {
         let Some((column, later)) = rest.split_first_mut() else { break };
-        let Some((below, from_diagonal)) = row.split_at_mut_checked(index) else { break };
-        let Some((diagonal, entries)) = from_diagonal.split_first_mut() else { break };
+        *row = [T::zero(); N];
+        let Some((diagonal, entries)) = row.get_mut(index..).and_then(<[T]>::split_first_mut) else { break };
         let (reflection, norm) = Reflection::new(pivot.abs(), rows(column));
-        below.fill(T::zero());
         *diagonal = norm;
         for (entry, other) in entries.iter_mut().zip(later.iter_mut()) {
             *entry = reflection.apply(rows(other));
