@@ -202,7 +202,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     /// What the errors of the contact angles make of the hubs' speeds against that of the axis, of a side at this speed, as
     /// variances, m²/s².
     pub fn hub_speed_variances(&self, speed_m_s: S) -> PerAxle<S> {
-        self.speed_slopes.map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().variance_of_sum(&slopes))
+        self.speed_slopes.as_ref().map(|slopes| speed_m_s * speed_m_s * self.filter.estimate().variance_of_sum(slopes))
     }
 
     /// The contact angles, rad: those of the paths of the hubs.

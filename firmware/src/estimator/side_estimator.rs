@@ -182,9 +182,9 @@ impl<S: Scalar> SideEstimator<S> {
         self.follow_rims(step_s, &frame.wheel_rate_rad_s, readings.axis_velocity_m_s.x);
         let slopes = *self.sinking.slopes();
         let before = self.angles.angles();
-        let told = self.angles.tick(step_s, self.rims.speed_m_s(), &slopes, attitude, &readings, &self.rover.noise);
-        surprises.of_side(&told);
-        self.told.angles = told;
+        self.told.angles =
+            self.angles.tick(step_s, self.rims.speed_m_s(), &slopes, attitude, &readings, &self.rover.noise);
+        surprises.of_side(&self.told.angles);
         // What the torques and the memory said of the frame before is asked once more, of the forces.
         let turned = self.angles.angles().zip(before).map(|(now, before)| now - before);
         let corrections = self.corrections.as_mut().zip(turned).into_array();
