@@ -295,7 +295,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         let felt = attitude.felt_rad();
         let noise_std = [velocity_std.x, rise.1, rocker.1, bogie.1, felt.1];
         let measured = [velocity.x, rise.0, rocker.0, bogie.0, felt.0];
-        let model = self.model;
+        let model = &self.model;
         // Not the watch's gate: what is loosened below is wide enough for what is plausible.
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
         self.load_shift.follow(self.links().middle - bogie_before, step_s);
@@ -349,7 +349,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
     }
 
     fn predict(&mut self, step_s: S, [rate_std_rad_s, shifts_rad]: [S; 2], readings: &SideReadings<S>) {
-        let model = self.model;
+        let model = &self.model;
         let travel = self.travel_m(step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
         let factor =
