@@ -60,15 +60,16 @@ impl SoilOverTime {
         }
     }
 
-    /// Takes the wheels after some travel, m, which side rolls back, and whether angles of contacts are surmised. Gives the soil under each
-    /// and under the rover.
+    /// Takes the wheels after some travel, m, which side rolls back, and whether angles of contacts are surmised. Writes the soil under each
+    /// to `wheel_soils`, and gives that under the rover.
     pub fn tick(
         &mut self,
         wheels: &PerWheel<WheelEstimate>,
         backward: PerSide<bool>,
         travel_m: f32,
         surmises_contacts: bool,
-    ) -> (PerWheel<Result<SoilEstimate, Refusal>>, Result<RoverSoil, Refusal>) {
+        wheel_soils: &mut PerWheel<Result<SoilEstimate, Refusal>>,
+    ) -> Result<RoverSoil, Refusal> {
         self.surmises_contacts = surmises_contacts;
         let mirrored;
         let wheels = if backward.left || backward.right {
@@ -78,13 +79,14 @@ impl SoilOverTime {
             wheels
         };
         let left_again = self.follow_direction(wheels, backward);
-        let wheel_soils = wheels.as_ref().map(|side| side.as_ref().map(|wheel| self.under_wheel(wheel)));
+        for (soil, wheel) in wheel_soils.iter_wheels_mut().zip(wheels.iter_wheels()) {
+            *soil = self.under_wheel(wheel);
+        }
         let change = self.changes.tick(wheels, travel_m);
         if change.is_some() || left_again {
             self.average = SoilAverage::new(change == Some(Stiffness::Rises));
         }
-        let rover = self.under_rover(wheels, travel_m);
-        (wheel_soils, rover)
+        self.under_rover(wheels, travel_m)
     }
 
     /// Whether the rover turned back off a soil that it was on its way onto.

@@ -59,8 +59,8 @@ impl Pipeline {
             last.wheels = sides.as_ref().map(|side| side.wheels);
             last.bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
             let backward = self.estimator.rolls_back();
-            (last.wheel_soils, last.soil) =
-                self.soil.tick(&last.wheels, backward, travel_m, self.estimator.surmises_contacts());
+            let surmises = self.estimator.surmises_contacts();
+            last.soil = self.soil.tick(&last.wheels, backward, travel_m, surmises, &mut last.wheel_soils);
         }
         last
     }
