@@ -136,7 +136,7 @@ impl SoilOverTime {
         }
         if states.is_empty() {
             // While nothing rolls, what was learned stays.
-            return self.fused(taking_part).ok_or(Refusal::NotRolling);
+            return self.fused(taking_part, Refusal::NotRolling);
         }
         let count = states.len() as f32;
         let [drawbar_pull_n, load_n, torque_nm, slip] = squares.map(|square| math::sqrt(square / count));
@@ -144,7 +144,7 @@ impl SoilOverTime {
         let query = SoilQuery { wheel: self.wheel, noise, slope: None, wheels: states };
         // What a network refuses to look at leaves what was learned before.
         let refusal = self.take(query, math::sqrt(shared / count), travel_m).err();
-        self.fused(taking_part).ok_or(refusal.unwrap_or(Refusal::NotRolling))
+        self.fused(taking_part, refusal.unwrap_or(Refusal::NotRolling))
     }
 
     /// Asks the rover network, in turn as it is and what would last without noise.
@@ -168,10 +168,11 @@ impl SoilOverTime {
         Ok(())
     }
 
-    fn fused(&self, wheels: PerWheel<bool>) -> Option<RoverSoil> {
-        let outputs = self.average.outputs()?;
+    /// What is known of the soil over time; where that is nothing, why.
+    fn fused(&self, wheels: PerWheel<bool>, nothing: Refusal) -> Result<RoverSoil, Refusal> {
+        let outputs = self.average.outputs().ok_or(nothing)?;
         let posterior = frozen::ROVER.posterior.read(&outputs);
-        Some(RoverSoil {
+        Ok(RoverSoil {
             estimate: SoilEstimate::new(&posterior, self.average.inside_training_range()),
             wheels,
             instants: self.average.instants(),
