@@ -56,7 +56,9 @@ impl Pipeline {
         if let Taken::Used(travel_m) = self.estimator.tick(frame) {
             let sides = self.estimator.estimate();
             last.time_us = frame.time_us;
-            last.wheels = sides.as_ref().map(|side| side.wheels);
+            for (place, side) in last.wheels.as_array_mut().into_iter().zip(sides.as_array()) {
+                *place = side.wheels;
+            }
             last.bogie_drawbar_pull_n = sides.as_ref().map(|side| side.bogie_drawbar_pull_n);
             let backward = self.estimator.rolls_back();
             let surmises = self.estimator.surmises_contacts();
