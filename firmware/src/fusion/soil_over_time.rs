@@ -171,9 +171,9 @@ impl SoilOverTime {
     /// What is known of the soil over time; where that is nothing, why.
     fn fused(&self, wheels: PerWheel<bool>, nothing: Refusal) -> Result<RoverSoil, Refusal> {
         let outputs = self.average.outputs().ok_or(nothing)?;
-        let posterior = frozen::ROVER.posterior.read(&outputs);
+        let inside = self.average.inside_training_range();
         Ok(RoverSoil {
-            estimate: SoilEstimate::new(&posterior, self.average.inside_training_range()),
+            estimate: SoilEstimate::of_outputs(&frozen::ROVER.posterior, &outputs, inside),
             wheels,
             instants: self.average.instants(),
             changes: self.changes.changes(),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::math;
-use crate::network::{Marginal, Posterior};
+use crate::network::{Marginal, OUTPUTS, Posterior, PosteriorScale};
 
 /// One parameter of the soil in its own unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -50,28 +50,30 @@ pub enum Refusal {
 }
 
 impl SoilEstimate {
+    /// From what a network puts out, on the scale of the prior that it was trained with.
+    #[inline(never)] // one copy in the image for all networks
+    pub fn of_outputs(scale: &PosteriorScale, outputs: &[f32; OUTPUTS], inside_training_range: bool) -> Self {
+        Self::new(&scale.read(outputs), inside_training_range)
+    }
+
     /// From the posterior of ln c, φ and ln K.
-    pub fn new(posterior: &Posterior, inside_training_range: bool) -> Self {
-        let [ln_c, phi, ln_k] = posterior.map(|mut marginal| {
-            marginal.identifiable &= inside_training_range;
-            marginal
-        });
+    pub fn new([ln_c, phi, ln_k]: &Posterior, inside_training_range: bool) -> Self {
         Self {
-            cohesion_pa: from_logarithm(&ln_c),
+            cohesion_pa: from_logarithm(ln_c, inside_training_range),
             friction_angle_rad: ParameterEstimate {
                 value: phi.mean,
                 std: phi.std,
                 interval_68: phi.interval_68,
                 interval_95: phi.interval_95,
-                identifiable: phi.identifiable,
+                identifiable: phi.identifiable && inside_training_range,
             },
-            shear_modulus_m: from_logarithm(&ln_k),
+            shear_modulus_m: from_logarithm(ln_k, inside_training_range),
             outside_training_range: !inside_training_range,
         }
     }
 }
 
-fn from_logarithm(marginal: &Marginal) -> ParameterEstimate {
+fn from_logarithm(marginal: &Marginal, inside_training_range: bool) -> ParameterEstimate {
     let value = math::exp(marginal.mean);
     let growth = math::exp(marginal.std * marginal.std);
     ParameterEstimate {
@@ -79,6 +81,6 @@ fn from_logarithm(marginal: &Marginal) -> ParameterEstimate {
         std: value * math::sqrt(growth * (growth - 1.0)),
         interval_68: marginal.interval_68.map(math::exp),
         interval_95: marginal.interval_95.map(math::exp),
-        identifiable: marginal.identifiable,
+        identifiable: marginal.identifiable && inside_training_range,
     }
 }

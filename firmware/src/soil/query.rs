@@ -23,16 +23,16 @@ pub(crate) fn wheel_soil(query: &SoilQuery, state: &WheelState) -> Result<SoilEs
     check(fifth.value.is_finite() && positive(fifth.std), &[fifth.value, fifth.std])?;
     let input = query.wheel_inputs(state, fifth);
     let table = &frozen::WHEEL;
-    let posterior = table.posterior.read(&table.outputs(&input));
+    let outputs = table.outputs(&input);
     let inside = table.normalisation.contains(&input) && is_known_slip(state.slip, query.noise.slip);
-    Ok(SoilEstimate::new(&posterior, inside))
+    Ok(SoilEstimate::of_outputs(&table.posterior, &outputs, inside))
 }
 
 /// The soil under all wheels of the query.
 fn rover_soil(query: &SoilQuery) -> Result<SoilEstimate, Refusal> {
     let (outputs, inside) = rover_outputs(query)?;
     let inside = inside && query.wheels.iter().all(|state| is_known_slip(state.slip, query.noise.slip));
-    Ok(SoilEstimate::new(&frozen::ROVER.posterior.read(&outputs), inside))
+    Ok(SoilEstimate::of_outputs(&frozen::ROVER.posterior, &outputs, inside))
 }
 
 /// The least slip in the scenes that the networks are trained with.
