@@ -101,10 +101,9 @@ impl SoilOverTime {
     /// slips were drawn one by one, while those of a rover that drives hang on each other and on the soil.
     fn under_wheel(&self, wheel: &WheelEstimate) -> Result<SoilEstimate, Refusal> {
         let state = state_of(wheel).ok_or(Refusal::NotRolling)?;
-        let mut query = SoilQuery { wheel: self.wheel, noise: noise_of(wheel), slope: None, wheels: Vec::new() };
-        // One wheel always fits.
-        let _ = query.wheels.push(state);
-        wheel_soil(&query, &state)
+        // What the wheels share: the one that is asked for stands by itself.
+        let shared = SoilQuery { wheel: self.wheel, noise: noise_of(wheel), slope: None, wheels: Vec::new() };
+        wheel_soil(&shared, &state)
     }
 
     /// The wheels that the rover network is told of: known, on the newest soil, and known not much worse than the best.
