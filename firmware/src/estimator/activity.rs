@@ -1,6 +1,8 @@
 //! What a wheel does: whether it stands, is blocked, or rolls.
 
 use super::estimate::WheelActivity;
+use super::slip_by_speeds::SpeedReadings;
+use super::slip_torque::SlipTorqueFilter;
 use crate::scalar::Scalar;
 
 /// Below this speed of rim and hub a wheel stands, m/s.
@@ -21,6 +23,21 @@ pub(super) fn what_it_does<S: Scalar>(rim: S, hub: S, before: WheelActivity) -> 
     } else {
         WheelActivity::Rolling
     }
+}
+
+/// Begins what a wheel does now, where that is something else than `before`, in its filter; one that is blocked is told so in every frame.
+pub(super) fn take_up<S: Scalar>(
+    filter: &mut SlipTorqueFilter<S>,
+    before: &mut WheelActivity,
+    now: WheelActivity,
+    speeds: &SpeedReadings<S>,
+) {
+    if now == WheelActivity::Blocked {
+        filter.block();
+    } else if now != *before {
+        filter.start(speeds);
+    }
+    *before = now;
 }
 
 #[cfg(test)]

@@ -252,7 +252,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.roughness.restart();
     }
 
-    /// How often the filter was in trouble.
+    /// How often it was in trouble.
     pub fn troubles(&self) -> Troubles {
         Troubles { resets: self.filter.resets(), relearned: self.watch.relearned() }
     }
@@ -287,8 +287,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.model.body_pitch = body_pitch_rad.sin_cos();
         let ContactAngleModel { rim_speed_m_s: speed_m_s, body_pitch, .. } = self.model;
         if !stands {
-            let motion = Motion { speed_m_s, step_s, body_pitch_rad, body_pitch };
-            self.roughness.learn(&motion, readings, noise);
+            self.roughness.learn(&Motion { speed_m_s, step_s, body_pitch_rad, body_pitch }, readings, noise);
         }
         let (velocity, velocity_std) = (&readings.axis_velocity_m_s, &readings.velocity_std_m_s);
         let rise = self.rise((velocity.z, velocity_std.z), step_s);
@@ -299,18 +298,10 @@ impl<S: Scalar> ContactAngleFilter<S> {
         // Not the watch's gate: what is loosened below is wide enough for what is plausible.
         let told = self.filter.update(|state| model.measure(state), &measured, &noise_std, Gate::one_in_a_thousand());
         self.load_shift.follow(self.links().middle - bogie_before, step_s);
-        let loosened = match self.watch.judge(&told) {
-            Contradiction::Passing => None,
-            Contradiction::Moved => Some(Self::unknown_std().map(|std| std * S::constant(LOOSENED))),
-            Contradiction::Wrong => Some(Self::unknown_std()),
-        };
-        if let Some(stds) = &loosened {
-            self.trends.forget();
-            let _ = self.filter.random_walk(stds);
-        }
+        let is_loosened = self.loosen_contradicted(&told);
         let [_, front, middle, rear, ..] = self.filter.estimate().variances();
         let variances = PerAxle { front, middle, rear };
-        if loosened.is_none() {
+        if !is_loosened {
             let told = measured.iter().take(MEASUREMENTS - 1).any(Option::is_some);
             self.follow_trends(step_s, &before, &variances, told);
         }
@@ -319,6 +310,18 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.give_up_impossible();
         self.runs.take(&told, FIRST_IN_RUNS);
         told
+    }
+
+    /// Where measurements contradict the state, it counts for less or for nothing. Whether they do.
+    fn loosen_contradicted(&mut self, told: &Innovation<S, MEASUREMENTS>) -> bool {
+        let stds = match self.watch.judge(told) {
+            Contradiction::Passing => return false,
+            Contradiction::Moved => Self::unknown_std().map(|std| std * S::constant(LOOSENED)),
+            Contradiction::Wrong => Self::unknown_std(),
+        };
+        self.trends.forget();
+        let _ = self.filter.random_walk(&stds);
+        true
     }
 
     /// How fast the axis rises, m/s, and its standard deviation.
@@ -350,7 +353,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
 
     fn predict(&mut self, step_s: S, [rate_std_rad_s, shifts_rad]: [S; 2], readings: &SideReadings<S>) {
         let model = &self.model;
-        let travel = self.travel_m(step_s);
+        let (travel, rim_travel) = (self.travel_m(step_s), self.model.rim_speed_m_s.abs() * step_s);
         let [.., rocker, bogie, _] = *self.filter.estimate().mean();
         let factor =
             self.roughness.of_angles(bogie - rocker, self.runs.above(RUN)) + of_unlike(&self.angles(), &self.variances);
@@ -380,7 +383,6 @@ impl<S: Scalar> ContactAngleFilter<S> {
                 body + step_s * body_rate,
             ]
         };
-        let rim_travel = self.model.rim_speed_m_s.abs() * step_s;
         let ratio = S::constant(RATIO_DRIFT) * (self.roughness.of_ratio() * rim_travel).sqrt();
         let nominal = S::constant(ANGLE_DRIFT * ANGLE_DRIFT) * travel;
         let met = S::constant(FRONT_FROM_FORCES) * readings.runs_of_forces;

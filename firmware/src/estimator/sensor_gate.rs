@@ -2,6 +2,7 @@
 
 use super::health::{PerSensor, SensorHealth};
 use crate::rover::{Axes, PerAxle, PerSide, PerWheel, Rover};
+use crate::scalar::Scalar;
 
 /// The same bits again for so many frames: no noisy sensor says that. One that is stuck and believed leads the filters astray.
 const STUCK_FRAMES: u8 = 3;
@@ -122,6 +123,9 @@ pub(super) fn count(counter: &mut u16) {
     *counter = counter.saturating_add(1);
 }
 
+/// An encoder that says the same over and over is off by so many times its noise.
+const REPEATING: f64 = 10.0;
+
 /// Whether a sensor says the same bits as in the frame before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Repeats {
@@ -131,6 +135,13 @@ pub(super) enum Repeats {
     Again,
     /// It has for as long as one that is stuck.
     OverAndOver,
+}
+
+impl Repeats {
+    /// By how many times its noise an encoder is off that repeats so.
+    pub fn of_noise<S: Scalar>(self) -> S {
+        if self == Self::OverAndOver { S::constant(REPEATING) } else { S::one() }
+    }
 }
 
 /// The gates of all sensors.

@@ -1,6 +1,6 @@
 //! The filters of one side, and what they say together.
 
-use super::activity::{STANDING, what_it_does};
+use super::activity::{STANDING, take_up, what_it_does};
 use super::attitude::Attitude;
 use super::bogie_stop::AlongLinks;
 use super::compaction::{Compaction, Correction};
@@ -35,8 +35,6 @@ const GREATEST_LIFTED: f64 = 0.09;
 /// Where torques swing, wheels go up and down with the grousers, and links with them, which no sensor follows: one standard deviation of what
 /// that adds to the speed of a hub, over the speed of its rim.
 const SWINGS_HUB: f64 = 0.08;
-/// An encoder that says the same over and over is off by so many times its noise.
-const REPEATING: f64 = 10.0;
 /// What drifts with travel drifts a little at rest too: as if the wheel crept at this speed, m/s.
 const CREEP: f64 = 1.0e-3;
 
@@ -258,12 +256,7 @@ impl<S: Scalar> SideEstimator<S> {
                 hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| now == WheelActivity::Rolling),
                 hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
             };
-            if now == WheelActivity::Blocked {
-                filter.block();
-            } else if now != *activity {
-                filter.start(&speeds);
-            }
-            *activity = now;
+            take_up(filter, activity, now, &speeds);
             stands |= now == WheelActivity::Standing;
             let has_settled = since_start.follow(now == WheelActivity::Standing, step_s);
             if since_start.starts() {
@@ -277,8 +270,7 @@ impl<S: Scalar> SideEstimator<S> {
             let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
             let readings = WheelReadings {
                 speeds,
-                rate_std_rad_s: noise.wheel_rate_rad_s
-                    * if repeats == Repeats::OverAndOver { S::constant(REPEATING) } else { S::one() },
+                rate_std_rad_s: noise.wheel_rate_rad_s * repeats.of_noise(),
                 rate_repeats: repeats != Repeats::Not,
                 side_swings: self.swings,
                 shared_speed_std_m_s: noise.velocity_m_s,
@@ -293,6 +285,13 @@ impl<S: Scalar> SideEstimator<S> {
             surprise.of_wheel(told);
             swings |= filter.swings();
         }
+        self.note(starts, settles, swings);
+        let rolled = Rolled { stands, speed_m_s: self.speed_m_s(), rim_speed_m_s: self.rims.speed_m_s(), step_s };
+        self.digging_in.follow(&rolled, &mut self.angles);
+    }
+
+    /// What wheels that start, settle or swing make of the forces.
+    fn note(&mut self, starts: bool, settles: bool, swings: bool) {
         (self.starts, self.swings) = (starts, swings);
         if starts || swings {
             self.forces.unsettle();
@@ -300,8 +299,6 @@ impl<S: Scalar> SideEstimator<S> {
         if settles {
             self.forces.settle();
         }
-        let rolled = Rolled { stands, speed_m_s: self.speed_m_s(), rim_speed_m_s: self.rims.speed_m_s(), step_s };
-        self.digging_in.follow(&rolled, &mut self.angles);
     }
 
     fn tick_forces(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>, surprises: &mut Surprises) {
