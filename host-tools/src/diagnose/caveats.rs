@@ -33,6 +33,9 @@ const NO_LOAD: &str = "No load: the sinkage stands in for it, so that the sinkag
 /// Said where all rows brake.
 const ALL_BRAKE: &str = "No row drives: all are of wheels that are braked or towed, and used as with --braking. The equations know of skid \
                          but its sign, so that what they lack there may be no more than that.";
+/// Said where nothing but the sinkage tells of the soil.
+const ONLY_SINKAGE: &str = "Neither drawbar pull nor torque, and c1 and c2 are not stated exactly: a sinkage that grows with slip may be \
+                            slip-sinkage, or a stress that peaks farther back; it may stand in c1 and c2.";
 /// Said where rows of a run are not independent.
 const REMEMBERS: &str = "What is left of a channel goes together from row to row along a run: its noise is not independent, or a law is \
                          missing. Rows then tell less than they seem to: gains count in as many independent rows as there seem to \
@@ -48,6 +51,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     noted
         .chain(of_data(campaign, measurements).into_iter().flatten())
         .chain(of_fit(model).into_iter().flatten())
+        .chain(only_sinkage(measurements, model))
         .chain(off_by_run(measurements, selected))
         .chain(ends)
         .chain(first.and_then(left_open))
@@ -110,6 +114,12 @@ fn of_fit(model: &Trial<'_>) -> [Option<String>; 2] {
         }),
         (model.fit.rows_per_reading() > 1.0).then(|| REMEMBERS.to_owned()),
     ]
+}
+
+fn only_sinkage(measurements: &Measurements, model: &Trial<'_>) -> Option<String> {
+    let tells_a_force = [Reading::DrawbarPull, Reading::Torque].into_iter().any(|reading| measurements.has(reading));
+    let is_peak_free = model.model.soil_parameters().iter().any(|parameter| ["c1", "c2"].contains(&parameter.key()));
+    (!tells_a_force && measurements.has(Reading::Sinkage) && is_peak_free).then(|| ONLY_SINKAGE.to_owned())
 }
 
 /// The channels that are off by another amount in each run, by far more than their stated noise.
