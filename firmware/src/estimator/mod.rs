@@ -76,6 +76,7 @@ pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 pub use health::{EstimatorHealth, PerSensor, SensorHealth};
 pub use rover_estimator::{RoverEstimator, Taken};
 pub use sensor::{Axis, Sensor};
+pub use sensor_gate::SensorGates;
 pub use side_estimate::{Believed, WheelCovariance};
 pub use side_estimator::SideInnovations;
 pub use troubles::Troubles;

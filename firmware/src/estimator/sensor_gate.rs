@@ -146,7 +146,7 @@ impl Repeats {
 
 /// The gates of all sensors.
 #[derive(Debug, Clone)]
-pub(super) struct SensorGates {
+pub struct SensorGates {
     gates: PerSensor<SensorGate>,
 }
 
@@ -172,7 +172,7 @@ impl SensorGates {
     /// Which encoders say the same bits over and over. That of a drive that holds its rate may well, if it is coarse; one that is stuck
     /// does, too, and nothing in it tells the two apart. To do without would be worse: it says nearly what the rate is while the drive
     /// goes on.
-    pub fn repeating_rates(&self) -> PerWheel<Repeats> {
+    pub(super) fn repeating_rates(&self) -> PerWheel<Repeats> {
         self.gates.wheel_rate.map_wheels(|gate| match gate.repeats {
             0 => Repeats::Not,
             repeats if repeats < gate.allowed => Repeats::Again,

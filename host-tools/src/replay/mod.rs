@@ -1,5 +1,6 @@
 //! Recorded sensor frames through a flight computer.
 
+mod admitted;
 mod camera_tilt;
 mod dead_sensors;
 mod doubts;
