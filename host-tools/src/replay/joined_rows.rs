@@ -5,25 +5,37 @@ use std::rc::Rc;
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
+use super::rhythm::Rhythms;
 use crate::data::sensor_channels::{values, values_mut};
 use crate::error::HostError;
 
-/// So long after the first row of a frame its last may come, µs: what the sensors of fifty frames a second say between one and the next.
+/// So long after the first row of a frame its last may come at any rate, µs: what the sensors of fifty frames a second say between one and the
+/// next. Where all of its sensors speak more seldom it may come later, as long as it is nearer to that frame than to the next.
 pub const APART_US: u64 = 20_000;
 
-/// Frames, those that follow each other within [`APART_US`] and of which no sensor says something twice as one, with the time of the last of
-/// them. One of which no sensor says anything is a frame by itself.
+/// Frames, those that follow each other so closely and of which no sensor says something twice as one, with the time of the last of them. One of
+/// which no sensor says anything is a frame by itself.
 pub struct JoinedRows<I> {
     rows: I,
     /// What has been read and is no part of the frame before.
     next: Option<Result<SensorFrame, HostError>>,
-    joined: Rc<Cell<u64>>,
+    rhythms: Rhythms,
+    joined: Rc<Cell<Joined>>,
+}
+
+/// Rows that have become part of the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Joined {
+    /// How many.
+    pub rows: u64,
+    /// The longest after the first row of their frame, µs.
+    pub latest_us: u64,
 }
 
 impl<I: Iterator<Item = Result<SensorFrame, HostError>>> JoinedRows<I> {
     /// The frames of these rows.
     pub fn of(rows: I) -> Self {
-        Self { rows, next: None, joined: Rc::default() }
+        Self { rows, next: None, rhythms: Rhythms::default(), joined: Rc::default() }
     }
 
     /// The rows, for whoever asks what they are read from.
@@ -31,9 +43,23 @@ impl<I: Iterator<Item = Result<SensorFrame, HostError>>> JoinedRows<I> {
         &self.rows
     }
 
-    /// How many rows have become part of the one before so far; goes on counting.
-    pub fn joined(&self) -> Rc<Cell<u64>> {
+    /// What rows have become part of the one before so far; goes on counting.
+    pub fn joined(&self) -> Rc<Cell<Joined>> {
         self.joined.clone()
+    }
+
+    /// The next row, noted in the rhythms of its sensors.
+    fn read(&mut self) -> Option<Result<SensorFrame, HostError>> {
+        let row = self.rows.next();
+        row.iter().flatten().for_each(|row| self.rhythms.take(row));
+        row
+    }
+
+    /// How long after a frame began a row comes that may be part of it, µs.
+    fn follows(&self, frame: &SensorFrame, begins_us: u64, row: &SensorFrame) -> Option<u64> {
+        let after_us = row.time_us.checked_sub(begins_us)?;
+        let is_nearer = || self.rhythms.shortest_us([frame, row]).is_some_and(|period_us| after_us < period_us / 2);
+        (after_us <= APART_US || is_nearer()).then_some(after_us)
     }
 }
 
@@ -41,18 +67,20 @@ impl<I: Iterator<Item = Result<SensorFrame, HostError>>> Iterator for JoinedRows
     type Item = Result<SensorFrame, HostError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let mut frame = match self.next.take().or_else(|| self.rows.next())? {
+        let mut frame = match self.next.take().or_else(|| self.read())? {
             Ok(frame) => frame,
             Err(error) => return Some(Err(error)),
         };
         let begins_us = frame.time_us;
-        let follows = |row: &SensorFrame| row.time_us.checked_sub(begins_us).is_some_and(|after| after <= APART_US);
         loop {
-            match self.rows.next() {
-                Some(Ok(row)) if follows(&row) && add(&mut frame, &row) => {
-                    self.joined.set(self.joined.get() + 1);
+            let read = self.read();
+            let after_us = read.as_ref().and_then(|row| self.follows(&frame, begins_us, row.as_ref().ok()?));
+            match (read, after_us) {
+                (Some(Ok(row)), Some(after_us)) if add(&mut frame, &row) => {
+                    let Joined { rows, latest_us } = self.joined.get();
+                    self.joined.set(Joined { rows: rows + 1, latest_us: latest_us.max(after_us) });
                 }
-                other => {
+                (other, _) => {
                     self.next = other;
                     return Some(Ok(frame));
                 }
@@ -91,7 +119,7 @@ mod tests {
     fn frames(rows: &[SensorFrame]) -> (Vec<SensorFrame>, u64) {
         let joined = JoinedRows::of(rows.iter().copied().map(Ok));
         let count = joined.joined();
-        (joined.map(|frame| frame.expect("a frame")).collect(), count.get())
+        (joined.map(|frame| frame.expect("a frame")).collect(), count.get().rows)
     }
 
     #[test]
@@ -99,6 +127,26 @@ mod tests {
         let (found, joined) = frames(&[rocker(0), camera(7_000), rocker(10_000), rocker(20_000), camera(20_000)]);
         let both = |time_us| SensorFrame { velocity_m_s: camera(0).velocity_m_s, ..rocker(time_us) };
         assert_eq!((found, joined), (vec![both(7_000), rocker(10_000), both(20_000)], 2));
+    }
+
+    /// Once it is known that the sensors speak ten times a second, and then while one of them is lost for a while.
+    #[test]
+    fn what_comes_late_belongs_to_the_nearer_frame() {
+        for (late_us, frames_of_both) in [(30_000, 8), (49_000, 8), (50_000, 0), (51_000, 7)] {
+            let rows = (0..10).flat_map(|frame| [rocker(100_000 * frame), camera(100_000 * frame + late_us)]);
+            let rows: Vec<_> = rows.filter(|row| !(400_000..500_000).contains(&row.time_us)).collect();
+            let (found, joined) = frames(&rows);
+            let both = found.iter().filter(|frame| values(frame).iter().flatten().count() == 2).count();
+            assert_eq!((both as u64, joined), (frames_of_both, frames_of_both), "{late_us} µs late");
+        }
+    }
+
+    #[test]
+    fn seldom_sensors_do_not_join_frames_that_are_far_apart() {
+        // Each speaks five times a second, in turns.
+        let rows: Vec<_> =
+            (0..10).map(|row| if row % 2 == 0 { rocker(100_000 * row) } else { camera(100_000 * row) }).collect();
+        assert_eq!(frames(&rows), (rows, 0));
     }
 
     #[test]

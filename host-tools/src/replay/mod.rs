@@ -17,6 +17,7 @@ pub mod naive;
 mod other_units;
 mod raw_sensors;
 mod recording;
+mod rhythm;
 mod running_median;
 mod scatter;
 mod still_clock;

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use kapvik_firmware::rover::Rover;
 
 use super::held_readings::HeldReadings;
-use super::joined_rows::{APART_US, JoinedRows};
+use super::joined_rows::{APART_US, Joined, JoinedRows};
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
 use crate::data::rover_file::RoverFile;
@@ -31,7 +31,7 @@ pub struct Remarks {
     /// Columns that are passed over; a name may be misspelt.
     unknown_columns: Vec<String>,
     /// Rows that have become part of others.
-    joined: Rc<Cell<u64>>,
+    joined: Rc<Cell<Joined>>,
     /// Of each sensor whether its readings are repeated until there is a new one.
     held: Rc<RefCell<Vec<bool>>>,
 }
@@ -41,8 +41,9 @@ impl Remarks {
     pub fn lines(&self) -> Vec<String> {
         let unknown = (!self.unknown_columns.is_empty())
             .then(|| format!("columns that name no sensor, and are not used: {}", self.unknown_columns.join(", ")));
-        let joined = (self.joined.get() > 0).then(|| {
-            let (rows, apart_ms) = (self.joined.get(), APART_US / 1000);
+        let Joined { rows, latest_us } = self.joined.get();
+        let joined = (rows > 0).then(|| {
+            let apart_ms = latest_us.max(APART_US).div_ceil(1000);
             format!(
                 "rows that say what others within {apart_ms} ms do not, and are taken as one frame with them: {rows}"
             )
