@@ -3,12 +3,8 @@
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::drives;
+use super::raw_sensors::{LEAST_READINGS, NEARLY_ALL, drives};
 use crate::data::sensor_channels::{names, values};
-
-/// Fewest readings that tell, and the share of them that has to be zero.
-const LEAST_READINGS: u32 = 50;
-const MOST_SAY: f64 = 0.9;
 
 /// How columns begin that may say exact zeros: encoders of wheels that are blocked, and what goes sideways where that is left out.
 const MAY_BE_ZERO: [&str; 5] = ["wheel_rate_", "gyro_x", "gyro_z", "velocity_y", "accel_y"];
@@ -78,7 +74,7 @@ impl DeadSensors {
 
 impl Said {
     fn is_dead(self) -> bool {
-        self.readings >= LEAST_READINGS && f64::from(self.zeros) >= MOST_SAY * f64::from(self.readings)
+        self.readings >= LEAST_READINGS && f64::from(self.zeros) >= NEARLY_ALL * f64::from(self.readings)
     }
 }
 

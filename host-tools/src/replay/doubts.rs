@@ -9,6 +9,7 @@ use super::dead_sensors::DeadSensors;
 use super::gravity_felt::GravityFelt;
 use super::gyro_felt::GyroFelt;
 use super::joint_signs::JointSigns;
+use super::never_together::NeverTogether;
 use super::scatter::Scatter;
 use super::still_clock::StillClock;
 use super::weighing::Weighing;
@@ -18,6 +19,7 @@ use super::wheel_signs::WheelSigns;
 #[derive(Debug, Clone)]
 pub struct Doubts {
     clock: StillClock,
+    together: NeverTogether,
     dead: DeadSensors,
     weighing: Weighing,
     gravity: GravityFelt,
@@ -34,6 +36,7 @@ impl Doubts {
     pub fn of(rover: &Rover<f32>) -> Self {
         Self {
             clock: StillClock::default(),
+            together: NeverTogether::default(),
             dead: DeadSensors::of(rover),
             weighing: Weighing::of(rover),
             gravity: GravityFelt::of(rover),
@@ -50,6 +53,7 @@ impl Doubts {
     /// which the filters do not see, for how a healthy sensor is.
     pub fn take(&mut self, frame: &SensorFrame) {
         self.clock.take(frame);
+        self.together.take(frame);
         self.dead.take(frame);
         self.gravity.take(frame);
         let Some(frame) = &self.admitted.of_frame(frame) else { return };
@@ -61,10 +65,10 @@ impl Doubts {
         self.scatter.take(frame);
     }
 
-    /// What came of it: clock, dead sensors, mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop. What may
+    /// What came of it: clock, rows, dead sensors, mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop. What may
     /// be why others are told comes first.
     pub fn told(self) -> Vec<String> {
-        let of_recording = self.clock.told().into_iter().chain(self.dead.told());
+        let of_recording = self.clock.told().into_iter().chain(self.together.told()).chain(self.dead.told());
         let weighed = self.weighing.misfit().map(|misfit| misfit.to_string());
         let gravity = self.gravity.other().map(|other| other.to_string());
         let of_body = of_recording.chain(weighed).chain(gravity).chain(self.gyro.told()).chain(self.camera.told());

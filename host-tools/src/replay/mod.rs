@@ -14,6 +14,7 @@ mod joined_rows;
 mod joint_signs;
 mod motion_resistance;
 pub mod naive;
+mod never_together;
 mod other_units;
 mod raw_sensors;
 mod recording;

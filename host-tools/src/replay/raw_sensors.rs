@@ -6,6 +6,10 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 /// Slower than this a rover does not drive, m/s.
 pub const DRIVING_M_S: f64 = 0.005;
 
+/// Fewest readings, or frames, that tell what a sensor is like, and the share of them that has to say the same.
+pub const LEAST_READINGS: u32 = 50;
+pub const NEARLY_ALL: f64 = 0.9;
+
 /// The fewest of six wheels that turn where a rover drives.
 const MOST_WHEELS: usize = 4;
 

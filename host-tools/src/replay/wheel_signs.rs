@@ -3,19 +3,15 @@
 use kapvik_firmware::rover::{PerWheel, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::raw_sensors::wide;
+use super::raw_sensors::{DRIVING_M_S, LEAST_READINGS, NEARLY_ALL, wide};
 use crate::data::sensor_channels::WHEEL_NAMES;
 
-/// Slower than this neither hub nor rim tells a direction, m/s; nor below so many standard deviations.
-const MOVING_M_S: f64 = 0.005;
+/// Standard deviations below which neither hub nor rim tells a direction, nor a torque.
 const BEYOND_NOISE: f64 = 5.0;
 /// Share of the rover's speed by which its turning may move a wheel's hub.
 const STRAIGHT: f64 = 0.3;
 /// A wheel that slips by more than this drives, whatever carries the rover: the soil resists it.
 const DRIVING_SLIP: f64 = 0.1;
-/// Fewest frames that tell, and the share of them that has to say the same.
-const LEAST_FRAMES: u32 = 50;
-const MOST_SAY: f64 = 0.9;
 
 /// How often what two sensors say went together, and how often against each other.
 #[derive(Debug, Clone, Copy, Default)]
@@ -44,11 +40,11 @@ impl Agreement {
     }
 
     fn tells(&self) -> bool {
-        self.frames() >= LEAST_FRAMES
+        self.frames() >= LEAST_READINGS
     }
 
     fn is_against(&self) -> bool {
-        self.tells() && f64::from(self.against) > MOST_SAY * f64::from(self.frames())
+        self.tells() && f64::from(self.against) > NEARLY_ALL * f64::from(self.frames())
     }
 }
 
@@ -63,12 +59,12 @@ impl WheelSigns {
         let Rover { noise, wheel, suspension, .. } = &self.rover;
         let Some(speed_m_s) = wide(frame.velocity_m_s.x) else { return };
         let turning_m_s = suspension.half_track_m * wide(frame.gyro_rad_s.z).unwrap_or(0.0);
-        let moves = speed_m_s.abs() > MOVING_M_S.max(BEYOND_NOISE * noise.velocity_m_s);
+        let moves = speed_m_s.abs() > DRIVING_M_S.max(BEYOND_NOISE * noise.velocity_m_s);
         if !moves || turning_m_s.abs() > STRAIGHT * speed_m_s.abs() {
             return;
         }
         let rim_std_m_s = noise.wheel_rate_rad_s * wheel.radius_m;
-        let least_m_s = MOVING_M_S.max(BEYOND_NOISE * rim_std_m_s);
+        let least_m_s = DRIVING_M_S.max(BEYOND_NOISE * rim_std_m_s);
         let chance_m_s = BEYOND_NOISE * rim_std_m_s.hypot(noise.velocity_m_s);
         let counts = self.turning.iter_wheels_mut().zip(self.driving.iter_wheels_mut());
         for (sensors, (turning, driving)) in frame.wheels.iter_wheels().zip(counts) {
