@@ -26,6 +26,8 @@ pub struct GravityFelt {
 pub struct OtherGravity {
     /// What it feels, m/s².
     pub felt_m_s2: f64,
+    /// Whether it is that or any more.
+    pub is_least: bool,
     /// What the rover file states, m/s².
     pub stated_m_s2: f64,
 }
@@ -48,18 +50,20 @@ impl GravityFelt {
     /// What it feels, where that is not gravity.
     pub fn other(&self) -> Option<OtherGravity> {
         let stated_m_s2 = self.stated_m_s2;
-        let felt_m_s2 = stated_m_s2 * self.times.median()?;
+        let (times, farthest) = (self.times.median()?, self.times.farthest());
+        let felt_m_s2 = stated_m_s2 * times.min(farthest);
         let is_other = self.times.count() >= LEAST_FRAMES && (felt_m_s2 - stated_m_s2).abs() > TOLERATED * stated_m_s2;
-        is_other.then_some(OtherGravity { felt_m_s2, stated_m_s2 })
+        is_other.then_some(OtherGravity { felt_m_s2, is_least: times >= farthest, stated_m_s2 })
     }
 }
 
 impl fmt::Display for OtherGravity {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { felt_m_s2, stated_m_s2 } = self;
+        let Self { felt_m_s2, is_least, stated_m_s2 } = self;
+        let more_than = if *is_least { "more than " } else { "" };
         write!(
             formatter,
-            "the accelerometer feels {felt_m_s2:.2} m/s² where gravity is {stated_m_s2:.2}: it speaks in other units, or gravity is \
+            "the accelerometer feels {more_than}{felt_m_s2:.2} m/s² where gravity is {stated_m_s2:.2}: it speaks in other units, or gravity is \
              off, and contact angles and pulls with it"
         )
     }
@@ -93,5 +97,8 @@ mod tests {
         assert!(said.contains("feels 1.04 m/s² where gravity is 9.81"), "{said}");
         let said = felt(9810.0, 100).expect("in millimetres").to_string();
         assert!(said.contains("where gravity is 9.81: it speaks in other units"), "{said}");
+        assert!(said.contains("feels 98"), "{said}");
+        let said = felt(1e6, 100).expect("broken").to_string();
+        assert!(said.contains("feels more than 4"), "{said}");
     }
 }

@@ -26,6 +26,11 @@ impl RunningMedian {
         self.count += 1;
     }
 
+    /// The size from which none is told from a greater one.
+    pub fn farthest(&self) -> f64 {
+        self.least * libm::pow(self.growth, (self.counts.len() - 1) as f64)
+    }
+
     /// How many were taken.
     pub fn count(&self) -> u32 {
         self.count
