@@ -1,4 +1,4 @@
-//! What the filters are told of a frame: without the readings that their gates refuse.
+//! What the filters are told of a frame: without the readings that their gates refuse, of which those that are out of range are counted.
 
 use kapvik_firmware::estimator::{PerSensor, SensorGates, SensorHealth};
 use kapvik_firmware::rover::Rover;
@@ -8,20 +8,54 @@ use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 #[derive(Debug, Clone)]
 pub struct Admitted {
     gates: SensorGates,
+    /// Which sensors are out of use; what else they count is that of the last frame alone.
     health: PerSensor<SensorHealth>,
+    ranges: PerSensor<Range>,
     before_us: Option<u64>,
+}
+
+/// How often a sensor spoke, and how often farther out than a rover can be. The filters' own counts of that stop at 65535.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Range {
+    /// Readings.
+    pub readings: u64,
+    /// Those out of range.
+    pub beyond: u64,
 }
 
 impl Admitted {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
-        Self { gates: SensorGates::new(rover), health: PerSensor::default(), before_us: None }
+        Self {
+            gates: SensorGates::new(rover),
+            health: PerSensor::default(),
+            ranges: PerSensor::default(),
+            before_us: None,
+        }
+    }
+
+    /// What the readings of each sensor ranged over so far.
+    pub fn ranges(&self) -> &PerSensor<Range> {
+        &self.ranges
     }
 
     /// A frame with the readings that can be used; none where it repeats the time of the one before, which the filters leave out.
     pub fn of_frame(&mut self, frame: &SensorFrame) -> Option<SensorFrame> {
         let is_new = self.before_us.replace(frame.time_us) != Some(frame.time_us);
-        is_new.then(|| with_readings(frame.time_us, self.gates.admit(frame.readings(), &mut self.health)))
+        is_new.then(|| {
+            self.health =
+                self.health.map(|SensorHealth { dropped, .. }| SensorHealth { dropped, ..SensorHealth::default() });
+            let admitted = self.gates.admit(frame.readings(), &mut self.health);
+            self.ranges = self.ranges.zip_map(self.health, Range::with);
+            with_readings(frame.time_us, admitted)
+        })
+    }
+}
+
+impl Range {
+    /// With a frame of which that was counted.
+    fn with(self, SensorHealth { missing, out_of_range, .. }: SensorHealth) -> Self {
+        Self { readings: self.readings + u64::from(1 - missing), beyond: self.beyond + u64::from(out_of_range) }
     }
 }
 
@@ -61,6 +95,18 @@ mod tests {
         let told = admitted().of_frame(&frame).map(|told| values(&told));
         frame.wheels.right.middle.load_cell_n = None;
         assert_eq!(told, Some(values(&frame)));
+    }
+
+    #[test]
+    fn counts_go_on_where_those_of_the_filters_stop() {
+        let mut admitted = admitted();
+        for number in 0..100_000_u32 {
+            let rocker = if number % 4 == 0 { None } else { Some(if number % 2 == 0 { 0.1 } else { 9.0 }) };
+            let time_us = 10_000 * u64::from(number);
+            admitted.of_frame(&SensorFrame { time_us, rocker_angle_rad: rocker, ..SensorFrame::default() });
+        }
+        assert_eq!(admitted.ranges().rocker_angle, Range { readings: 75_000, beyond: 50_000 });
+        assert_eq!(admitted.ranges().accel.x, Range::default());
     }
 
     #[test]

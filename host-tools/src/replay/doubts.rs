@@ -10,6 +10,7 @@ use super::gravity_felt::GravityFelt;
 use super::gyro_felt::GyroFelt;
 use super::joint_signs::JointSigns;
 use super::never_together::NeverTogether;
+use super::other_units;
 use super::scatter::Scatter;
 use super::still_clock::StillClock;
 use super::weighing::Weighing;
@@ -65,10 +66,11 @@ impl Doubts {
         self.scatter.take(frame);
     }
 
-    /// What came of it: clock, rows, dead sensors, mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop. What may
+    /// What came of it: units, clock, rows, dead sensors, mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop. What may
     /// be why others are told comes first.
     pub fn told(self) -> Vec<String> {
-        let of_recording = self.clock.told().into_iter().chain(self.together.told()).chain(self.dead.told());
+        let units = other_units::told(self.admitted.ranges());
+        let of_recording = [units, self.clock.told(), self.together.told(), self.dead.told()].into_iter().flatten();
         let weighed = self.weighing.misfit().map(|misfit| misfit.to_string());
         let gravity = self.gravity.other().map(|other| other.to_string());
         let of_body = of_recording.chain(weighed).chain(gravity).chain(self.gyro.told()).chain(self.camera.told());

@@ -106,8 +106,7 @@ pub fn replay(
     let Counted { frames, span_us, soil, soil_changes_us, .. } =
         counted.ok_or_else(|| HostError::Failed("there is no frame to replay".to_owned()))?;
     let (estimator, health) = (computer.estimator_health()?, computer.health()?);
-    let units = other_units::told(&estimator);
-    let doubts = units.into_iter().chain(doubts.told()).chain(resistance.told()).collect();
+    let doubts = doubts.told().into_iter().chain(resistance.told()).collect();
     Ok(Outcome { frames, span_us, took, soil, soil_changes_us, doubts, estimator, boot, health })
 }
 
