@@ -18,7 +18,16 @@ const LONGER: u32 = 2;
 pub struct HeldReadings<I> {
     frames: I,
     stretches: Vec<Stretches>,
-    held: Rc<RefCell<Vec<bool>>>,
+    held: Rc<RefCell<Held>>,
+}
+
+/// What a logger only repeated.
+#[derive(Debug, Clone, Default)]
+pub struct Held {
+    /// Of each sensor, in the order of its names, whether it was held.
+    pub sensors: Vec<bool>,
+    /// Rows that said nothing else, and are no frames.
+    pub rows: u64,
 }
 
 /// How long a sensor said the same.
@@ -58,14 +67,15 @@ impl<I> HeldReadings<I> {
     /// The frames of a logger.
     pub fn of(frames: I) -> Self {
         let stretches = vec![Stretches::default(); names().len()];
-        let held = Rc::new(RefCell::new(vec![false; stretches.len()]));
+        let held = Held { sensors: vec![false; stretches.len()], rows: 0 };
+        let held = Rc::new(RefCell::new(held));
         Self { frames, stretches, held }
     }
 
     /// Empties what is held. A frame of which that leaves nothing is none, but one in which no sensor spoke stays.
     fn says_anything_new(&mut self, frame: &mut SensorFrame) -> bool {
         let mut held = self.held.borrow_mut();
-        let sensors = self.stretches.iter_mut().zip(held.iter_mut());
+        let sensors = self.stretches.iter_mut().zip(held.sensors.iter_mut());
         let (mut spoken, mut emptied) = (0, 0);
         for (value, (stretches, held)) in values_mut(frame).zip(sensors) {
             spoken += usize::from(value.is_some());
@@ -74,7 +84,9 @@ impl<I> HeldReadings<I> {
                 emptied += 1;
             }
         }
-        emptied == 0 || emptied < spoken
+        let says = emptied == 0 || emptied < spoken;
+        held.rows += u64::from(!says);
+        says
     }
 
     /// The frames as the logger wrote them.
@@ -82,8 +94,8 @@ impl<I> HeldReadings<I> {
         &self.frames
     }
 
-    /// Of each sensor, in the order of its names, whether it was held so far.
-    pub fn held(&self) -> Rc<RefCell<Vec<bool>>> {
+    /// What was held so far; goes on counting.
+    pub fn held(&self) -> Rc<RefCell<Held>> {
         self.held.clone()
     }
 }
@@ -122,10 +134,11 @@ mod tests {
     fn rows_that_only_repeat_are_no_frames() {
         let frames = (0..40_u16)
             .map(|row| Ok(SensorFrame { rocker_angle_rad: Some((row / 2).into()), ..SensorFrame::default() }));
-        let said: Vec<f32> =
-            HeldReadings::of(frames).filter_map(|frame| frame.expect("a frame").rocker_angle_rad).collect();
+        let frames = HeldReadings::of(frames);
+        let held = frames.held();
+        let said: Vec<f32> = frames.filter_map(|frame| frame.expect("a frame").rocker_angle_rad).collect();
         // Six stretches are taken as they come, of the others one row each.
-        assert_eq!(said.len(), 2 * 6 + 1 + 13);
+        assert_eq!((said.len(), held.borrow().rows), (2 * 6 + 1 + 13, 14));
         let silent = (0..5).map(|_| Ok(SensorFrame::default()));
         assert_eq!(HeldReadings::of(silent).count(), 5);
     }

@@ -9,7 +9,7 @@ use std::rc::Rc;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use kapvik_firmware::rover::Rover;
 
-use super::held_readings::HeldReadings;
+use super::held_readings::{Held, HeldReadings};
 use super::joined_rows::{APART_US, Joined, JoinedRows};
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
@@ -32,8 +32,8 @@ pub struct Remarks {
     unknown_columns: Vec<String>,
     /// Rows that have become part of others.
     joined: Rc<Cell<Joined>>,
-    /// Of each sensor whether its readings are repeated until there is a new one.
-    held: Rc<RefCell<Vec<bool>>>,
+    /// Readings that are repeated until there is a new one.
+    held: Rc<RefCell<Held>>,
 }
 
 impl Remarks {
@@ -48,16 +48,7 @@ impl Remarks {
                 "rows that say what others within {apart_ms} ms do not, and are taken as one frame with them: {rows}"
             )
         });
-        let held = self.held.borrow();
-        let held = names().into_iter().zip(held.iter()).filter(|(_, is_held)| **is_held);
-        let held: Vec<String> = held.map(|(name, _)| name).collect();
-        let held = (!held.is_empty()).then(|| {
-            format!(
-                "sensors whose readings are repeated row by row until there is a new one, and count once: {}",
-                held.join(", ")
-            )
-        });
-        unknown.into_iter().chain(joined).chain(held).collect()
+        unknown.into_iter().chain(joined).chain(held_in_words(&self.held.borrow())).collect()
     }
 }
 
@@ -81,6 +72,22 @@ impl Recording {
         let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
         Ok(Self { rover, frames: HeldReadings::of(JoinedRows::of(frames)) })
     }
+}
+
+/// Which sensors were held, and what became of their rows; nothing where none was.
+fn held_in_words(Held { sensors, rows }: &Held) -> Option<String> {
+    let held = names().into_iter().zip(sensors).filter(|(_, is_held)| **is_held);
+    let held: Vec<String> = held.map(|(name, _)| name).collect();
+    let no_frames = match *rows {
+        0 => String::new(),
+        rows => format!("; rows that say nothing else, which are no frames and have no estimates: {rows}"),
+    };
+    (!held.is_empty()).then(|| {
+        format!(
+            "sensors whose readings are repeated row by row until there is a new one, and count once: {}{no_frames}",
+            held.join(", ")
+        )
+    })
 }
 
 /// Of a file of that many bytes; 0 where nobody knows.
