@@ -1,6 +1,6 @@
 //! Whether sensors say exactly zero while the rover drives: a logger's way of writing one that is not there.
 
-use kapvik_firmware::rover::Rover;
+use kapvik_firmware::rover::{PerSide, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::raw_sensors::{LEAST_READINGS, NEARLY_ALL, drives};
@@ -10,6 +10,8 @@ use crate::data::sensor_channels::{names, values};
 const MAY_BE_ZERO: [&str; 5] = ["wheel_rate_", "gyro_x", "gyro_z", "velocity_y", "accel_y"];
 /// Those which say something else wherever sensors have noise, on a plane, too.
 const NOISY: [&str; 7] = ["gyro_x", "gyro_z", "velocity_y", "bogie_angle_", "rocker_angle_", "gyro_y", "velocity_z"];
+/// How the column begins of what stands level where both sides do the same.
+const ROCKER: &str = "rocker_angle_";
 /// How columns begin that are done without where they say zero.
 const DONE_WITHOUT: [&str; 2] = ["load_cell_", "motor_torque_"];
 /// How columns begin that are exactly zero on a plane, where there is no noise.
@@ -21,6 +23,8 @@ pub struct DeadSensors {
     radius_m: f64,
     /// In the order of [`names`].
     sensors: Vec<Said>,
+    /// Frames in which the rockers are level as they are where both sides do the same.
+    mirrored: u32,
 }
 
 /// How often a sensor said something, and how often an exact zero.
@@ -33,7 +37,7 @@ struct Said {
 impl DeadSensors {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
-        Self { radius_m: rover.wheel.radius_m.into(), sensors: vec![Said::default(); names().len()] }
+        Self { radius_m: rover.wheel.radius_m.into(), sensors: vec![Said::default(); names().len()], mirrored: 0 }
     }
 
     /// Takes a frame: one in which the rover drives.
@@ -45,6 +49,7 @@ impl DeadSensors {
             said.readings += u32::from(reading.is_some());
             said.zeros += u32::from(reading == Some(0.0));
         }
+        self.mirrored += u32::from(frame.rocker_angle_rad == Some(0.0) && is_mirrored(frame));
     }
 
     /// What came of it, without capital and stop.
@@ -52,7 +57,9 @@ impl DeadSensors {
         let named = || names().into_iter().zip(&self.sensors);
         let has_noise = named().any(|(name, said)| begins(&name, &NOISY) && said.zeros < said.readings);
         let may_be_zero = |name: &str| begins(name, &MAY_BE_ZERO) || !has_noise && begins(name, &ZERO_ON_A_PLANE);
-        let dead: Vec<_> = named().filter(|(name, said)| said.is_dead() && !may_be_zero(name)).collect();
+        let may_be_level = |name: &str, said: &Said| name.starts_with(ROCKER) && self.mirrored >= said.zeros;
+        let dead: Vec<_> =
+            named().filter(|(name, said)| said.is_dead() && !may_be_zero(name) && !may_be_level(name, said)).collect();
         let in_words =
             |(name, said): &(String, &Said)| format!("{name} (in {} of {} frames)", said.zeros, said.readings);
         let all: Vec<String> = dead.iter().map(in_words).collect();
@@ -78,6 +85,12 @@ impl Said {
     }
 }
 
+/// Whether the sensors of both sides say the same, to the last bit, as those of a drive in a plane do that was made without noise.
+fn is_mirrored(frame: &SensorFrame) -> bool {
+    let PerSide { left, right } = &frame.wheels;
+    left == right && frame.bogie_angle_rad.left == frame.bogie_angle_rad.right
+}
+
 fn begins(name: &str, with: &[&str]) -> bool {
     with.iter().any(|start| name.starts_with(start))
 }
@@ -87,8 +100,14 @@ mod tests {
     use super::*;
     use crate::data::sensor_channels::values_mut;
 
-    /// What is said of so many frames, in which each sensor reads this by its name.
+    /// What is said of so many frames, in which each sensor reads this by its name, those of the left wheels a little more.
     fn said(frames: u32, reading: impl Fn(&str, u32) -> f32) -> Option<String> {
+        let is_left = |name: &str| ["_fl_", "_ml_", "_rl_"].iter().any(|wheel| name.contains(wheel));
+        said_exactly(frames, |name, number| reading(name, number) * if is_left(name) { 1.01 } else { 1.0 })
+    }
+
+    /// The same without any more.
+    fn said_exactly(frames: u32, reading: impl Fn(&str, u32) -> f32) -> Option<String> {
         let mut dead = DeadSensors::of(&Rover::<f64>::assumed().map(|value| value as f32));
         for number in 0..frames {
             let mut frame = SensorFrame::default();
@@ -147,5 +166,17 @@ mod tests {
         assert_eq!(said(100, |name, _| if bears(name) { 0.5 } else { 0.0 }), None);
         let told = said(100, |name, _| if bears(name) && name != "load_cell_ml_n" { 0.5 } else { 0.0 });
         assert!(told.as_ref().is_some_and(|told| told.starts_with("load_cell_ml_n (in 100 of")), "{told:?}");
+    }
+
+    /// Over hills that are alike on both sides the rockers stay level, while all else turns.
+    #[test]
+    fn rockers_stay_level_where_both_sides_do_the_same() {
+        let in_a_plane = |name: &str| begins(name, &["rocker", "gyro_x", "gyro_z", "velocity_y", "accel_y"]);
+        let reading = |name: &str, number| if in_a_plane(name) { 0.0 } else { 0.5 + 0.001 * number as f32 };
+        assert_eq!(said_exactly(100, reading), None);
+        let told = said(100, reading).expect("a dead joint");
+        assert!(told.starts_with("rocker_angle_rad (in 100"), "{told}");
+        let told = said_exactly(100, |name, number| if name == "gyro_y_rad_s" { 0.0 } else { reading(name, number) });
+        assert!(told.is_some_and(|told| told.starts_with("gyro_y_rad_s (in 100")));
     }
 }
