@@ -107,17 +107,25 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
             None => error.to_string(),
         })
     })?;
-    let end_s = traverse.frames().saturating_sub(1) as f64 / arguments.rate;
-    if let Some(fault) = options.faults.iter().find(|fault| fault.between_s.0 > end_s) {
-        let (start_s, _) = fault.between_s;
-        return Err(HostError::Failed(format!(
-            "--effect: a fault from {start_s} s on: expected one within the drive, which ends at {end_s} s"
-        )));
-    }
+    check_times(&options.faults, traverse.frames(), arguments.rate)?;
     let told = write(&arguments.output, &truth, traverse)?;
     println!("{told}, seed {}", arguments.seed);
     println!("{} and {}", arguments.output.display(), truth.display());
     Ok(())
+}
+
+/// Refuses a fault that would do nothing: beyond the end of the drive, or between two of its frames.
+fn check_times(faults: &[Fault], frames: u64, rate_hz: f64) -> Result<(), HostError> {
+    let Some(fault) = faults.iter().find(|fault| !fault.acts_on_any(frames, rate_hz)) else { return Ok(()) };
+    let ((start_s, until_s), end_s) = (fault.between_s, frames.saturating_sub(1) as f64 / rate_hz);
+    Err(HostError::Failed(match start_s > end_s {
+        true => {
+            format!("--effect: a fault from {start_s} s on: expected one within the drive, which ends at {end_s} s")
+        }
+        false => format!(
+            "--effect: a fault from {start_s} s to {until_s} s: expected one that a frame falls in, of {rate_hz} a second"
+        ),
+    }))
 }
 
 /// Writes both files, row by row, and gives what is to be told.

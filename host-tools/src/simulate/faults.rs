@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use super::RATE_HZ;
+use super::{RATE_HZ, frame_time_us};
 use crate::data::sensor_channels::{names, values, values_mut};
 
 /// How a sensor fails.
@@ -98,6 +98,14 @@ impl Fault {
     /// Whether it acts at a time. Half a microsecond is allowed for the rounding of times.
     pub fn acts_at(&self, time_s: f64) -> bool {
         time_s >= self.between_s.0 - 5.0e-7 && time_s <= self.between_s.1 + 5.0e-7
+    }
+
+    /// Whether it acts on any of so many frames, so many a second.
+    pub fn acts_on_any(&self, frames: u64, rate_hz: f64) -> bool {
+        let before = (self.between_s.0 * rate_hz).max(0.0) as u64;
+        // Beside the rounding of times: the first frame that is not before its start.
+        (before.saturating_sub(1)..frames.min(before.saturating_add(3)))
+            .any(|frame| self.acts_at(1.0e-6 * frame_time_us(frame, rate_hz) as f64))
     }
 }
 

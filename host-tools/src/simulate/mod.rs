@@ -40,4 +40,4 @@ mod varied_ground;
 pub mod wheel_soil;
 
 pub use scenario::Scenario;
-pub use traverse::{BALANCE, Options, RATE_HZ, SimulationError, Traverse};
+pub use traverse::{BALANCE, Options, RATE_HZ, SimulationError, Traverse, frame_time_us};

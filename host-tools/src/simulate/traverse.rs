@@ -200,7 +200,7 @@ impl Traverse {
 
     /// Time of a frame, µs.
     fn time_us(&self, frame: u64) -> u64 {
-        libm::round(frame as f64 * 1.0e6 / self.rate_hz) as u64
+        frame_time_us(frame, self.rate_hz)
     }
 
     fn advance(&mut self) -> Result<(), SimulationError> {
@@ -289,6 +289,11 @@ impl Iterator for Traverse {
         }
         None
     }
+}
+
+/// Time of a frame of so many a second, µs.
+pub fn frame_time_us(frame: u64, rate_hz: f64) -> u64 {
+    libm::round(frame as f64 * 1.0e6 / rate_hz) as u64
 }
 
 /// Frames of a drive, from its start on; the last may be at its end.

@@ -83,3 +83,20 @@ fn faults_are_written_as_the_help_says() {
         assert!(Fault::parse(Failure::Nan, wrong).is_err(), "{wrong}");
     }
 }
+
+/// Times are rounded to microseconds, those of the command line are as they are written.
+#[test]
+fn a_fault_between_two_frames_acts_on_none() {
+    let acts = |between_s, frames, rate_hz| {
+        Fault::new(Failure::Nan, "*", between_s).expect("a fault").acts_on_any(frames, rate_hz)
+    };
+    for (between_s, rate_hz) in
+        [((0.0, 0.0), 10.0), ((3.3, 3.3), 10.0), ((0.333_333, 0.333_333), 3.0), ((2.95, 3.05), 10.0)]
+    {
+        assert!(acts(between_s, 61, rate_hz), "{between_s:?} at {rate_hz} Hz");
+    }
+    assert!(acts((-1.0, 0.0), 61, 10.0) && acts((6.0, 9.0), 61, 10.0) && acts((0.0, 9.0), 61, 10.0));
+    for (between_s, rate_hz) in [((3.31, 3.39), 10.0), ((0.05, 0.05), 10.0), ((0.1, 0.3), 3.0), ((6.01, 9.0), 10.0)] {
+        assert!(!acts(between_s, 61, rate_hz), "{between_s:?} at {rate_hz} Hz");
+    }
+}
