@@ -1,6 +1,6 @@
 //! `kapvik simulate`: sensor frames of a drive, with truth.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -14,9 +14,10 @@ use crate::data::truth_file::{truth_path, write_truth};
 use crate::data::{frame_file, truth_file};
 use crate::digits::counted;
 use crate::error::HostError;
+use crate::printable::on_one_line;
 use crate::progress::bar;
 use crate::simulate::effects::{EffectError, RoverEffects};
-use crate::simulate::faults::{FAILURES, Fault, OF_FRAMES};
+use crate::simulate::faults::{FAILURES, Failure, Fault, OF_FRAMES};
 use crate::simulate::ground_soils::{Becomes, Change};
 use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
 
@@ -174,7 +175,7 @@ fn duration(text: &str) -> Result<f64, String> {
 }
 
 fn change(text: &str) -> Result<Change, HostError> {
-    let expected = || HostError::Failed(format!("--then {text}: expected SOIL@METRES"));
+    let expected = || HostError::Failed(format!("--then {}: expected SOIL@METRES", on_one_line(text)));
     let (name, metres) = text.rsplit_once('@').ok_or_else(expected)?;
     let from_m = metres.parse::<f64>().ok().filter(|metres| metres.is_finite()).ok_or_else(expected)?;
     let becomes = match name {
@@ -188,35 +189,43 @@ fn change(text: &str) -> Result<Change, HostError> {
 fn effects_and_faults(texts: &[String]) -> Result<(RoverEffects, Vec<Fault>), HostError> {
     let mut effects = RoverEffects::default();
     let mut faults = Vec::new();
-    let mut given = BTreeSet::new();
+    // What was set, by which name.
+    let mut given = BTreeMap::new();
     for text in texts {
-        let refuse = |message: String| HostError::Failed(format!("--effect {text}: {message}"));
+        let refuse =
+            |message: String| HostError::Failed(format!("--effect {}: {}", on_one_line(text), on_one_line(&message)));
         let (id, value) = text.split_once('=').ok_or_else(|| refuse("expected ID=VALUE".into()))?;
         if let Some((_, failure)) = FAILURES.iter().find(|(name, _)| *name == id) {
-            if OF_FRAMES.contains(&id) && !value.starts_with('@') {
-                return Err(refuse(format!("`{value}`: expected @T1-T2, which is of whole frames")));
-            }
-            faults.push(Fault::parse(*failure, value).map_err(refuse)?);
+            faults.push(fault(*failure, id, value).map_err(refuse)?);
             continue;
         }
-        if !given.insert(id) {
-            return Err(refuse(format!("`{id}` is given twice: expected it once")));
-        }
-        let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
-        // A wrong name is told before a wrong number.
-        let mut tried = effects;
-        let said = tried.set(id, number.unwrap_or(0.0)).map_err(|error| match error {
-            EffectError::Unknown(_) => format!("{error}, {}", FAILURES.map(|(name, _)| name).join(", ")),
-            EffectError::Refused(reason) => reason,
-        });
-        match number {
-            Some(_) => said.map_err(refuse)?,
-            None => {
-                said.map_err(&refuse)?;
-                return Err(refuse(format!("`{value}`: expected a number")));
+        effects = with_effect(effects, id, value).map_err(refuse)?;
+        for part in RoverEffects::parts(id) {
+            match given.insert(part, id) {
+                Some(before) if before == id => return Err(refuse(format!("`{id}` is given twice: expected it once"))),
+                Some(before) => {
+                    return Err(refuse(format!("it sets what `{before}` has set: expected one of the two")));
+                }
+                None => {}
             }
         }
-        effects = tried;
     }
     Ok((effects, faults))
+}
+
+fn fault(failure: Failure, id: &str, value: &str) -> Result<Fault, String> {
+    if OF_FRAMES.contains(&id) && !value.starts_with('@') {
+        return Err(format!("`{value}`: expected @T1-T2, which is of whole frames"));
+    }
+    Fault::parse(failure, value)
+}
+
+/// Effects with one more. A wrong name is told before a wrong number.
+fn with_effect(mut effects: RoverEffects, id: &str, value: &str) -> Result<RoverEffects, String> {
+    let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
+    effects.set(id, number.unwrap_or(0.0)).map_err(|error| match error {
+        EffectError::Unknown(_) => format!("{error}, {}", FAILURES.map(|(name, _)| name).join(", ")),
+        EffectError::Refused(reason) => reason,
+    })?;
+    number.map(|_| effects).ok_or_else(|| format!("`{value}`: expected a number"))
 }

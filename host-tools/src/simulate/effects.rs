@@ -27,9 +27,13 @@ pub struct RoverEffects {
     pub rim_wander: Option<f64>,
 }
 
+/// An effect of the library with a parameter of it, or one that the rover has beside these, without.
+pub type Part = (&'static str, Option<&'static str>);
+
 /// An effect that the rover has beside those of the library, or by a name of its own.
 struct OwnEffect {
     id: &'static str,
+    part: Part,
     place: fn(&mut RoverEffects, f64),
     range: RangeInclusive<f64>,
 }
@@ -37,13 +41,29 @@ struct OwnEffect {
 const OWN: [OwnEffect; 5] = [
     OwnEffect {
         id: "drive-viscosity",
+        part: ("drive-friction", Some("viscous_nm_s")),
         place: |e, value| _ = e.library.set("drive-friction", "viscous_nm_s", value),
         range: -100.0..=100.0,
     },
-    OwnEffect { id: "rolling-radius", place: |e, value| e.rolling_radius_m = value, range: -0.02..=0.1 },
-    OwnEffect { id: "velocity-scale", place: |e, value| e.velocity_scale = value, range: -0.5..=1.0 },
-    OwnEffect { id: "latency", place: |e, value| e.latency_s = value, range: 0.0..=10.0 },
-    OwnEffect { id: "rim-wander", place: |e, value| e.rim_wander = Some(value), range: 0.0..=0.5 },
+    OwnEffect {
+        id: "rolling-radius",
+        part: ("rolling-radius", None),
+        place: |e, value| e.rolling_radius_m = value,
+        range: -0.02..=0.1,
+    },
+    OwnEffect {
+        id: "velocity-scale",
+        part: ("velocity-scale", None),
+        place: |e, value| e.velocity_scale = value,
+        range: -0.5..=1.0,
+    },
+    OwnEffect { id: "latency", part: ("latency", None), place: |e, value| e.latency_s = value, range: 0.0..=10.0 },
+    OwnEffect {
+        id: "rim-wander",
+        part: ("rim-wander", None),
+        place: |e, value| e.rim_wander = Some(value),
+        range: 0.0..=0.5,
+    },
 ];
 
 impl Default for RoverEffects {
@@ -88,10 +108,7 @@ impl RoverEffects {
             (own.place)(self, value);
             return Ok(());
         }
-        let (id, parameter) = match name.split_once('.') {
-            Some((id, parameter)) => (id, Some(parameter)),
-            None => (name, None),
-        };
+        let (id, parameter) = id_and_parameter(name);
         let info = effect_info(id).ok_or_else(|| EffectError::Unknown(id.to_owned()))?;
         let parameter = match parameter {
             Some(parameter) => parameter,
@@ -112,6 +129,21 @@ impl RoverEffects {
         Ok(())
     }
 
+    /// What [`Self::set`] sets by a name; nothing by one that it refuses.
+    pub fn parts(name: &str) -> Vec<Part> {
+        if let Some(own) = OWN.iter().find(|own| own.id == name) {
+            return vec![own.part];
+        }
+        let (id, parameter) = id_and_parameter(name);
+        let Some(info) = effect_info(id) else { return Vec::new() };
+        let parameters: Vec<&str> = match (parameter, form_on_a_rover(info)) {
+            (Some(parameter), _) => info.parameter(parameter).map(|about| about.name).into_iter().collect(),
+            (None, Some(form)) => form.set.iter().map(|(name, _)| *name).chain(form.free.first().copied()).collect(),
+            (None, None) => Vec::new(),
+        };
+        parameters.into_iter().map(|parameter| (info.id, Some(parameter))).collect()
+    }
+
     /// Sets what the first form that shows on a rover has set, and gives its first free parameter.
     fn take_form(&mut self, info: &'static EffectInfo) -> Result<&'static str, EffectError> {
         let Some(form) = form_on_a_rover(info) else {
@@ -125,6 +157,11 @@ impl RoverEffects {
         let nothing = || EffectError::Refused(format!("{} has nothing to set", info.id));
         form.free.first().copied().ok_or_else(nothing)
     }
+}
+
+/// The two halves of ID.PARAMETER, of which there may be the first alone.
+fn id_and_parameter(name: &str) -> (&str, Option<&str>) {
+    name.split_once('.').map_or((name, None), |(id, parameter)| (id, Some(parameter)))
 }
 
 fn refused<T>(reason: String) -> Result<T, EffectError> {
@@ -194,6 +231,29 @@ mod tests {
         assert_eq!(get("force-drift", "load_n_per_h"), Some(720.0));
         assert_eq!(get("shear-hump", "share"), Some(1.0), "what the form has set");
         assert_eq!(get("drive-friction", "viscous_nm_s"), Some(0.5));
+    }
+
+    /// Whatever a name changes is among its parts, and those of another id are others.
+    #[test]
+    fn parts_are_what_is_set() {
+        let parts = RoverEffects::parts;
+        assert_eq!(parts("slip-sinkage"), parts("slip-sinkage.n1"));
+        assert_eq!(parts("drive-viscosity"), parts("drive-friction.viscous_nm_s"));
+        assert!(parts("shear-hump").contains(&parts("shear-hump.share")[0]));
+        assert_eq!(parts("latency"), [("latency", None)]);
+        assert_eq!([parts("slip-sinking"), parts("slip-sinkage.n2"), parts("lateral-slip")], [const { Vec::new() }; 3]);
+        for info in CATALOGUE {
+            let mut effects = RoverEffects::default();
+            if OWN.iter().any(|own| own.id == info.id) || effects.set(info.id, 0.1).is_err() {
+                continue;
+            }
+            let (none, parts) = (Effects::none(), parts(info.id));
+            let get = |effects: &Effects<f64>, name: &'static str| effects.get(info.id, name);
+            for name in info.parameters.iter().map(|parameter| parameter.name) {
+                let is_set = get(&effects.library, name) != get(&none, name);
+                assert!(!is_set || parts.contains(&(info.id, Some(name))), "{}.{name}: {parts:?}", info.id);
+            }
+        }
     }
 
     #[test]

@@ -144,7 +144,7 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         fs::write(folder.0.path().join("r.toml"), rover).expect("written");
         is_refused(&folder, &["--rover", "r.toml"], expected);
     }
-    let cases: [(&[&str], &str); 13] = [
+    let cases: [(&[&str], &str); 21] = [
         (&["--rover", "none.toml"], "none.toml: "),
         (&["--soil", "butter"], "butter: expected a file S.toml, or a soil of the catalogue: seed-table-1,"),
         (&["--soil", "none.toml"], "none.toml: "),
@@ -165,6 +165,26 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         (
             &["--effect", "skip-frames=gyro_*@0-1"],
             "--effect skip-frames=gyro_*@0-1: `gyro_*@0-1`: expected @T1-T2, which is of whole frames",
+        ),
+        (&["--effect", "foo\nbar=1"], r"--effect foo\nbar=1: no effect is named `foo\nbar`: expected one of"),
+        (&["--effect", "foo\nbar"], r"--effect foo\nbar: expected ID=VALUE"),
+        (&["--then", "x\ny@z"], r"--then x\ny@z: expected SOIL@METRES"),
+        (
+            &["--effect", "nan=gyro_*@3.31-3.39"],
+            "--effect: a fault from 3.31 s to 3.39 s: expected one that a frame falls in, of 10 a second",
+        ),
+        (&["--effect", "latency=1", "--effect", "latency=2"], "--effect latency=2: `latency` is given twice"),
+        (
+            &["--effect", "slip-sinkage=0.3", "--effect", "slip-sinkage.n1=0.5"],
+            "--effect slip-sinkage.n1=0.5: it sets what `slip-sinkage` has set: expected one of the two",
+        ),
+        (
+            &["--effect", "shear-hump.share=0.5", "--effect", "shear-hump=0.6"],
+            "--effect shear-hump=0.6: it sets what `shear-hump.share` has set",
+        ),
+        (
+            &["--effect", "drive-friction.viscous_nm_s=0.1", "--effect", "drive-viscosity=0.2"],
+            "--effect drive-viscosity=0.2: it sets what `drive-friction.viscous_nm_s` has set",
         ),
         (&["--scenario", "slope", "--soil", "snow-us"], ""),
     ];
