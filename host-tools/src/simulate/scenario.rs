@@ -31,15 +31,15 @@ pub enum Scenario {
     Hills,
     /// A slope of 10°
     Slope,
-    /// A steep rock or two of 6 to 8 cm, under one side at a time
+    /// A steep rock or two of 6 to 8 cm, one under each side at most; the rover may be over both at once
     Rock,
-    /// Hills, with sensors that give nothing for seconds
+    /// Hills, with sensors that give nothing for seconds, between 10 and 86 s
     Dropout,
     /// Start, stop, stand, back up, on level ground
     StartStop,
     /// A hole under one middle wheel alone, over which the bogie's stop holds it in the air
     WheelLift,
-    /// One wheel does not turn for a while: a rear one is dragged along, another may hold the rover
+    /// One wheel does not turn for a while, between 15 and 38 s: a rear one is dragged along, another may hold the rover
     WheelBlocked,
     /// Level ground, slips spread, and a soil that becomes ice-cemented or sublimated
     SoilChange,
