@@ -35,8 +35,12 @@ fn soil_line(soil: &RoverSoil) -> String {
         let mark = if parameter.identifiable { "" } else { " ?" };
         format!("{:.digits$} ± {:.digits$}{mark}", factor * parameter.value, factor * parameter.std)
     };
+    let outside = match estimate.outside_training_range {
+        true => "; outside the range that the networks were trained on, and not to be relied on",
+        false => "",
+    };
     format!(
-        "soil at the end: c {} Pa, φ {}°, K {} mm (± one standard deviation; ? = cannot be told from these data)",
+        "soil at the end: c {} Pa, φ {}°, K {} mm (± one standard deviation; ? = cannot be told from these data){outside}",
         shown(&estimate.cohesion_pa, 1.0, 0),
         shown(&estimate.friction_angle_rad, 1_f32.to_degrees(), 1),
         shown(&estimate.shear_modulus_m, 1e3, 1),
