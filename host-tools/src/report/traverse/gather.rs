@@ -87,7 +87,8 @@ impl Source {
 struct Gathered {
     rover: Rover<f64>,
     samples: Samples,
-    trailing: TrailingMean,
+    /// What the raw sensors said, where that is compared with a truth.
+    trailing: Option<TrailingMean>,
     /// Time of the first frame, µs: clocks start anywhere.
     start_us: Option<u64>,
     /// Frames of which the truth is known.
@@ -113,7 +114,7 @@ impl TraverseFindings {
             under_way.borrow_mut().push_back((frame, truth));
             Ok(frame)
         });
-        let mut gathered = Gathered::new(rover);
+        let mut gathered = Gathered::new(rover, has_truth);
         let outcome = replay(&mut computer, &flight_rover, frames, |estimate| {
             let step = under_way.borrow_mut().pop_front();
             step.iter().try_for_each(|(frame, truth)| gathered.take(frame, truth.as_ref(), estimate))
@@ -143,19 +144,22 @@ impl TraverseFindings {
 }
 
 impl Gathered {
-    fn new(rover: Rover<f64>) -> Self {
-        let (samples, trailing) = (Samples::default(), TrailingMean::default());
+    fn new(rover: Rover<f64>, has_truth: bool) -> Self {
+        let trailing = has_truth.then(TrailingMean::default);
+        let samples = Samples::default();
         Self { rover, samples, trailing, start_us: None, with_truth: 0, errors: None, fingerprint: 0 }
     }
 
     fn take(&mut self, frame: &SensorFrame, truth: Option<&Truth>, estimate: &FrameEstimate) -> Result<(), HostError> {
         self.samples.push(estimate, truth);
         self.with_truth += u64::from(truth.is_some());
-        let now = naive(&self.rover, frame);
-        let second = self.trailing.push(frame.time_us, now);
         let start_us = *self.start_us.get_or_insert(frame.time_us);
-        if let Some(truth) = truth.filter(|_| frame.time_us.saturating_sub(start_us) >= WARM_UP_US) {
-            self.errors.get_or_insert_default().take(estimate, &now, &second, truth);
+        if let Some(trailing) = &mut self.trailing {
+            let now = naive(&self.rover, frame);
+            let second = trailing.push(frame.time_us, now);
+            if let Some(truth) = truth.filter(|_| frame.time_us.saturating_sub(start_us) >= WARM_UP_US) {
+                self.errors.get_or_insert_default().take(estimate, &now, &second, truth);
+            }
         }
         let bytes = postcard::to_stdvec(&(self.fingerprint, estimate))
             .map_err(|error| HostError::Failed(format!("the estimates have no fingerprint: {error}")))?;
