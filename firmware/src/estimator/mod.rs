@@ -74,7 +74,7 @@ mod whole_balance;
 pub use attitude::pitch_rate;
 pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 pub use health::{EstimatorHealth, PerSensor, SensorHealth};
-pub use rover_estimator::{RoverEstimator, Taken};
+pub use rover_estimator::{GAP_US, RoverEstimator, Taken};
 pub use sensor::{Axis, Sensor};
 pub use sensor_gate::SensorGates;
 pub use side_estimate::{Believed, WheelCovariance};

@@ -15,7 +15,7 @@ use crate::scalar::Scalar;
 use crate::sensor_frame::SensorFrame;
 
 /// After a gap this long the filters start anew, µs.
-const GAP_US: u64 = 5_000_000;
+pub const GAP_US: u64 = 5_000_000;
 /// So many frames from the past, without a newer one between, mean that the clock was set back.
 const CLOCK_SET_BACK: u8 = 8;
 /// What the costly work of each side begins with, so that it is spread over frames.

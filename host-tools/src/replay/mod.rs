@@ -45,7 +45,7 @@ pub use health::{REASONS, REPEATS, SensorTrouble, troubles};
 pub use motion_resistance::MotionResistance;
 pub use recording::{Recording, Remarks};
 pub use scatter::{Noisier, Scatter};
-pub use terminal::lines;
+pub use terminal::{filter_lines, lines};
 pub use weighing::{Misfit, Weighing};
 
 /// What is known once all frames went through.

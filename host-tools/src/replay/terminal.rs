@@ -69,7 +69,7 @@ fn seldom(outcome: &Outcome) -> Option<String> {
 }
 
 /// What the filters count and what is not zero.
-fn filter_lines(outcome: &Outcome) -> impl Iterator<Item = String> {
+pub fn filter_lines(outcome: &Outcome) -> impl Iterator<Item = String> {
     let health = &outcome.estimator;
     let counters = [
         ("frames repeated", health.repeated_frames),

@@ -12,7 +12,7 @@ use super::time_axis::{Spread, spreads};
 use super::wheel_chart::WHEEL_CHARTS;
 use crate::identify::network_refusal;
 use crate::parameter::Parameter;
-use crate::replay::{REASONS, REPEATS, SensorTrouble, troubles};
+use crate::replay::{REASONS, REPEATS, SensorTrouble, filter_lines, troubles};
 use crate::report::chain::link;
 use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
@@ -164,15 +164,16 @@ fn sensors(findings: &TraverseFindings) -> Markup {
     let troubles = troubles(&findings.outcome.estimator);
     let occurred = |reason: &&str| troubles.iter().any(|trouble| trouble.count(reason).is_some());
     let reasons: Vec<&str> = REASONS.into_iter().chain([REPEATS]).filter(occurred).collect();
+    let filters: Vec<String> = filter_lines(&findings.outcome).collect();
     html! {
         section {
             h2 { "Sensors" }
-            @for remark in &findings.remarks { p { (capitalised(remark)) } }
-            @if troubles.is_empty() {
+            @for line in findings.remarks.iter().chain(&filters) { p { (capitalised(line)) } }
+            @if troubles.is_empty() && filters.is_empty() {
                 p { "Every reading of every sensor was used." }
-            } @else {
+            } @else if !troubles.is_empty() {
                 p {
-                    "Readings that were not used, of " (findings.outcome.estimator.frames) " frames; all others were. "
+                    "Readings that were not used, of " (findings.outcome.estimator.frames) " frames; all others of these were. "
                     @if reasons.contains(&REPEATS) { "Those of an encoder that are repeated over and over are used, and believed less." }
                 }
                 div class="scroll" {

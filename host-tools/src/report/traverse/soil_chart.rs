@@ -30,8 +30,8 @@ impl SoilChart<'_> {
         let scale = parameter.scale((BOTTOM, TOP));
         let samples = &self.findings.samples;
         let time = time_axis::scale(samples.span_s(), (LEFT, WIDTH - RIGHT));
-        let estimated = samples.kept().iter().map(|sample| self.spread(sample));
-        let truth = samples.kept().iter().map(|sample| {
+        let estimated = samples.series(|sample| self.spread(sample));
+        let truth = samples.series(|sample| {
             let value = parameter.true_value(sample)?;
             Some((time.at(sample.time_s()), scale.at(parameter.shown(value))))
         });

@@ -84,8 +84,8 @@ impl WheelChart {
         let width = (WIDTH - LEFT - RIGHT + GAP) / WHEELS.len() as f64;
         let left = LEFT + width * place as f64;
         let time = time_axis::scale(samples.span_s(), (left, left + width - GAP)).sparse();
-        let estimated = samples.kept().iter().map(|sample| self.spread(sample, place));
-        let truth = samples.kept().iter().map(|sample| {
+        let estimated = samples.series(|sample| self.spread(sample, place));
+        let truth = samples.series(|sample| {
             let value = self.true_value(sample, place)?;
             Some((time.at(sample.time_s()), scale.at(value)))
         });
