@@ -41,7 +41,7 @@ pub fn run(arguments: &FaultArguments) {
     catalogue.failures.iter().for_each(|failure| println!("no drive: {failure}"));
     let seconds = FAULT_S.1 - FAULT_S.0;
     println!(
-        "\nFrames after a fault of {seconds} s until every estimate is back, the slowest of {} drives",
+        "\nThe frame after a fault of {seconds} s in which every estimate is back for the first time, the latest of {} drives",
         catalogue.drives
     );
     println!("{}\n{}", table(&catalogue), summary(&catalogue));
@@ -84,8 +84,8 @@ fn summary(catalogue: &Catalogue) -> String {
     let cases = catalogue.outcomes.len();
     let beside = catalogue.outcomes.iter().filter(|(.., outcome)| is_late(outcome) && is_beside(outcome)).count();
     format!(
-        "of {cases} cases: every number finite in {finite}, sensor and reason counted in {counted}, back within \
-         {ALLOWED_FRAMES} frames in {back} ({:.2} %); in {beside} more nothing was then farther off than without the fault by \
+        "of {cases} cases: every number finite in {finite}, sensor and reason counted in {counted}, back for the \
+         first time within {ALLOWED_FRAMES} frames in {back} ({:.2} %); in {beside} more nothing was then farther off than without the fault by \
          more than {BESIDE} standard deviations",
         100.0 * back as f64 / cases.max(1) as f64
     )
@@ -115,7 +115,7 @@ fn table(catalogue: &Catalogue) -> Table {
     table
 }
 
-/// The most frames that any drive took to recover from any of these cases.
+/// The latest frame in which any drive was back after any of these cases.
 fn slowest(catalogue: &Catalogue, belongs: impl Fn(Case) -> bool) -> String {
     let outcomes = catalogue.outcomes.iter().filter(|(.., outcome)| belongs(outcome.case));
     let frames: Option<Vec<usize>> = outcomes.map(|(.., outcome)| outcome.frames_to_recover).collect();

@@ -18,7 +18,7 @@ use crate::trial::flight_pipeline;
 
 /// When the sensors fail, s, both included.
 pub const FAULT_S: (f64, f64) = (30.0, 33.0);
-/// Frames after the fault in which every estimate must be back.
+/// The frame after the fault, counted from one, in which every estimate must have been back.
 pub const ALLOWED_FRAMES: usize = 20;
 /// Frames after the fault that are looked at.
 pub const WATCHED_FRAMES: usize = 50;
@@ -45,9 +45,10 @@ pub struct Outcome {
     pub not_finite: usize,
     /// What the health does not count as it happened: columns of sensors, or frames.
     pub miscounted: Vec<String>,
-    /// Frames after the fault until every quantity of every wheel is within three standard deviations of the truth; where
-    /// the drive without the fault is itself farther off in that frame, until it is no farther off than that. 0 where
-    /// the first frame after the fault is so, none where no frame is that is watched.
+    /// The frame after the fault, counted from one, in which every quantity of every wheel is within three standard deviations of the truth for
+    /// the first time; where the drive without the fault is itself farther off in that frame, in which it is no farther off than that. None
+    /// where no frame that is watched is so. Whether it stays back is not asked: without a fault estimates leave three standard deviations now
+    /// and then, too.
     pub frames_to_recover: Option<usize>,
     /// What was farthest off when it should have been back.
     pub late: Option<Excess>,
@@ -89,7 +90,7 @@ impl FaultDrive {
         let (mut not_finite, mut frames_to_recover, mut late) = (0, None, None);
         for (index, ((frame, truth), undisturbed)) in self.frames.iter().zip(&self.undisturbed).enumerate() {
             let Some(frame) = faults.applied(frame) else { continue };
-            let after = index.checked_sub(self.faulty_frames);
+            let after = (index + 1).checked_sub(self.faulty_frames).filter(|after| *after > 0);
             let again = (case == Case::RepeatedFrames && after.is_none()).then_some(&frame);
             for frame in [Some(&frame), again].into_iter().flatten() {
                 let estimate = *pipeline.tick(frame);
