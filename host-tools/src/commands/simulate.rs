@@ -88,7 +88,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         let output = arguments.output.display();
         return Err(HostError::Failed(format!("{output}: expected a file on disk: what was true goes beside it")));
     }
-    let RoverFile { rover, grousers } = RoverFile::read_or_assumed(arguments.rover.as_deref())?;
+    let RoverFile { rover, grousers, .. } = RoverFile::read_or_assumed(arguments.rover.as_deref())?;
     let (effects, faults) = effects_and_faults(&arguments.effect)?;
     let soil = arguments.soil.as_deref().map(soil_argument::soil).transpose()?;
     let changes = arguments.then.iter().map(|text| change(text)).collect::<Result<Vec<_>, _>>()?;

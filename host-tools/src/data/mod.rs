@@ -1,5 +1,6 @@
 //! Reading and writing the files that people hand us: problems are told by file, line and column.
 
+pub mod assumed_keys;
 pub mod atomic_write;
 pub mod campaign;
 pub mod frame_file;

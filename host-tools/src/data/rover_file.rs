@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_aux::serde_introspection::serde_introspect;
 use toml::Spanned;
 
+use super::assumed_keys::AssumedKeys;
 use super::rover_fault::RoverFault;
 use super::toml_file::TomlFile;
 use super::wheel_file::{Grousers, LARGEST_M};
@@ -87,18 +88,20 @@ const FARTHEST_M: f64 = 20.0;
 const GROUSERS: Grousers = Grousers { height_m: 0.005, count: 24 };
 
 /// A rover with what the equations leave out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RoverFile {
     /// The rover.
     pub rover: Rover<f64>,
     /// The grousers of its wheels, which act only through an effect.
     pub grousers: Grousers,
+    /// What of the rover it does not say; of its grousers nothing is told.
+    pub assumed: AssumedKeys,
 }
 
 impl RoverFile {
     /// The assumed set K0, which an empty file describes.
     pub fn assumed() -> Self {
-        Self { rover: Rover::assumed(), grousers: GROUSERS }
+        RoverTable::default().described()
     }
 
     /// That of a file, or the assumed one where none is given.
@@ -136,7 +139,7 @@ impl RoverFile {
             return Err(file.error_at_offset(place, fault.in_words()));
         }
         unused.tell();
-        Ok(Self { rover: table.rover(), grousers: table.grousers() })
+        Ok(table.described())
     }
 }
 
@@ -175,6 +178,12 @@ impl RoverTable {
             }
         }
         Ok(())
+    }
+
+    fn described(&self) -> RoverFile {
+        let of_rover = KEYS.iter().filter(|(key, _)| *key != GROUSER_HEIGHT);
+        let absent: Vec<_> = of_rover.map(|(key, take)| (*key, take(&mut self.clone()).is_none())).collect();
+        RoverFile { rover: self.rover(), grousers: self.grousers(), assumed: AssumedKeys::of(&absent) }
     }
 
     fn rover(&self) -> Rover<f64> {
@@ -231,14 +240,14 @@ impl RoverTable {
     fn to_blame(&self, fault: RoverFault) -> Option<Range<usize>> {
         let is_cause = |table: &Self| table.fault() != Some(fault);
         let alone = || {
-            TAKE.iter().find_map(|take| {
+            KEYS.iter().find_map(|(_, take)| {
                 let mut without = self.clone();
                 take(&mut without).filter(|_| is_cause(&without))
             })
         };
         let together = || {
             let mut without = self.clone();
-            TAKE.iter().find_map(|take| take(&mut without).filter(|_| is_cause(&without)))
+            KEYS.iter().find_map(|(_, take)| take(&mut without).filter(|_| is_cause(&without)))
         };
         alone().or_else(together)
     }
@@ -247,27 +256,29 @@ impl RoverTable {
 /// Takes a key out of a table, and says where it stood.
 type TakeKey = fn(&mut RoverTable) -> Option<Range<usize>>;
 
-/// One for each key, in the order of the format.
-const TAKE: [TakeKey; 19] = [
-    |table| span(table.mass_kg.take()),
-    |table| span(table.gravity_m_s2.take()),
-    |table| span(table.wheel.radius_m.take()),
-    |table| span(table.wheel.width_m.take()),
-    |table| span(table.wheel.grouser_height_m.take()),
-    |table| span(table.suspension.front_hub.take()),
-    |table| span(table.suspension.bogie_pivot.take()),
-    |table| span(table.suspension.middle_hub.take()),
-    |table| span(table.suspension.rear_hub.take()),
-    |table| span(table.suspension.half_track.take()),
-    |table| span(table.suspension.centre_of_mass.take()),
-    |table| span(table.drive.reflected_inertia_kg_m2.take()),
-    |table| span(table.noise.wheel_rate_rad_s.take()),
-    |table| span(table.noise.motor_torque_nm.take()),
-    |table| span(table.noise.load_cell_n.take()),
-    |table| span(table.noise.angle_rad.take()),
-    |table| span(table.noise.accel_m_s2.take()),
-    |table| span(table.noise.gyro_rad_s.take()),
-    |table| span(table.noise.velocity_m_s.take()),
+/// What moves no estimate: grousers act only through an effect.
+const GROUSER_HEIGHT: &str = "wheel.grouser_height_m";
+/// Each key with its table, in the order of the format.
+const KEYS: [(&str, TakeKey); 19] = [
+    ("mass_kg", |table| span(table.mass_kg.take())),
+    ("gravity_m_s2", |table| span(table.gravity_m_s2.take())),
+    ("wheel.radius_m", |table| span(table.wheel.radius_m.take())),
+    ("wheel.width_m", |table| span(table.wheel.width_m.take())),
+    (GROUSER_HEIGHT, |table| span(table.wheel.grouser_height_m.take())),
+    ("suspension.front_hub", |table| span(table.suspension.front_hub.take())),
+    ("suspension.bogie_pivot", |table| span(table.suspension.bogie_pivot.take())),
+    ("suspension.middle_hub", |table| span(table.suspension.middle_hub.take())),
+    ("suspension.rear_hub", |table| span(table.suspension.rear_hub.take())),
+    ("suspension.half_track", |table| span(table.suspension.half_track.take())),
+    ("suspension.centre_of_mass", |table| span(table.suspension.centre_of_mass.take())),
+    ("drive.reflected_inertia_kg_m2", |table| span(table.drive.reflected_inertia_kg_m2.take())),
+    ("noise.wheel_rate_rad_s", |table| span(table.noise.wheel_rate_rad_s.take())),
+    ("noise.motor_torque_nm", |table| span(table.noise.motor_torque_nm.take())),
+    ("noise.load_cell_n", |table| span(table.noise.load_cell_n.take())),
+    ("noise.angle_rad", |table| span(table.noise.angle_rad.take())),
+    ("noise.accel_m_s2", |table| span(table.noise.accel_m_s2.take())),
+    ("noise.gyro_rad_s", |table| span(table.noise.gyro_rad_s.take())),
+    ("noise.velocity_m_s", |table| span(table.noise.velocity_m_s.take())),
 ];
 
 fn span<T>(key: Option<Spanned<T>>) -> Option<Range<usize>> {

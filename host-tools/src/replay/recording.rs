@@ -11,6 +11,7 @@ use kapvik_firmware::rover::Rover;
 
 use super::held_readings::{Held, HeldReadings};
 use super::joined_rows::{APART_US, Joined, JoinedRows};
+use crate::data::assumed_keys::AssumedKeys;
 use crate::data::frame_file::FrameReader;
 use crate::data::number_stream::NumberStream;
 use crate::data::rover_file::RoverFile;
@@ -21,6 +22,8 @@ use crate::error::HostError;
 pub struct Recording {
     /// The rover.
     pub rover: Rover<f64>,
+    /// What of it is assumed.
+    pub assumed: AssumedKeys,
     /// The frames, read as they are asked for.
     pub frames: HeldReadings<JoinedRows<FrameReader>>,
 }
@@ -65,12 +68,12 @@ impl Recording {
     /// # Errors
     /// Where a file cannot be read, the frames have no header, or there can be no such rover.
     pub fn open(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
-        let rover = RoverFile::read_or_assumed(rover)?.rover;
+        let RoverFile { rover, assumed, .. } = RoverFile::read_or_assumed(rover)?;
         let file = File::open(frames).map_err(HostError::file(frames))?;
         let length = file.metadata().map_err(HostError::file(frames))?.len();
         let input = BufReader::new(progress_bar(length).wrap_read(file));
         let frames = FrameReader::new(NumberStream::new(frames, Box::new(input))?)?;
-        Ok(Self { rover, frames: HeldReadings::of(JoinedRows::of(frames)) })
+        Ok(Self { rover, assumed, frames: HeldReadings::of(JoinedRows::of(frames)) })
     }
 }
 

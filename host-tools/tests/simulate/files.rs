@@ -39,6 +39,14 @@ fn what_a_rover_file_leaves_out_is_assumed() {
     assert_eq!(lighter.suspension.rear_hub, Rover::<f64>::assumed().suspension.rear_hub);
 }
 
+#[test]
+fn what_is_assumed_is_named() {
+    let text = "mass_kg = 41.0\n[wheel]\nradius_m = 0.1\n[drive]\nreflected_inertia_kg_m2 = 2.0\n[noise]\n";
+    let file = TomlFile::new(TextFile::new(Path::new("r.toml"), text));
+    let assumed = RoverFile::parse(&file).expect("a rover").assumed;
+    assert_eq!(assumed.to_string(), "gravity_m_s2, wheel.width_m, [suspension], [noise]");
+}
+
 /// The rover file of the project's contract, key by key, is the assumed set.
 #[test]
 fn the_assumed_set_is_that_of_the_contract() {
@@ -49,7 +57,9 @@ fn the_assumed_set_is_that_of_the_contract() {
         motor_torque_nm = 0.05\nload_cell_n = 0.5\nangle_rad = 0.001\naccel_m_s2 = 0.02\ngyro_rad_s = 0.001\n\
         velocity_m_s = 0.0005\n";
     let file = TomlFile::new(TextFile::new(Path::new("r.toml"), text));
-    assert_eq!(RoverFile::parse(&file).ok(), Some(RoverFile::assumed()));
+    let (said, assumed) = (RoverFile::parse(&file).expect("a rover"), RoverFile::assumed());
+    assert_eq!((said.rover, said.grousers), (assumed.rover, assumed.grousers));
+    assert!(said.assumed.are_none() && assumed.assumed.are_all());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use super::findings::{Origin, TraverseFindings};
+use crate::data::assumed_keys::AssumedKeys;
 use crate::parameter::Parameter;
 
 /// The caveats that hold for these findings, in plain sentences.
@@ -17,11 +18,7 @@ pub fn caveats(findings: &TraverseFindings) -> Vec<String> {
              does more than these equations."
         )
     });
-    let assumed = findings.rover_is_assumed().then(|| {
-        "The rover's dimensions and the noise of its sensors are the set K0, which is assumed: Kapvik's were not published, \
-         beside mass and envelope. With another rover the numbers are other numbers; give yours with --rover."
-            .to_owned()
-    });
+    let assumed = (!findings.assumed.are_none()).then(|| assumed_in_words(&findings.assumed));
     let no_truth = findings.truth_is_of_other_times.then(|| {
         "The truth beside the frames has no row at the time of any of them: nothing is compared with it.".to_owned()
     });
@@ -39,6 +36,19 @@ pub fn caveats(findings: &TraverseFindings) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// Said where there is something assumed.
+fn assumed_in_words(assumed: &AssumedKeys) -> String {
+    match assumed.are_all() {
+        true => "The rover's dimensions and the noise of its sensors are the set K0, which is assumed: Kapvik's were not published, \
+                 beside mass and envelope. With another rover the numbers are other numbers; give yours with --rover."
+            .to_owned(),
+        false => format!(
+            "The rover file leaves out {assumed}: this is assumed (set K0), as Kapvik's was not published, beside mass and envelope. With \
+             another rover the numbers are other numbers."
+        ),
+    }
 }
 
 fn last_soil(findings: &TraverseFindings) -> Option<&SoilEstimate> {

@@ -3,6 +3,7 @@
 use kapvik_firmware::rover::Rover;
 
 use super::samples::Samples;
+use crate::data::assumed_keys::AssumedKeys;
 use crate::replay::Outcome;
 use crate::report::facts::FlightFacts;
 use crate::simulate::Scenario;
@@ -29,6 +30,8 @@ pub struct TraverseFindings {
     pub origin: Origin,
     /// The rover that was calculated with.
     pub rover: Rover<f32>,
+    /// What of it is assumed, and not as a file says.
+    pub assumed: AssumedKeys,
     /// What is to be known of how the recording was read.
     pub remarks: Vec<String>,
     /// Estimates and truths, thinned.
@@ -52,10 +55,5 @@ impl TraverseFindings {
                 format!("a simulated drive ({scenario:?}, seed {seed})").to_lowercase()
             }
         }
-    }
-
-    /// Whether the rover is the assumed set K0.
-    pub fn rover_is_assumed(&self) -> bool {
-        self.rover == Rover::assumed()
     }
 }

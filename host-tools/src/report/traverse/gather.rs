@@ -12,6 +12,8 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::findings::{Origin, TraverseFindings};
 use super::samples::Samples;
+use crate::data::assumed_keys::AssumedKeys;
+use crate::data::rover_file::RoverFile;
 use crate::data::truth_file::{Truth, TruthReader, truth_path};
 use crate::error::HostError;
 use crate::flight_computer::{Computer, FlightComputer};
@@ -34,6 +36,7 @@ type Step = Result<(SensorFrame, Option<Truth>), HostError>;
 pub struct Source {
     origin: Origin,
     rover: Rover<f64>,
+    assumed: AssumedKeys,
     remarks: Remarks,
     /// Whether a truth is beside the frames.
     has_truth: bool,
@@ -48,14 +51,14 @@ impl Source {
     pub fn carried() -> Result<Self, HostError> {
         let (scenario, seed) = CARRIED;
         let failed = move |error| HostError::Failed(format!("{scenario:?}, seed {seed}: {error}"));
-        let rover = Rover::assumed();
+        let RoverFile { rover, assumed, .. } = RoverFile::assumed();
         let traverse = Traverse::new(scenario, seed, &rover, &Options::default()).map_err(failed)?;
         let bar = ProgressBar::new(traverse.frames()).with_finish(ProgressFinish::AndClear);
         let steps = traverse
             .progress_with(bar)
             .map(move |step| step.map(|(frame, truth)| (frame, Some(truth))).map_err(failed));
         let origin = Origin::Simulated { scenario, seed };
-        Ok(Self { origin, rover, remarks: Remarks::default(), has_truth: true, steps: Box::new(steps) })
+        Ok(Self { origin, rover, assumed, remarks: Remarks::default(), has_truth: true, steps: Box::new(steps) })
     }
 
     /// A recording, with the truth where NAME.truth.csv is beside it.
@@ -65,7 +68,7 @@ impl Source {
     pub fn recorded(frames: &Path, rover: Option<&Path>) -> Result<Self, HostError> {
         let recording = Recording::open(frames, rover)?;
         let remarks = recording.remarks();
-        let Recording { rover, frames: recorded } = recording;
+        let Recording { rover, assumed, frames: recorded } = recording;
         let truths = truth_path(frames);
         let has_truth = truths.is_file();
         let mut truths = if has_truth { Some(TruthReader::open(&truths)?.peekable()) } else { None };
@@ -79,7 +82,7 @@ impl Source {
             Ok((frame, truths.next_if(same).transpose()?))
         });
         let name = frames.file_name().unwrap_or(frames.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { origin: Origin::Recorded(name), rover, remarks, has_truth, steps: Box::new(steps) })
+        Ok(Self { origin: Origin::Recorded(name), rover, assumed, remarks, has_truth, steps: Box::new(steps) })
     }
 }
 
@@ -104,7 +107,7 @@ impl TraverseFindings {
     /// # Errors
     /// Where the computer cannot be had, does not pass its self-test or does not answer, or a frame cannot be read.
     pub fn gather(source: Source, on: Computer) -> Result<Self, HostError> {
-        let Source { origin, rover, remarks, has_truth, steps } = source;
+        let Source { origin, rover, assumed, remarks, has_truth, steps } = source;
         let flight_rover = rover.map(|value| value as f32);
         let mut computer = FlightComputer::start(on, LogView::Nothing)?;
         // Estimates come some frames after what they are of.
@@ -133,6 +136,7 @@ impl TraverseFindings {
         Ok(Self {
             origin,
             rover: flight_rover,
+            assumed,
             remarks: remarks.lines(),
             samples,
             truth_is_of_other_times,

@@ -64,7 +64,8 @@ fn header(findings: &TraverseFindings) -> Markup {
             h1 { "Soil along " (findings.name()) }
             p {
                 span class="kind" { (kind) } " "
-                @if findings.rover_is_assumed() { span class="kind" { "rover assumed (set K0)" } }
+                @if findings.assumed.are_all() { span class="kind" { "rover assumed (set K0)" } }
+                @else if !findings.assumed.are_none() { span class="kind" { "rover partly assumed (set K0)" } }
             }
             p {
                 "Encoders, drive torques, load cells, suspension angles, accelerometer, gyro and velocimeter went to the flight "
@@ -210,7 +211,12 @@ fn chain(findings: &TraverseFindings) -> Markup {
 
 fn of_drive(findings: &TraverseFindings) -> [(&'static str, String); 1] {
     let rover = &findings.rover;
-    let source = if findings.rover_is_assumed() { "assumed set K0" } else { "as given" };
+    let assumed = &findings.assumed;
+    let source = match (assumed.are_all(), assumed.are_none()) {
+        (true, _) => "assumed set K0".to_owned(),
+        (_, true) => "as given".to_owned(),
+        _ => format!("as given, but for what is assumed (set K0: {assumed})"),
+    };
     let words = format!(
         "{source}: {:.1} kg, wheels of {:.0} mm radius and {:.0} mm width",
         rover.mass_kg,
