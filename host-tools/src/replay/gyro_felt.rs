@@ -3,9 +3,10 @@
 use kapvik_firmware::estimator::pitch_rate;
 use kapvik_firmware::rover::{Axes, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use super::raw_sensors::wide;
+use super::raw_sensors::{Steps, wide};
+use crate::statistics::running::RunningTogether;
 
 /// A zero of the gyro from which slips and pulls are off by more than their standard deviations, rad/s.
 const TOLERATED_RAD_S: f64 = 5e-4;
@@ -37,22 +38,16 @@ const STANDING: f64 = 5.0;
 #[derive(Debug, Clone)]
 pub struct GyroFelt {
     rover: Rover<f64>,
-    before: Option<(u64, f64)>,
+    steps: Steps,
+    rate_before: Option<f64>,
     /// So long the gyro's rate has been added up, s.
     time_s: f64,
     /// And so far it says that the rover has pitched, rad.
     turned_rad: f64,
-    stretch: Moments,
-    all: Moments,
+    /// Time, pitch by the gyro and pitch by gravity.
+    stretch: RunningTogether<3>,
+    all: RunningTogether<3>,
     standing: Standing,
-}
-
-/// Means and products about them of time, pitch by the gyro and pitch by gravity.
-#[derive(Debug, Clone, Copy, Default)]
-struct Moments {
-    count: f64,
-    means: Vector3<f64>,
-    products: Matrix3<f64>,
 }
 
 /// The gyro's readings while the rover stands.
@@ -63,20 +58,13 @@ struct Standing {
     sums: Vector3<f64>,
 }
 
-impl Moments {
-    fn take(&mut self, numbers: Vector3<f64>) {
-        self.count += 1.0;
-        let before = numbers - self.means;
-        self.means += before / self.count;
-        self.products += before * (numbers - self.means).transpose();
-    }
-}
-
 impl GyroFelt {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
         let (stretch, all, standing) = Default::default();
-        Self { rover: rover.map(f64::from), before: None, time_s: 0.0, turned_rad: 0.0, stretch, all, standing }
+        let steps = Steps::up_to(LONGEST_STEP_S);
+        let rover = rover.map(f64::from);
+        Self { rover, steps, rate_before: None, time_s: 0.0, turned_rad: 0.0, stretch, all, standing }
     }
 
     /// Takes a frame.
@@ -87,12 +75,9 @@ impl GyroFelt {
         let turns = Axes { y, ..turns.map(|rate| rate.unwrap_or(0.0)) };
         let felt = frame.accel_m_s2.map(|axis| wide(axis).unwrap_or(0.0));
         let rate = pitch_rate(turns, felt);
-        let before = self.before.replace((frame.time_us, rate));
-        let step = before.and_then(|(time_us, before)| {
-            let step_s = 1e-6 * frame.time_us.checked_sub(time_us)? as f64;
-            (step_s <= LONGEST_STEP_S).then_some((step_s, before))
-        });
-        let Some((step_s, rate_before)) = step else {
+        let step_s = self.steps.since_before_s(frame);
+        let before = self.rate_before.replace(rate);
+        let Some((step_s, rate_before)) = step_s.zip(before) else {
             self.end_stretch();
             return;
         };
@@ -155,7 +140,7 @@ impl GyroFelt {
     }
 
     fn against_gravity(&self) -> Option<String> {
-        let Moments { count, products, .. } = self.all;
+        let RunningTogether { count, products, .. } = self.all;
         let of_time = products[(0, 0)];
         if count < f64::from(LEAST_FRAMES) || self.time_s < LEAST_S || of_time <= 0.0 {
             return None;

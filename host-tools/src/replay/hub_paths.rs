@@ -37,7 +37,7 @@ impl HubPaths {
 
     /// What comes has nothing to do with what was.
     pub fn begin_anew(&mut self) {
-        *self = Self { before_m: None, farthest_m: f64::NEG_INFINITY, front_m: [None; KEPT], ..self.clone() };
+        (self.before_m, self.farthest_m, self.front_m) = (None, f64::NEG_INFINITY, [None; KEPT]);
     }
 
     /// Takes where the hubs are now, m. Where the front one goes back all begin anew.

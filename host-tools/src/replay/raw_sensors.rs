@@ -17,17 +17,29 @@ const MOST_WHEELS: usize = 4;
 pub const LONGEST_FRAME_S: f64 = 1.0;
 
 /// How long frames last, one after the other.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct Steps {
     before_us: Option<u64>,
+    longest_s: f64,
+}
+
+impl Default for Steps {
+    fn default() -> Self {
+        Self::up_to(LONGEST_FRAME_S)
+    }
 }
 
 impl Steps {
+    /// Steps, of which those that are longer, s, count as missing frames.
+    pub fn up_to(longest_s: f64) -> Self {
+        Self { before_us: None, longest_s }
+    }
+
     /// Time since the frame before, s; none of the first, and where frames are missing or out of order.
     pub fn since_before_s(&mut self, frame: &SensorFrame) -> Option<f64> {
         let before_us = self.before_us.replace(frame.time_us)?;
         let step_s = 1e-6 * frame.time_us.checked_sub(before_us)? as f64;
-        (step_s <= LONGEST_FRAME_S).then_some(step_s)
+        (step_s <= self.longest_s).then_some(step_s)
     }
 }
 

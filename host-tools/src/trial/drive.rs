@@ -7,7 +7,7 @@ use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
 use kapvik_firmware::rover::Rover;
 
 use super::consistency::{NormalisedSquares, normalised_square};
-use super::errors::Errors;
+use super::errors::{Errors, is_front};
 use super::flight_pipeline::flight_pipeline;
 use super::pulls_seen::PullsSeen;
 use super::soil_seen::SoilSeen;
@@ -141,7 +141,7 @@ impl Drive {
                     self.filter_1.add(index, place, square, 2.0);
                 }
             }
-            if place % 3 == 0 {
+            if is_front(place) {
                 let error = errors_of_contact(wheel, truth);
                 if let Some(square) = normalised_square(error, &covariance.contact) {
                     self.filter_2.add(index, place, square, 3.0);

@@ -63,7 +63,7 @@ impl Errors {
             take(Quantity::Load, wheel.normal_load_n, raw(|raw| raw.normal_load_n), truth.normal_load_n);
             let pull = raw(|raw| raw.drawbar_pull_n);
             let by_load = Estimate { value: wheel.drawbar_pull_by_load_n, std: 0.0 };
-            if place % 3 == 0 {
+            if is_front(place) {
                 take(Quantity::FrontPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
             } else {
                 take(Quantity::SplitPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
@@ -92,4 +92,9 @@ impl Errors {
             self.tallies[quantity as usize].take(estimate, now, second, truth);
         }
     }
+}
+
+/// Whether the wheel in this place, in the order of the files, is a front one: each side has three, of which it comes first.
+pub(super) fn is_front(place: usize) -> bool {
+    place.is_multiple_of(3)
 }
