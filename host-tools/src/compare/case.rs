@@ -70,6 +70,7 @@ fn draw(situation: &Situation, random: &mut ChaCha8Rng) -> Option<Case> {
         grousers: prior::KAPVIK_GROUSERS,
         gravity_m_s2: prior::GRAVITY_M_S2,
         observations,
+        conditions: Vec::new(),
         assumed: Assumed::middle_of(&prior),
         prior,
         bank: literature_bank(),

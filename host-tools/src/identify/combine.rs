@@ -12,8 +12,10 @@
 //! through rows all the same, what it sorts by errors is taken off: see `selection.rs`. How the rows of a group scatter
 //! goes with its mean: see `spread.rs`.
 
+use kapvik_firmware::terramechanics::effects::Conditions;
 use kapvik_firmware::wheel_state::WheelState;
 
+use super::followed::mean_conditions;
 use super::memory::RowsPerReading;
 use super::selection::{Bounds, mean_noise};
 use super::spread::Spread;
@@ -44,6 +46,8 @@ pub struct Sample {
     pub torque_nm: f64,
     /// Sinkage z, m.
     pub sinkage_m: Option<f64>,
+    /// What else is known of the instant, which declared effects may follow.
+    pub conditions: Conditions<f64>,
 }
 
 impl Sample {
@@ -132,6 +136,7 @@ impl MeanState {
     /// The mean of a group of all the samples, `noise` being that of slip and load.
     fn of(group: &Group, all: &[Sample], noise: [f64; 2]) -> Self {
         let rows = &group.samples;
+        let conditions: Vec<_> = rows.iter().map(|sample| sample.conditions).collect();
         let sinkages: Vec<f64> = rows.iter().filter_map(|sample| sample.sinkage_m).collect();
         let errors = mean_noise(&group.bounds, all, rows.len(), noise);
         Self {
@@ -142,6 +147,7 @@ impl MeanState {
                 drawbar_pull_n: mean(rows.iter().map(|sample| sample.drawbar_pull_n)),
                 torque_nm: mean(rows.iter().map(|sample| sample.torque_nm)),
                 sinkage_m: (!sinkages.is_empty()).then(|| mean(sinkages.iter().copied())),
+                conditions: mean_conditions(&conditions),
             },
             rows: rows.len(),
             sinkage_rows: sinkages.len(),
@@ -228,7 +234,8 @@ mod tests {
     use super::*;
 
     fn sample(slip: f64, load_n: f64, drawbar_pull_n: f64) -> Sample {
-        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None }
+        let conditions = Conditions::default();
+        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None, conditions }
     }
 
     /// Numbers that scatter like a sensor: a fixed sequence of −1, 0 and 1 with mean zero over six.

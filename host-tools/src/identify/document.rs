@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::prior::{self, Range};
 
+use super::followed;
 use super::method::{Finding, Fit, Method, Statement, network_refusal};
 use super::misfit::{misfits, misfits_of};
 use super::network::{Identification, IdentifiedRun, Question, at_edge};
@@ -199,11 +200,7 @@ impl Document {
             warnings.push(format!("declared effects that the method {} does not know: {effects}", method.name()));
         }
         if method.knows_effects() {
-            let open = campaign.declared.effects.iter().filter(|effect| effect.open_forms().count() > 1);
-            warnings.extend(open.map(|effect| {
-                let id = effect.info.id;
-                format!("the form of {id} is not declared: each run is taken to have the one that explains it best")
-            }));
+            warnings.extend(followed::remarks(campaign));
         }
         Self {
             method: method.name(),

@@ -110,6 +110,7 @@ impl Plane {
 
 #[cfg(test)]
 mod tests {
+    use kapvik_firmware::terramechanics::effects::Conditions;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
@@ -124,7 +125,16 @@ mod tests {
         let mut row = |place: usize| {
             noise = kept * noise + (1.0 - kept * kept).sqrt() * normal();
             let (slip, load_n) = (0.2 + 0.01 * normal(), 65.0 + normal());
-            Sample { t_s: place as f64, slip, load_n, drawbar_pull_n: 5.0 + noise, torque_nm: 1.0, sinkage_m: None }
+            let conditions = Conditions::default();
+            Sample {
+                t_s: place as f64,
+                slip,
+                load_n,
+                drawbar_pull_n: 5.0 + noise,
+                torque_nm: 1.0,
+                sinkage_m: None,
+                conditions,
+            }
         };
         (0..8).map(|_| (0..rows).map(&mut row).collect()).collect()
     }

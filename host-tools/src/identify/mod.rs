@@ -9,6 +9,7 @@ pub mod combine;
 pub mod condition;
 mod document;
 mod each_run;
+mod followed;
 mod layout;
 mod logarithmic;
 mod memory;

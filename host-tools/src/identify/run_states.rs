@@ -98,6 +98,7 @@ fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, 
         drawbar_pull_n: or_zero(Channel::DrawbarPull),
         torque_nm: or_zero(Channel::Torque),
         sinkage_m: value(Channel::Sinkage),
+        conditions: campaign.conditions(row),
     };
     if sample.load_n > 0.0 { Ok(sample) } else { Err("load_n is not above 0".to_owned()) }
 }

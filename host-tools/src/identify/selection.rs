@@ -55,6 +55,7 @@ pub fn mean_noise(bounds: &Bounds, samples: &[Sample], rows: usize, noise: [f64;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kapvik_firmware::terramechanics::effects::Conditions;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
@@ -62,7 +63,8 @@ mod tests {
     const STD: f64 = 0.01;
 
     fn sample(slip: f64) -> Sample {
-        Sample { t_s: 0.0, slip, load_n: 65.0, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None }
+        let conditions = Conditions::default();
+        Sample { t_s: 0.0, slip, load_n: 65.0, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None, conditions }
     }
 
     /// Rows with slips from 0 to 0.1, with noise, cut at 0.05: what is taken for the mean noise below and above, and the truth.

@@ -69,9 +69,11 @@ impl Spread {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kapvik_firmware::terramechanics::effects::Conditions;
 
     fn sample(slip: f64, load_n: f64) -> Sample {
-        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None }
+        let conditions = Conditions::default();
+        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None, conditions }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 mod about;
 mod carried;
 mod channel;
+mod conditions;
 mod copies;
 mod declared;
 mod fingerprint;

@@ -3,13 +3,14 @@
 use std::sync::LazyLock;
 
 use kapvik_firmware::identification::{Observation, SoilPrior};
-use kapvik_firmware::terramechanics::effects::Grousers;
+use kapvik_firmware::terramechanics::effects::{Conditions, Form, Grousers};
 use kapvik_firmware::terramechanics::{Soil, Wheel};
 use kapvik_firmware::wheel_state::WheelState;
 
 use crate::data::campaign::{Campaign, DeclaredEffect};
 use crate::identify::SensorNoise;
 use crate::identify::combine::MeanState;
+use crate::identify::followed::lacking;
 use crate::identify::soil_bank::soil_bank;
 
 use super::knowledge::soil_prior;
@@ -29,6 +30,8 @@ pub struct Evidence {
     pub gravity_m_s2: f64,
     /// What was seen.
     pub observations: Vec<Observation<f64>>,
+    /// What else is known of each, which declared effects may follow; beyond its end nothing is.
+    pub conditions: Vec<Conditions<f64>>,
     /// What is believed of the soil.
     pub prior: SoilPrior<f64>,
     /// What is taken as given by the methods that need it.
@@ -61,10 +64,27 @@ impl Evidence {
             grousers: campaign.grousers.of_library(),
             gravity_m_s2: campaign.gravity_m_s2,
             observations: states.iter().map(observation).collect(),
+            conditions: states.iter().map(|state| state.mean.conditions).collect(),
             assumed: Assumed::middle_of(&prior),
             prior,
             bank: literature_bank(),
             declared: campaign.declared.effects.clone(),
+        }
+    }
+
+    /// Whether any state has what a form of an effect follows.
+    pub fn has(&self, form: &Form) -> bool {
+        let nothing = Conditions::default();
+        let of_states = self.conditions.iter().chain((self.conditions.is_empty()).then_some(&nothing));
+        of_states.into_iter().any(|conditions| lacking(conditions, form).is_none())
+    }
+
+    /// The last states alone.
+    pub fn from(&self, first: usize) -> Self {
+        Self {
+            observations: self.observations.get(first..).unwrap_or(&[]).to_vec(),
+            conditions: self.conditions.get(first..).unwrap_or(&[]).to_vec(),
+            ..self.clone()
         }
     }
 

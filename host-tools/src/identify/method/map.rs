@@ -3,7 +3,7 @@
 use kapvik_firmware::identification::Belief;
 use kapvik_firmware::identification::map::{DeclaredEffects, Fitted, FreeParameter, MapEstimate, identify_declared};
 use kapvik_firmware::terramechanics::Soil;
-use kapvik_firmware::terramechanics::effects::{Column, Effects, Form};
+use kapvik_firmware::terramechanics::effects::{Effects, Form};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
@@ -12,8 +12,6 @@ use super::{Evidence, Finding, Fit, Statement, method_refusal};
 
 /// χ² by which, beside two for each parameter more, another form of what is declared has to explain the wheels better.
 const BETTER: f64 = 6.0;
-/// What is known of a wheel's state.
-const OF_A_WHEEL: [Column; 5] = [Column::DrawbarPull, Column::Load, Column::Torque, Column::Sinkage, Column::Grousers];
 /// Standard deviations by which a parameter is another.
 const ANOTHER: f64 = 2.0;
 
@@ -76,12 +74,13 @@ pub fn most_probable_soil(evidence: &Evidence) -> Option<Soil<f64>> {
 fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
     let fitted = |effects: &[DeclaredEffect]| {
         let declared = declared(evidence, effects)?;
-        let estimate = identify_declared(&evidence.wheel, &evidence.observations, &[], &evidence.prior, &declared);
+        let Evidence { wheel, observations, conditions, prior, .. } = evidence;
+        let estimate = identify_declared(wheel, observations, conditions, prior, &declared);
         Ok::<_, String>((estimate.map_err(method_refusal)?, declared.free.len()))
     };
     let cost = |(estimate, free): &(MapEstimate<f64>, usize)| estimate.misfit + 2.0 * *free as f64;
     let first = fitted(&evidence.declared);
-    let others = in_other_forms(&evidence.declared);
+    let others = in_other_forms(evidence);
     let best = others.iter().filter_map(|effects| fitted(effects).ok()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
     match (first, best) {
         (Ok(first), Some(best)) if cost(&best) < cost(&first) - BETTER => Ok(best.0),
@@ -90,13 +89,18 @@ fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
     }
 }
 
-/// The declared effects, one of them in another form that it may have, of those that follow nothing but what is known of a wheel.
-fn in_other_forms(effects: &[DeclaredEffect]) -> Vec<Vec<DeclaredEffect>> {
-    let is_known = |form: &Form| form.needs.iter().all(|column| OF_A_WHEEL.contains(column));
+/// The form that is stated, else the first that an effect may have of those whose columns are known.
+fn first_form(evidence: &Evidence, effect: &DeclaredEffect) -> Option<&'static Form> {
+    effect.form.or_else(|| effect.open_forms().find(|form| evidence.has(form))).or_else(|| effect.first_form())
+}
+
+/// The declared effects, one of them in another form that it may have, of those whose columns are known.
+fn in_other_forms(evidence: &Evidence) -> Vec<Vec<DeclaredEffect>> {
+    let effects = evidence.declared.as_slice();
     let other = |place: usize| {
         let effect = &effects[place];
-        let first = effect.first_form().map(|form| form.name);
-        effect.open_forms().filter(move |form| is_known(form) && Some(form.name) != first).map(move |form| {
+        let first = first_form(evidence, effect).map(|form| form.name);
+        effect.open_forms().filter(move |form| evidence.has(form) && Some(form.name) != first).map(move |form| {
             let mut effects = effects.to_vec();
             effects[place] = effects[place].in_form(form);
             effects
@@ -125,17 +129,16 @@ fn declared(evidence: &Evidence, effects: &[DeclaredEffect]) -> Result<DeclaredE
         gravity_m_s2: evidence.gravity_m_s2,
     };
     for effect in effects {
-        declare(effect, &mut declared)?;
+        declare(effect, first_form(evidence, effect), &mut declared)?;
     }
     Ok(declared)
 }
 
-/// Puts in an effect: in its stated form, else in the first that it may have; what the form frees and the file does not know is free
+/// Puts in an effect in a form; what this frees and the file does not know is free
 /// within its bounds.
-fn declare(effect: &DeclaredEffect, declared: &mut DeclaredEffects<f64>) -> Result<(), String> {
+fn declare(effect: &DeclaredEffect, form: Option<&Form>, declared: &mut DeclaredEffects<f64>) -> Result<(), String> {
     let info = effect.info;
     declared.effects.add(info.id);
-    let form = effect.first_form();
     for parameter in info.parameters {
         let set = form.and_then(|form| form.set.iter().find(|(name, _)| *name == parameter.name));
         if let Some((name, value)) = set {

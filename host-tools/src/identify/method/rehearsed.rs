@@ -28,7 +28,7 @@ pub fn rehearse(method: Method, evidence: &Evidence, states: &[MeanState], noise
     }
     let first = states.len().saturating_sub(MOST_REHEARSED);
     let layout = Layout::new(&evidence.wheel, &states[first..], noise);
-    let last = Evidence { observations: evidence.observations[first..].to_vec(), ..evidence.clone() };
+    let last = evidence.from(first);
     // A network that answers near the middle of what it learned errs little on soils near its answers, and much on those that there are.
     let widths = if method == Method::Cross { believed(&stated) } else { stated.map(|target| target.std) };
     let found = missing(&layout, &Believed(&evidence.prior), &stated, widths, |states| {
