@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::data::campaign::{Campaign, Channel, Knowledge};
 use crate::digits::significant;
 
-use super::method::{Fit, Method, answer};
+use super::method::{FARTHEST, Fit, Method, NEAR_NOTHING, answer};
 use super::on_curve::evidence;
 use super::run_states::run_states;
 use super::sensor_noise::{NoiseSource, SensorNoise};
@@ -26,6 +26,8 @@ const SIGNIFICANT: f64 = 1e-4;
 const BEYOND_GUESSES: f64 = 25.0;
 /// Stated standard deviations by which no number of a soil is missed by chance.
 const BESIDE: f64 = 4.0;
+/// The same of what may be nothing at all: such a number is weighed by a wide logarithm, up to an end that only data push it to.
+const BESIDE_NOTHING: f64 = FARTHEST - 1.0;
 
 /// Why runs are explained by no soil, by their names.
 pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, String> {
@@ -90,8 +92,12 @@ impl Stated {
     fn missed(&self) -> Option<(f64, String)> {
         let Some(Knowledge::Value { value, std }) = self.known.filter(|known| known.std() > 0.0) else { return None };
         let times = (self.found - value).abs() / std;
-        let by_logarithm = (self.found / value).ln().abs() * value / std;
-        let is_beside = times > BESIDE && (!self.is_logarithmic || by_logarithm > BESIDE);
+        let by_logarithm = || (self.found / value).ln().abs() * value / std;
+        let is_beside = match self.is_logarithmic {
+            false => times > BESIDE,
+            true if value < NEAR_NOTHING * std => times > BESIDE_NOTHING,
+            true => times > BESIDE && by_logarithm() > BESIDE,
+        };
         let [found, value, std] = [self.found, value, std].map(|number| significant(number, 3));
         let key = self.key;
         let words = format!("{key} is {found}, {times:.1} standard deviations from the {value} ± {std} that is stated");
@@ -132,6 +138,15 @@ mod tests {
     fn why(campaign: &Campaign, soil: Soil<f64>) -> Option<String> {
         let fit = Fit { chi_square: 20.0, degrees_of_freedom: 20.0, p_value: 0.5, soil };
         misfits_of(campaign, &SensorNoise::of(campaign), std::iter::once(("a".to_owned(), fit))).remove("a")
+    }
+
+    /// Of nothing there is no logarithm.
+    #[test]
+    fn a_number_that_should_be_nothing_is_told_where_it_is_much() {
+        let known = Some(Knowledge::Value { value: 0.0, std: 100.0 });
+        let missed = |found| Stated { key: "c", known, found, is_logarithmic: true }.missed().map(|(_, words)| words);
+        assert_eq!(missed(580.0).as_deref(), Some("c is 580, 5.8 standard deviations from the 0 ± 100 that is stated"));
+        assert_eq!(missed(300.0), None);
     }
 
     /// φ = 0.557 ± 0.035 rad, c = 250 ± 150 Pa and K = 11.4 ± 1.0 mm are known; k_c exactly, k_φ to a sixth.

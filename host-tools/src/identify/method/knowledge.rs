@@ -5,9 +5,10 @@ use kapvik_firmware::identification::{Belief, SoilPrior};
 use crate::data::campaign::{Campaign, Knowledge};
 use crate::prior::{self, Range};
 
-/// A number that is less than so many of its standard deviations may be nothing at all; and it is no more than so many above.
-const NEAR_NOTHING: f64 = 3.0;
-const FARTHEST: f64 = 6.0;
+/// A number that is less than so many of its standard deviations may be nothing at all…
+pub const NEAR_NOTHING: f64 = 3.0;
+/// …and no number is farther from where it is stated than so many.
+pub const FARTHEST: f64 = 6.0;
 
 /// The usual prior, but for what a campaign's `[soil]` says.
 pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
@@ -68,7 +69,7 @@ fn logarithm(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
         Some(Knowledge::Value { value, std }) if value < NEAR_NOTHING * std => {
             let most = (value + FARTHEST * std).max(2.0 * least);
             let (mean, std) = moments_of_ln([least, most], |number| (-0.5 * ((number - value) / std).powi(2)).exp());
-            Belief { mean, std: Some(std), low: usual.low, high: most.ln().max(usual.high) }
+            Belief { mean, std: Some(std), low: usual.low, high: most.ln() }
         }
         Some(Knowledge::Between { min, max }) if min <= least && max > 2.0 * least => {
             let (mean, std) = moments_of_ln([least, max], |_| 1.0);
@@ -117,6 +118,7 @@ mod tests {
         let half = logarithm(Some(Knowledge::Value { value: 0.0, std: 200.0 }), usual());
         assert!((half.mean - (200_f64.ln() - 0.635)).abs() < 0.01, "{half:?}");
         assert!((half.spread() - 1.11).abs() < 0.02 && half.is_valid(), "{half:?}");
+        assert!((half.high - 1200_f64.ln()).abs() < 1e-12, "no more than six standard deviations: {half:?}");
     }
 
     #[test]

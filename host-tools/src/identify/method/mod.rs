@@ -25,7 +25,7 @@ use crate::data::campaign::{Campaign, Channel};
 pub use answer::{Finding, Fit, Statement};
 pub use bootstrap::REDRAWS;
 pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
-pub use knowledge::{soil_prior, training_prior};
+pub use knowledge::{FARTHEST, NEAR_NOTHING, soil_prior, training_prior};
 pub use map::most_probable_soil;
 pub use rehearsed::rehearse;
 pub use words::{method_refusal, network_refusal};
