@@ -14,18 +14,30 @@ pub const FARTHEST: f64 = 6.0;
 pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
     let usual = SoilPrior::usual();
     let ground = &campaign.ground;
+    let sinkage_exponent = number(ground.sinkage_exponent, usual.sinkage_exponent);
     SoilPrior {
         ln_cohesion: logarithm(ground.cohesion_pa, usual.ln_cohesion),
         friction_angle_rad: number(ground.friction_angle_rad, usual.friction_angle_rad),
         ln_shear_modulus: logarithm(ground.shear_modulus_m, usual.ln_shear_modulus),
-        ln_stiffness: logarithm(ground.stiffness(&campaign.wheel), usual.ln_stiffness),
+        ln_stiffness: match ground.stiffness(&campaign.wheel) {
+            None => at_exponent(&usual, sinkage_exponent.mean),
+            stiffness => logarithm(stiffness, usual.ln_stiffness),
+        },
         // Who states a stiffness states it beside the exponent, not at a depth.
         known_depth_m: if ground.stiffness(&campaign.wheel).is_some() { 1.0 } else { usual.known_depth_m },
-        sinkage_exponent: number(ground.sinkage_exponent, usual.sinkage_exponent),
+        sinkage_exponent,
         peak_stress_c1: number(ground.peak_stress_c1, usual.peak_stress_c1),
         peak_stress_c2: number(ground.peak_stress_c2, usual.peak_stress_c2),
         rebound_ratio: number(ground.rebound_ratio, usual.rebound_ratio),
     }
+}
+
+/// What is believed of ln k where the mean exponent is another: the pressure at the depth at which it is known stays as it is believed, with
+/// its bounds. Else 20 kPa at 15 mm would be 80 kPa there for who knows that n is 0.7.
+fn at_exponent(usual: &SoilPrior<f64>, exponent: f64) -> Belief<f64> {
+    let moved = -(exponent - usual.sinkage_exponent.mean) * usual.known_depth_m.ln();
+    let Belief { mean, std, low, high } = usual.ln_stiffness;
+    Belief { mean: mean + moved, std, low: low + moved, high: high + moved }
 }
 
 /// The prior that the networks were trained with: flat between bounds.
@@ -119,6 +131,19 @@ mod tests {
         assert!((half.mean - (200_f64.ln() - 0.635)).abs() < 0.01, "{half:?}");
         assert!((half.spread() - 1.11).abs() < 0.02 && half.is_valid(), "{half:?}");
         assert!((half.high - 1200_f64.ln()).abs() < 1e-12, "no more than six standard deviations: {half:?}");
+    }
+
+    /// k z₀ⁿ at 15 mm.
+    #[test]
+    fn a_stated_exponent_leaves_the_pressure_at_its_depth() {
+        let usual = SoilPrior::<f64>::usual();
+        let ln_pressure = |ln_stiffness: f64, exponent: f64| ln_stiffness + exponent * usual.known_depth_m.ln();
+        let expected = ln_pressure(usual.ln_stiffness.mean, usual.sinkage_exponent.mean);
+        for exponent in [0.7, 1.05, 1.6] {
+            let stiffness = at_exponent(&usual, exponent);
+            assert!((ln_pressure(stiffness.mean, exponent) - expected).abs() < 1e-12, "{stiffness:?} at {exponent}");
+            assert!(stiffness.is_valid() && stiffness.spread() == usual.ln_stiffness.spread(), "{stiffness:?}");
+        }
     }
 
     #[test]
