@@ -119,8 +119,10 @@ impl SoilTable {
 
 /// What a parameter of a soil can be.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SoilRange {
+pub struct SoilRange {
+    /// The least value.
     pub least: f64,
+    /// The greatest value.
     pub greatest: f64,
 }
 

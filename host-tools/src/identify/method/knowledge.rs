@@ -3,6 +3,7 @@
 use kapvik_firmware::identification::{Belief, SoilPrior};
 
 use crate::data::campaign::{Campaign, Knowledge};
+use crate::data::soil_file::SoilRange;
 use crate::prior::{self, Range};
 
 /// A number that is less than so many of its standard deviations may be nothing at all…
@@ -14,10 +15,10 @@ pub const FARTHEST: f64 = 6.0;
 pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
     let usual = SoilPrior::usual();
     let ground = &campaign.ground;
-    let sinkage_exponent = number(ground.sinkage_exponent, usual.sinkage_exponent);
+    let sinkage_exponent = number("n", ground.sinkage_exponent, usual.sinkage_exponent);
     SoilPrior {
         ln_cohesion: logarithm(ground.cohesion_pa, usual.ln_cohesion),
-        friction_angle_rad: number(ground.friction_angle_rad, usual.friction_angle_rad),
+        friction_angle_rad: number("phi", ground.friction_angle_rad, usual.friction_angle_rad),
         ln_shear_modulus: logarithm(ground.shear_modulus_m, usual.ln_shear_modulus),
         ln_stiffness: match ground.stiffness(&campaign.wheel) {
             None => at_exponent(&usual, sinkage_exponent.mean),
@@ -26,9 +27,9 @@ pub fn soil_prior(campaign: &Campaign) -> SoilPrior<f64> {
         // Who states a stiffness states it beside the exponent, not at a depth.
         known_depth_m: if ground.stiffness(&campaign.wheel).is_some() { 1.0 } else { usual.known_depth_m },
         sinkage_exponent,
-        peak_stress_c1: number(ground.peak_stress_c1, usual.peak_stress_c1),
-        peak_stress_c2: number(ground.peak_stress_c2, usual.peak_stress_c2),
-        rebound_ratio: number(ground.rebound_ratio, usual.rebound_ratio),
+        peak_stress_c1: number("c1", ground.peak_stress_c1, usual.peak_stress_c1),
+        peak_stress_c2: number("c2", ground.peak_stress_c2, usual.peak_stress_c2),
+        rebound_ratio: number("eta", ground.rebound_ratio, usual.rebound_ratio),
     }
 }
 
@@ -59,13 +60,23 @@ pub fn training_prior() -> SoilPrior<f64> {
     }
 }
 
-fn number(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
+/// Of the number that a key of `[soil]` gives.
+fn number(key: &str, known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
+    let SoilRange { least, greatest } = SoilRange::of(key);
+    within([least, greatest], known, usual)
+}
+
+/// A stated value may be off to either side by as much, wherever what is usual ends, but for what it can be.
+fn within([least, greatest]: [f64; 2], known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
     match known {
         None => usual,
         Some(Knowledge::Value { value, std: 0.0 }) => Belief::known(value),
-        Some(Knowledge::Value { value, std }) => {
-            Belief { mean: value, std: Some(std), low: usual.low.min(value), high: usual.high.max(value) }
-        }
+        Some(Knowledge::Value { value, std }) => Belief {
+            mean: value,
+            std: Some(std),
+            low: usual.low.min((value - FARTHEST * std).max(least)),
+            high: usual.high.max((value + FARTHEST * std).min(greatest)),
+        },
         Some(Knowledge::Between { min, max }) => Belief::flat(min, max),
     }
 }
@@ -88,7 +99,8 @@ fn logarithm(known: Option<Knowledge>, usual: Belief<f64>) -> Belief<f64> {
             Belief { mean, std: Some(std), low: usual.low, high: max.ln() }
         }
         Some(Knowledge::Value { value, std }) => {
-            number(Some(Knowledge::Value { value: ln(value), std: std / value.max(least) }), usual)
+            let known = Knowledge::Value { value: ln(value), std: std / value.max(least) };
+            within([f64::NEG_INFINITY, f64::INFINITY], Some(known), usual)
         }
         Some(Knowledge::Between { min, max }) => Belief::flat(ln(min), ln(max).max(ln(min) + 1e-9)),
         None => usual,
@@ -131,6 +143,15 @@ mod tests {
         assert!((half.mean - (200_f64.ln() - 0.635)).abs() < 0.01, "{half:?}");
         assert!((half.spread() - 1.11).abs() < 0.02 && half.is_valid(), "{half:?}");
         assert!((half.high - 1200_f64.ln()).abs() < 1e-12, "no more than six standard deviations: {half:?}");
+    }
+
+    #[test]
+    fn a_stated_value_at_the_end_of_what_is_usual_has_two_sides() {
+        let known = |value, std| Some(Knowledge::Value { value, std });
+        let steep = number("n", known(2.5, 0.2), SoilPrior::usual().sinkage_exponent);
+        assert!((steep.low - 0.1).abs() < 1e-12 && (steep.high - 3.7).abs() < 1e-12, "{steep:?}");
+        let loose = number("n", known(0.05, 0.02), SoilPrior::usual().sinkage_exponent);
+        assert_eq!((loose.low, loose.high), (0.0, 2.2), "an exponent is not below zero");
     }
 
     /// k z₀ⁿ at 15 mm.
