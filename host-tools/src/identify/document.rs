@@ -9,7 +9,7 @@ use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::prior::{self, Range};
 
 use super::followed;
-use super::method::{Finding, Fit, Method, Statement, network_refusal};
+use super::method::{Finding, Fit, Method, Statement, network_refusal, rebound};
 use super::misfit::{misfits, misfits_of};
 use super::network::{Identification, IdentifiedRun, Question, at_edge};
 use super::run_states::RunStates;
@@ -200,7 +200,7 @@ impl Document {
             warnings.push(format!("declared effects that the method {} does not know: {effects}", method.name()));
         }
         if method.knows_effects() {
-            warnings.extend(followed::remarks(campaign));
+            warnings.extend(followed::remarks(campaign).into_iter().chain(rebound::remark(campaign)));
         }
         Self {
             method: method.name(),

@@ -119,6 +119,7 @@ fn beside_what_is_known(campaign: &Campaign, soil: &Soil<f64>) -> Option<String>
         positive("K", ground.shear_modulus_m, soil.shear_modulus_m),
         number("c1", ground.peak_stress_c1, soil.peak_stress_c1),
         number("c2", ground.peak_stress_c2, soil.peak_stress_c2),
+        number("eta", ground.rebound_ratio, soil.rebound_ratio),
     ];
     let farthest = numbers.iter().filter_map(Stated::missed).max_by(|one, other| one.0.total_cmp(&other.0));
     farthest.map(|(_, words)| {

@@ -8,6 +8,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
 
+use super::rebound::{free_rebound, put_back, without_rebound};
 use super::{Evidence, Finding, Fit, Statement, method_refusal};
 
 /// χ² by which, beside two for each parameter more, another form of what is declared has to explain the wheels better.
@@ -73,10 +74,17 @@ pub fn most_probable_soil(evidence: &Evidence) -> Option<Soil<f64>> {
 /// With the declared effects in the first forms that they may have, or in those that explain the wheels better by more than chance does.
 fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
     let fitted = |effects: &[DeclaredEffect]| {
-        let declared = declared(evidence, effects)?;
+        let mut declared = declared(evidence, effects)?;
         let Evidence { wheel, observations, conditions, prior, .. } = evidence;
-        let estimate = identify_declared(wheel, observations, conditions, prior, &declared);
-        Ok::<_, String>((estimate.map_err(method_refusal)?, declared.free.len()))
+        let rebound = free_rebound(evidence);
+        let prior = if rebound.is_some() { without_rebound(prior) } else { *prior };
+        rebound.into_iter().try_for_each(|rebound| fit_along(rebound, &mut declared))?;
+        let estimate = identify_declared(wheel, observations, conditions, &prior, &declared);
+        let mut estimate = estimate.map_err(method_refusal)?;
+        if rebound.is_some() {
+            put_back(&mut estimate);
+        }
+        Ok::<_, String>((estimate, declared.free.len()))
     };
     let cost = |(estimate, free): &(MapEstimate<f64>, usize)| estimate.misfit + 2.0 * *free as f64;
     let first = fitted(&evidence.declared);
@@ -134,8 +142,7 @@ fn declared(evidence: &Evidence, effects: &[DeclaredEffect]) -> Result<DeclaredE
     Ok(declared)
 }
 
-/// Puts in an effect in a form; what this frees and the file does not know is free
-/// within its bounds.
+/// Puts in an effect in a form; what this frees and the file does not know is free within its bounds.
 fn declare(effect: &DeclaredEffect, form: Option<&Form>, declared: &mut DeclaredEffects<f64>) -> Result<(), String> {
     let info = effect.info;
     declared.effects.add(info.id);
@@ -157,13 +164,13 @@ fn declare(effect: &DeclaredEffect, form: Option<&Form>, declared: &mut Declared
             None if is_free => Belief::flat(parameter.low, parameter.high),
             None => continue,
         };
-        let free = FreeParameter { effect: info.id, parameter: parameter.name, belief };
-        declared.free.push(free).map_err(|_| {
-            format!(
-                "more than {} free parameters of declared effects: give the values of some",
-                declared.free.capacity()
-            )
-        })?;
+        fit_along(FreeParameter { effect: info.id, parameter: parameter.name, belief }, declared)?;
     }
     Ok(())
+}
+
+fn fit_along(parameter: FreeParameter<f64>, declared: &mut DeclaredEffects<f64>) -> Result<(), String> {
+    declared.free.push(parameter).map_err(|_| {
+        format!("more than {} free parameters of declared effects: give the values of some", declared.free.capacity())
+    })
 }

@@ -11,6 +11,7 @@ mod map;
 pub mod networks;
 mod no_soil;
 mod out_of_range;
+pub mod rebound;
 mod rehearsed;
 mod words;
 
