@@ -6,6 +6,7 @@ use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::identify::{IdentifiedRun, NoiseSource};
 
 use super::findings::{EstimateRow, Findings, RowKind};
+use super::residual::LeftOver;
 use super::verdict::Verdict;
 use crate::parameter::Parameter;
 use crate::statistics::ends;
@@ -139,26 +140,26 @@ fn doubtful(findings: &Findings) -> Option<String> {
     })
 }
 
-/// Where the equations with the directly measured soil miss the sinkage or the forces by more than noise.
+/// Where the equations with the directly measured soil miss the sinkage or the forces by more than what is not known explains.
 fn missing_physics(findings: &Findings) -> Option<String> {
-    let rms = findings.model.as_ref()?.rms();
-    let noise = &findings.identification.noise;
-    let channels = [
-        ("drawbar pull", rms.drawbar_pull_n, noise.drawbar_pull.std, 1.0, "N"),
-        ("torque", rms.torque_nm, noise.torque.std, 1.0, "N·m"),
-        ("sinkage", rms.sinkage_m, noise.sinkage.std, 1e3, "mm"),
-    ];
-    let missed: Vec<String> = channels
-        .into_iter()
-        .filter_map(|(name, rms, std, factor, unit)| {
-            let rms = rms?;
-            (rms > BEYOND_NOISE * std).then(|| format!("{name} by {:.1} {unit}", factor * rms))
-        })
-        .collect();
+    let missed = missed_channels(findings)?;
+    let ground = &findings.campaign.ground;
+    let is_peak_known = ground.peak_stress_c1.is_some() && ground.peak_stress_c2.is_some();
+    let is_unexplained = is_unexplained(findings);
+    let or_peak = if is_peak_known || is_unexplained {
+        ""
+    } else {
+        ", or the stress peaks elsewhere than assumed (c1 and c2 are not both stated)"
+    };
+    let beyond = if is_unexplained {
+        "noise or any other soil explains"
+    } else {
+        "noise and the stated uncertainty of that soil explain"
+    };
     (!missed.is_empty()).then(|| {
         format!(
-            "Equations 1–11 are not the whole truth here: with the soil that direct tests measured they miss {} (root mean \
-             square), more than noise. The networks were trained {}, so they may put what is missing \
+            "Equations 1–11 are not the whole truth here{or_peak}: with the soil that direct tests measured they miss {} (root mean \
+             square), more than {beyond}. The networks were trained {}, so they may put what is missing \
              into c, φ and K, and an interval may exclude the truth. Curves that pass through the points are no proof that \
              the parameters behind them are right.",
             missed.join(", "),
@@ -168,6 +169,31 @@ fn missing_physics(findings: &Findings) -> Option<String> {
             }
         )
     })
+}
+
+/// Whether a run has been held against all soils that what is stated leaves room for, and none explains it.
+fn is_unexplained(findings: &Findings) -> bool {
+    findings.identification.runs.iter().any(|run| run.misfit.is_some())
+}
+
+/// The channels that the equations miss, and by how much; none where the soil is not known. What is not known of the soil explains nothing
+/// where no other soil does.
+fn missed_channels(findings: &Findings) -> Option<Vec<String>> {
+    let model = findings.model.as_ref()?;
+    let is_unexplained = is_unexplained(findings);
+    let of_soil = if is_unexplained { LeftOver::default() } else { model.uncertainty(&findings.campaign) };
+    let (rms, noise) = (model.rms(), &findings.identification.noise);
+    let channels = [
+        ("drawbar pull", rms.drawbar_pull_n, of_soil.drawbar_pull_n, noise.drawbar_pull.std, 1.0, "N"),
+        ("torque", rms.torque_nm, of_soil.torque_nm, noise.torque.std, 1.0, "N·m"),
+        ("sinkage", rms.sinkage_m, of_soil.sinkage_m, noise.sinkage.std, 1e3, "mm"),
+    ];
+    let missed = channels.into_iter().filter_map(|(name, rms, of_soil, std, factor, unit)| {
+        let rms = rms?;
+        let explained = std.hypot(of_soil.unwrap_or(0.0));
+        (rms > BEYOND_NOISE * explained).then(|| format!("{name} by {:.1} {unit}", factor * rms))
+    });
+    Some(missed.collect())
 }
 
 fn declared(findings: &Findings) -> Option<String> {

@@ -3,7 +3,7 @@
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 
 use super::draw::number;
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::{Campaign, Channel, Knowledge};
 use crate::statistics::root_mean_square;
 
 /// The equations beside the measurements.
@@ -79,15 +79,17 @@ impl ModelCheck {
 
     /// Over all rows.
     pub fn rms(&self) -> LeftOver {
-        let left: Vec<LeftOver> = self.rows.iter().map(ModelRow::left_over).collect();
-        let over = |of: fn(&LeftOver) -> Option<f64>| {
-            Some(root_mean_square(left.iter().filter_map(of))).filter(|rms| !rms.is_nan())
-        };
-        LeftOver {
-            drawbar_pull_n: over(|row| row.drawbar_pull_n),
-            torque_nm: over(|row| row.torque_nm),
-            sinkage_m: over(|row| row.sinkage_m),
-        }
+        LeftOver::rms(self.rows.iter().map(ModelRow::left_over))
+    }
+
+    /// By how much the equations would say something else, over all rows, were the soil that is known another by as much as its standard
+    /// deviations say: each number by itself, their squares together.
+    pub fn uncertainty(&self, campaign: &Campaign) -> LeftOver {
+        let moved = moved_soils(campaign).into_iter().map(|soil| {
+            let other = Self::with(campaign, soil);
+            LeftOver::rms(self.rows.iter().zip(&other.rows).map(|(row, other)| row.less(other.model.as_ref())))
+        });
+        moved.reduce(LeftOver::hypot).unwrap_or_default()
     }
 }
 
@@ -102,9 +104,46 @@ impl ModelRow {
             sinkage_m: less(self.sinkage_m, |model| model.sinkage_m),
         }
     }
+
+    /// Computed less what is computed with another soil, of the channels that were measured.
+    fn less(&self, other: Option<&ModelState>) -> LeftOver {
+        let as_measured = Self {
+            drawbar_pull_n: self.drawbar_pull_n.and(self.model.map(|model| model.drawbar_pull_n)),
+            torque_nm: self.torque_nm.and(self.model.map(|model| model.torque_nm)),
+            sinkage_m: self.sinkage_m.and(self.model.map(|model| model.sinkage_m)),
+            model: other.copied(),
+            ..*self
+        };
+        as_measured.left_over()
+    }
 }
 
 impl LeftOver {
+    fn rms(all: impl Iterator<Item = Self>) -> Self {
+        let all: Vec<Self> = all.collect();
+        let over = |of: fn(&Self) -> Option<f64>| {
+            Some(root_mean_square(all.iter().filter_map(of))).filter(|rms| !rms.is_nan())
+        };
+        Self {
+            drawbar_pull_n: over(|row| row.drawbar_pull_n),
+            torque_nm: over(|row| row.torque_nm),
+            sinkage_m: over(|row| row.sinkage_m),
+        }
+    }
+
+    /// The root of the sum of squares; what is not known is nothing.
+    fn hypot(self, other: Self) -> Self {
+        let both = |one: Option<f64>, other: Option<f64>| match (one, other) {
+            (Some(one), Some(other)) => Some(one.hypot(other)),
+            _ => one.or(other),
+        };
+        Self {
+            drawbar_pull_n: both(self.drawbar_pull_n, other.drawbar_pull_n),
+            torque_nm: both(self.torque_nm, other.torque_nm),
+            sinkage_m: both(self.sinkage_m, other.sinkage_m),
+        }
+    }
+
     /// In N, N·m and mm; a dash for what is not known.
     pub fn cells(&self, signed: bool) -> [String; 3] {
         let shown =
@@ -134,4 +173,27 @@ fn known_soil(campaign: &Campaign) -> Option<Soil<f64>> {
         ground.shear_modulus_m,
     ];
     needed.iter().all(Option::is_some).then(|| ground.middle(wheel))
+}
+
+/// The known soil, with each number that is known to a standard deviation greater by that.
+fn moved_soils(campaign: &Campaign) -> Vec<Soil<f64>> {
+    type Place = fn(&mut Soil<f64>) -> &mut f64;
+    let (ground, wheel) = (&campaign.ground, &campaign.wheel);
+    let numbers: [(Option<Knowledge>, Place); 8] = [
+        (ground.sinkage_exponent, |soil| &mut soil.sinkage_exponent),
+        (ground.stiffness(wheel), |soil| &mut soil.frictional_modulus),
+        (ground.cohesion_pa, |soil| &mut soil.cohesion_pa),
+        (ground.friction_angle_rad, |soil| &mut soil.friction_angle_rad),
+        (ground.shear_modulus_m, |soil| &mut soil.shear_modulus_m),
+        (ground.peak_stress_c1, |soil| &mut soil.peak_stress_c1),
+        (ground.peak_stress_c2, |soil| &mut soil.peak_stress_c2),
+        (ground.rebound_ratio, |soil| &mut soil.rebound_ratio),
+    ];
+    let moved = |(known, place): (Option<Knowledge>, Place)| {
+        let std = known.map(Knowledge::std).filter(|std| *std > 0.0)?;
+        let mut soil = ground.middle(wheel);
+        *place(&mut soil) += std;
+        Some(soil)
+    };
+    numbers.into_iter().filter_map(moved).collect()
 }
