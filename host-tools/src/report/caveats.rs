@@ -53,14 +53,15 @@ fn provenance(campaign: &Campaign) -> String {
 fn noise(findings: &Findings) -> Option<String> {
     let noise = &findings.identification.noise;
     let channels = [
-        ("drawbar pull", noise.drawbar_pull),
-        ("load", noise.load),
-        ("torque", noise.torque),
-        ("slip", noise.slip),
-        ("sinkage", noise.sinkage),
+        (Channel::DrawbarPull, "drawbar pull", noise.drawbar_pull),
+        (Channel::Load, "load", noise.load),
+        (Channel::Torque, "torque", noise.torque),
+        (Channel::Slip, "slip", noise.slip),
+        (Channel::Sinkage, "sinkage", noise.sinkage),
     ];
+    let measured = channels.into_iter().filter(|(channel, ..)| findings.campaign.column(channel.name()).is_some());
     let assumed: Vec<&str> =
-        channels.iter().filter(|(_, std)| std.source == NoiseSource::FlightSensors).map(|(name, _)| *name).collect();
+        measured.filter(|(_, _, std)| std.source == NoiseSource::FlightSensors).map(|(_, name, _)| name).collect();
     (!assumed.is_empty()).then(|| {
         format!(
             "The campaign does not say how noisy {} is; the noise of the rover's own sensors is assumed.",
