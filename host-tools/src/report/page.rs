@@ -147,8 +147,9 @@ fn model_section(findings: &Findings, check: &ModelCheck) -> Markup {
     html! {
         section {
             h2 { "Measured, and what the equations say" }
-            p { "The wheel–soil equations 1–11 with the soil that direct tests measured, and with the soil that the networks "
-                "found. Close curves are no proof of the parameters behind them." }
+            p { "The wheel–soil equations 1–11 with the soil that direct tests measured"
+                @if estimated.is_some() { ", and with the soil that the networks found" }
+                ". Close curves are no proof of the parameters behind them." }
             div class="panels" {
                 @for (curve, std) in SLIP_CURVES.iter().zip(deviations) { (response.svg(curve, std)) }
             }

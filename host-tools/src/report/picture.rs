@@ -13,7 +13,7 @@ const BORDER: f64 = 14.0;
 
 /// The three panels side by side, of the first run that has an estimate; none where no run has one.
 pub fn picture(findings: &Findings) -> Option<String> {
-    let run = findings.identification.runs.iter().find(|run| run.question.is_some())?;
+    let run = findings.identification.runs.iter().find(|run| run.refused().is_none())?;
     let rows = Findings::rows(run);
     let panels: Vec<Panel<'_>> = Parameter::ALL
         .into_iter()
