@@ -63,6 +63,9 @@ pub struct RunDocument {
     /// Which intervals are wider than the networks, or the method, state them, and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub widened: Option<String>,
+    /// What else the method says of the estimate.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// How well the method's model explains the run, where the method says.
     #[serde(skip_serializing_if = "Option::is_none")]
     fit: Option<FitDocument>,
@@ -252,6 +255,7 @@ impl RunDocument {
             soil: found.map(SoilDocument::of_method).unwrap_or_default(),
             no_soil: found.ok().and_then(|found| found.no_soil.clone()),
             widened: found.ok().and_then(|found| found.widened.clone()),
+            remarks: found.map_or_else(|_| Vec::new(), |found| found.remarks.clone()),
             fit: found.ok().and_then(|found| found.fit).map(FitDocument::of),
             ..Self::empty(states)
         }
@@ -277,6 +281,7 @@ impl RunDocument {
             misfit: None,
             remembers: states.states.first().and_then(|state| state.rows_per_reading.in_words()),
             widened: None,
+            remarks: Vec::new(),
             fit: None,
             networks: None,
         }

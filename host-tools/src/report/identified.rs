@@ -31,12 +31,9 @@ pub fn identified(document: &Document) -> String {
 /// Why there is no estimate, or none that can be relied on as the method states it.
 pub fn remark(run: &RunDocument) -> String {
     let no_soil = run.no_soil.as_ref().map(|why| format!("no soil: {why}"));
-    let said = [run.misfit.clone(), run.widened.clone(), run.remembers.clone()]
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join("; ");
-    run.refused.clone().or(no_soil).unwrap_or(said)
+    let said = [&run.misfit, &run.widened].into_iter().flatten().chain(&run.remarks).chain(&run.remembers);
+    let said: Vec<&str> = said.map(String::as_str).collect();
+    run.refused.clone().or(no_soil).unwrap_or_else(|| said.join("; "))
 }
 
 /// Cells of a soil: c (Pa), φ (°), K (mm).

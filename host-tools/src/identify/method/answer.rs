@@ -21,6 +21,8 @@ pub struct Finding {
     pub no_soil: Option<String>,
     /// Which intervals are wider than the method states them, and why; none where they are as it states them.
     pub widened: Option<String>,
+    /// What else is to be known of the answer, which changes no number of it.
+    pub remarks: Vec<String>,
 }
 
 /// What a method says of one parameter.
@@ -75,6 +77,7 @@ impl From<&Identified<f64>> for Finding {
             fit: None,
             no_soil: None,
             widened: None,
+            remarks: Vec::new(),
         }
     }
 }
@@ -89,6 +92,7 @@ impl From<&SoilEstimate> for Finding {
             fit: None,
             no_soil: None,
             widened: None,
+            remarks: Vec::new(),
         }
     }
 }

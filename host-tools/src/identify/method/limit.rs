@@ -31,7 +31,8 @@ pub fn posterior_mean(evidence: &Evidence) -> Result<Finding, String> {
         condition_number: None,
         fit: None,
         no_soil: None,
-        widened: unconverged(&summary),
+        widened: None,
+        remarks: unconverged(&summary).into_iter().collect(),
     })
 }
 

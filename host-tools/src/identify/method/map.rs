@@ -61,8 +61,7 @@ fn doubt(finding: &mut Finding, id: &str, without: &MapEstimate<f64>) {
         }
     }
     if !names.is_empty() {
-        let said = format!("{id} is declared and not shown by these data: {}", names.join(", "));
-        finding.widened = Some(finding.widened.take().map_or(said.clone(), |before| format!("{before}; {said}")));
+        finding.remarks.push(format!("{id} is declared and not shown by these data: {}", names.join(", ")));
     }
 }
 

@@ -52,6 +52,7 @@ mod tests {
             fit: None,
             no_soil: None,
             widened: None,
+            remarks: Vec::new(),
         };
         change(&mut finding);
         doubt(&mut finding);

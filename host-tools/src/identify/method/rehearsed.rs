@@ -37,8 +37,7 @@ pub fn rehearse(method: Method, evidence: &Evidence, states: &[MeanState], noise
         Some(std::array::from_fn(|parameter| stated_as(&stated[parameter], again[parameter])))
     });
     let Some(mut missing) = found else {
-        finding.widened =
-            Some("not held against simulated soils: too few about this answer carry the wheel".to_owned());
+        finding.remarks.push("not held against simulated soils: too few about this answer carry the wheel".to_owned());
         return;
     };
     let given = finding.statements().map(|statement| statement.assumed);
