@@ -6,13 +6,14 @@ use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
+use crate::digits::counted;
 use crate::prior::{self, Range};
 
 use super::followed;
 use super::method::{Finding, Fit, Method, Statement, network_refusal, rebound};
 use super::misfit::{misfits, misfits_of};
 use super::network::{Identification, IdentifiedRun, Question, at_edge};
-use super::run_states::RunStates;
+use super::run_states::{RunStates, reasons_in_words};
 use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
 
 /// A campaign, identified.
@@ -230,6 +231,16 @@ fn noise_document(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> 
 }
 
 impl RunDocument {
+    /// How many rows were left out of what was identified, and why; none where all were used, or none was, which then is why there is no
+    /// estimate.
+    pub fn left_out_in_words(&self) -> Option<String> {
+        let left_out = &self.rows_left_out;
+        (self.rows_used > 0 && !left_out.is_empty()).then(|| {
+            let rows = counted(left_out.len() as u64, "row", "rows");
+            format!("{rows} left out: {}", reasons_in_words(left_out.iter().map(|row| (row.line, row.reason.as_str()))))
+        })
+    }
+
     fn of(run: &IdentifiedRun) -> Self {
         let question = run.question.as_ref();
         let estimate = |answer: &QueryAnswer| answer.rover.as_ref().map(SoilDocument::of_network).unwrap_or_default();

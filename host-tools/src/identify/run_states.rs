@@ -106,16 +106,21 @@ fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, 
 impl RunStates {
     /// Why rows were left out, each reason once with its lines.
     pub fn reasons_in_words(&self) -> String {
-        let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
-        for (line, reason) in &self.rows_left_out {
-            match reasons.iter_mut().find(|(known, _)| known == reason) {
-                Some((_, lines)) => lines.push(line.to_string()),
-                None => reasons.push((reason, vec![line.to_string()])),
-            }
-        }
-        let words = reasons.into_iter().map(|(reason, lines)| format!("{reason} (line {})", abbreviated(&lines)));
-        words.collect::<Vec<_>>().join("; ")
+        reasons_in_words(self.rows_left_out.iter().map(|(line, reason)| (*line, reason.as_str())))
     }
+}
+
+/// Why rows were left out, of their lines and reasons: each reason once with its lines.
+pub fn reasons_in_words<'a>(left_out: impl Iterator<Item = (u64, &'a str)>) -> String {
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for (line, reason) in left_out {
+        match reasons.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, lines)) => lines.push(line.to_string()),
+            None => reasons.push((reason, vec![line.to_string()])),
+        }
+    }
+    let words = reasons.into_iter().map(|(reason, lines)| format!("{reason} (line {})", abbreviated(&lines)));
+    words.collect::<Vec<_>>().join("; ")
 }
 
 /// A list that stays readable.

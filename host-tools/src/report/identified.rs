@@ -17,7 +17,9 @@ pub fn identified(document: &Document) -> String {
     table.set_header(["run".to_owned(), cohesion, friction, modulus, String::new()]);
     for run in document.runs() {
         let [cohesion, friction, modulus] = soil_cells(&run.soil);
-        table.add_row([run.run.clone(), cohesion, friction, modulus, remark(run)]);
+        let said = [Some(remark(run)).filter(|said| !said.is_empty()), run.left_out_in_words()];
+        let said = said.into_iter().flatten().collect::<Vec<_>>().join("; ");
+        table.add_row([run.run.clone(), cohesion, friction, modulus, said]);
     }
     align_right(&mut table);
     let mut text = format!("{table}\n  {LEGEND}");
