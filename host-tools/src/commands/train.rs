@@ -1,6 +1,6 @@
 //! `kapvik train`: trains the networks and writes the frozen table.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -11,7 +11,7 @@ use crate::error::HostError;
 use crate::prior::COMPARED_SLOPE_STD_RAD;
 use crate::progress::with_progress;
 use crate::train::comparison::{Row, compare_fifth_inputs, compare_trainers};
-use crate::train::curve::draw;
+use crate::train::curve::{Curve, draw};
 use crate::train::emit::{Provenance, table_file};
 use crate::train::fifth_input::Candidate;
 use crate::train::plan::Plan;
@@ -43,8 +43,8 @@ pub struct Arguments {
 /// Trains, prints both comparisons, writes the table.
 ///
 /// # Errors
-/// Where a file cannot be read or written, or does not declare effects as it should; and where these leave next to no scene in which
-/// the soil carries the wheels.
+/// Where a file cannot be read or written, or does not declare effects as it should; where these leave next to no scene in which
+/// the soil carries the wheels; and where a network cannot fly.
 pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let Arguments { output, declared, picture, .. } = arguments;
     outputs::check(&[Some(output), picture.as_deref()], &[declared.as_deref()])?;
@@ -76,16 +76,34 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let (rover, rover_curve) = with_progress("rover network", |bar| train_rover(&plan, &training, &held_out, bar));
     tell(&format!("Held-out loss: per-wheel {:.4}, rover {:.4} nats", wheel_curve.last(), rover_curve.last()));
     let losses = [wheel_curve.last(), rover_curve.last()];
+    let can_fly = [wheel.network.cannot_overflow(), rover.network.cannot_overflow()];
+    check_networks(losses, can_fly)?;
     let file = table_file(wheel, rover, &Provenance { plan: &plan, world: &world, fifth: Candidate::SHIPPED, losses });
-    write_text(&arguments.output, &file.to_text())?;
-    if let Some(picture) = &arguments.picture {
-        let curves: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
-        let panels = [
-            ("Trainers", curves.as_slice()),
-            ("Per-wheel network", std::slice::from_ref(&wheel_curve)),
-            ("Rover network", std::slice::from_ref(&rover_curve)),
-        ];
-        write_text(picture, &draw(&panels)?)?;
+    write_text(output, &file.to_text())?;
+    picture.as_deref().map_or(Ok(()), |picture| write_curves(picture, trainers, &wheel_curve, &rover_curve))
+}
+
+fn write_curves(picture: &Path, trainers: Vec<Row>, wheel: &Curve, rover: &Curve) -> Result<(), HostError> {
+    let trainers: Vec<_> = trainers.into_iter().map(|row| row.curve).collect();
+    let panels = [
+        ("Trainers", trainers.as_slice()),
+        ("Per-wheel network", std::slice::from_ref(wheel)),
+        ("Rover network", std::slice::from_ref(rover)),
+    ];
+    write_text(picture, &draw(&panels)?)
+}
+
+/// Refuses networks that cannot fly, of their losses and of whether their sums stay within 32 bits: per-wheel and rover network.
+fn check_networks(losses: [f64; 2], can_fly: [bool; 2]) -> Result<(), HostError> {
+    for ((name, loss), can_fly) in ["per-wheel", "rover"].into_iter().zip(losses).zip(can_fly) {
+        let wrong = if !loss.is_finite() {
+            format!("its held-out loss is {loss}")
+        } else if !can_fly {
+            "its sums can overflow 32 bits".to_owned()
+        } else {
+            continue;
+        };
+        return Err(HostError::Failed(format!("the {name} network has diverged: {wrong}; no table is written")));
     }
     Ok(())
 }
@@ -123,4 +141,19 @@ fn table(title: &str, rows: &[Row]) -> String {
     };
     let lines: Vec<String> = [title.to_owned(), head].into_iter().chain(rows.iter().map(line)).collect();
     format!("{}\n", lines.join("\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_network_that_has_diverged_is_refused() {
+        assert!(check_networks([-1.2, -3.0], [true; 2]).is_ok());
+        let said = |losses, can_fly| check_networks(losses, can_fly).expect_err("refused").to_string();
+        assert!(said([-1.2, f64::NAN], [true; 2]).contains("the rover network has diverged: its held-out loss is NaN"));
+        assert!(
+            said([-1.2, -3.0], [false, true]).contains("the per-wheel network has diverged: its sums can overflow")
+        );
+    }
 }

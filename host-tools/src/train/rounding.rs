@@ -100,6 +100,8 @@ impl<G: Fn(usize) -> f32> Scales<G> {
         let unit = libm::exp2(f64::from(fraction_bits));
         let mut saturated = false;
         let mut whole = |number: f64, greatest: f64| {
+            // What is no number saturates as well: as a zero it would pass for a weight.
+            let number = if number.is_nan() { f64::INFINITY } else { number };
             saturated |= number.abs() > greatest;
             number.round().clamp(-greatest, greatest) as i32
         };
@@ -174,6 +176,15 @@ pub(crate) mod tests {
 
     fn rounded_plainly(layer: &Layer<5, 6>) -> FixedLayer<2, 2> {
         Scales { input_range: 1.0, sums: |_| 1.0, cut_to: None }.round(layer)
+    }
+
+    /// Two weights of full size and a bias of full size are more than 32 bits.
+    #[test]
+    fn what_is_no_number_cannot_fly() {
+        let mut layer = layer(1.0);
+        layer.bias[2] = f32::NAN;
+        layer.weights.0[3][2] = f32::NAN;
+        assert!(!rounded_plainly(&layer).cannot_overflow());
     }
 
     #[test]
