@@ -1,7 +1,7 @@
 //! The earlier network, trained for the wheel and the loads that it is asked about.
 
 use std::collections::HashMap;
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 
 use crate::train::cross::{CrossNetwork, Scope, train};
 
@@ -13,24 +13,26 @@ const SEED: u64 = 1;
 const LOAD_FACTOR: f64 = 1.8;
 
 /// Networks that have been trained, by wheel and middle of the loads.
-type Trained = HashMap<[u64; 3], Arc<CrossNetwork>>;
+type Trained = HashMap<[u64; 3], Arc<OnceLock<CrossNetwork>>>;
 
 /// The mean of what the network says of each wheel.
 ///
 /// # Errors
 /// The refusal, in words.
 pub fn cross(evidence: &Evidence) -> Result<Finding, String> {
-    let identified = network(evidence).identify(&evidence.observations);
+    let scope = scope(evidence);
+    let place = place(&scope);
+    // Whoever waits here needs the same network.
+    let network = place.get_or_init(|| train(&scope, SEED).network);
+    let identified = network.identify(&evidence.observations);
     identified.map(|identified| Finding::from(&identified)).map_err(method_refusal)
 }
 
-fn network(evidence: &Evidence) -> Arc<CrossNetwork> {
+/// Where the network of a scope stands once it is trained.
+fn place(scope: &Scope) -> Arc<OnceLock<CrossNetwork>> {
     static TRAINED: LazyLock<Mutex<Trained>> = LazyLock::new(Mutex::default);
-    let scope = scope(evidence);
     let key = [scope.wheel.radius_m, scope.wheel.width_m, scope.load_n.low].map(f64::to_bits);
-    // Held while training: whoever waits needs the same network.
-    let mut trained = TRAINED.lock().unwrap_or_else(PoisonError::into_inner);
-    trained.entry(key).or_insert_with(|| Arc::new(train(&scope, SEED).network)).clone()
+    TRAINED.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone()
 }
 
 fn scope(evidence: &Evidence) -> Scope {

@@ -2,7 +2,6 @@
 
 use kapvik_firmware::wheel_state::WheelState;
 use rand::RngExt;
-use rayon::prelude::*;
 
 use super::super::dataset::stream;
 use super::super::example::soil_targets;
@@ -37,13 +36,15 @@ pub(super) struct Scale<const N: usize> {
 }
 
 /// `count` examples, the same for the same seed. Draws in which the wheel is stuck are left out and replaced.
+///
+/// One after the other: who waits for a network is a worker of rayon, and one that shared out this work could be handed the task of another
+/// who waits for the same.
 pub(super) fn draw(scope: &Scope, count: usize, seed: u64) -> Vec<Example> {
     // Where next to no soil carries the wheel there are fewer.
     const MOST_ROUNDS: usize = 20;
     let mut examples = Vec::with_capacity(count);
     for round in 0..MOST_ROUNDS {
-        let indices = (round * count..(round + 1) * count).into_par_iter();
-        examples.par_extend(indices.filter_map(|index| draw_one(scope, seed, index)));
+        examples.extend((round * count..(round + 1) * count).filter_map(|index| draw_one(scope, seed, index)));
         if examples.len() >= count {
             break;
         }
