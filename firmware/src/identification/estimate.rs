@@ -64,7 +64,7 @@ pub enum Refusal {
     NoSinkage,
     /// A number is NaN or infinite.
     NotFinite,
-    /// Radius, width, load or a standard deviation is not above zero, the slip is outside −1 … 1, or the sinkage is
+    /// Radius, width, load or a standard deviation that is weighed by is not above zero, the slip is outside −1 … 1, or the sinkage is
     /// outside what the method can take.
     OutOfRange,
     /// A stress that the method solves for comes out at zero or below.

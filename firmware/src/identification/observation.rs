@@ -18,8 +18,21 @@ pub struct Observation<S> {
     pub noise: WheelNoise<S>,
 }
 
+/// Whose noise a method weighs by, or takes its standard deviations from. What it says of the others is of no account to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Weighed {
+    /// None: it has its standard deviations from the residuals.
+    Nothing,
+    /// That of the drawbar pull.
+    DrawbarPull,
+    /// Those of drawbar pull, load, torque and slip.
+    AllButSinkage,
+    /// The same, and that of the sinkage where there is one.
+    All,
+}
+
 /// Checks what every method needs: a wheel with a size, at least `needed` observations, finite numbers, slips of −1 … 1,
-/// loads and standard deviations above zero.
+/// loads above zero, and so the standard deviations that are weighed by.
 ///
 /// # Errors
 /// The reason to refuse.
@@ -27,6 +40,7 @@ pub(super) fn check<S: Scalar>(
     wheel: &Wheel<S>,
     observations: &[Observation<S>],
     needed: usize,
+    weighed: Weighed,
 ) -> Result<(), Refusal> {
     if observations.len() < needed {
         return Err(Refusal::TooFew { needed: needed as u8 });
@@ -34,7 +48,7 @@ pub(super) fn check<S: Scalar>(
     if !observations.iter().all(Observation::is_finite) {
         return Err(Refusal::NotFinite);
     }
-    if wheel.is_valid() && observations.iter().all(Observation::is_in_range) {
+    if wheel.is_valid() && observations.iter().all(|seen| seen.is_in_range() && seen.has_noise(weighed)) {
         Ok(())
     } else {
         Err(Refusal::OutOfRange)
@@ -60,11 +74,19 @@ impl<S: Scalar> Observation<S> {
     }
 
     fn is_in_range(&self) -> bool {
+        self.state.load_n > S::zero() && self.state.slip.abs() <= S::one()
+    }
+
+    fn has_noise(&self, weighed: Weighed) -> bool {
         let noise = &self.noise;
-        let stds = [noise.drawbar_pull_n, noise.load_n, noise.torque_nm, noise.slip];
-        stds.iter().all(|std| *std > S::zero() && std.is_finite())
-            && self.state.sinkage_m.is_none_or(|_| noise.sinkage_m > S::zero() && noise.sinkage_m.is_finite())
-            && self.state.load_n > S::zero()
-            && self.state.slip.abs() <= S::one()
+        let is_size = |std: S| std > S::zero() && std.is_finite();
+        let pull = is_size(noise.drawbar_pull_n);
+        let forces = || pull && [noise.load_n, noise.torque_nm, noise.slip].into_iter().all(is_size);
+        match weighed {
+            Weighed::Nothing => true,
+            Weighed::DrawbarPull => pull,
+            Weighed::AllButSinkage => forces(),
+            Weighed::All => forces() && self.state.sinkage_m.is_none_or(|_| is_size(noise.sinkage_m)),
+        }
     }
 }

@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::Wheel;
 
 use super::least_squares::Bounds;
-use super::observation::check;
+use super::observation::{Weighed, check};
 use super::{Identified, Observation, Refusal, StressShape, Told};
 
 pub use pressure_sinkage::PressureSinkage;
@@ -126,7 +126,7 @@ pub fn fit<S: Scalar>(
     observations: &[Observation<S>],
     bounds: &DingBounds<S>,
 ) -> Result<DingFit<S>, Refusal> {
-    check(wheel, observations, NEEDED)?;
+    check(wheel, observations, NEEDED, Weighed::All)?;
     let rows = Rows::new(wheel, observations)?;
     if rows.count() < NEEDED {
         return Err(Refusal::TooFew { needed: NEEDED as u8 });

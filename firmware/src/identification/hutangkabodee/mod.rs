@@ -18,7 +18,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::{Soil, Wheel};
 
 use super::least_squares::Triangle;
-use super::observation::check;
+use super::observation::{Weighed, check};
 use super::singular_values::singular_values;
 use super::{Identified, Observation, Refusal, SoilPrior, Told};
 
@@ -80,7 +80,7 @@ pub fn fit<S: Scalar>(
     assumed: &Soil<S>,
     steps: Steps,
 ) -> Result<Fit<S>, Refusal> {
-    check(wheel, observations, NEEDED)?;
+    check(wheel, observations, NEEDED, Weighed::DrawbarPull)?;
     let pulls = DrawbarPulls::new(wheel, observations, assumed)?;
     if pulls.count() < NEEDED {
         return Err(Refusal::TooFew { needed: NEEDED as u8 });

@@ -10,7 +10,7 @@ mod recursive;
 use crate::scalar::Scalar;
 use crate::terramechanics::Wheel;
 
-use super::observation::check;
+use super::observation::{Weighed, check};
 use super::{Assumed, Identified, Observation, Refusal};
 
 pub use recursive::Recursive;
@@ -49,7 +49,7 @@ pub fn iagnemma<S: Scalar>(
     observations: &[Observation<S>],
     assumed: &IagnemmaAssumptions<S>,
 ) -> Result<Identified<S>, Refusal> {
-    check(wheel, observations, usize::from(assumed.needed()))?;
+    check(wheel, observations, usize::from(assumed.needed()), Weighed::Nothing)?;
     let mut line = Recursive::new(assumed, S::one())?;
     for observation in observations {
         line.add(wheel, observation)?;

@@ -1,7 +1,7 @@
 //! The same equations taken up one by one.
 
 use crate::identification::least_squares::{Bounds, Triangle};
-use crate::identification::observation::check;
+use crate::identification::observation::{Weighed, check};
 use crate::identification::{Assumed, Identified, Observation, Refusal, StressShape, Told, TriangularStress};
 use crate::scalar::Scalar;
 use crate::terramechanics::Wheel;
@@ -45,7 +45,7 @@ impl<S: Scalar> Recursive<S> {
     /// # Errors
     /// As [`super::iagnemma()`]; nothing has then changed.
     pub fn add(&mut self, wheel: &Wheel<S>, observation: &Observation<S>) -> Result<(), Refusal> {
-        check(wheel, core::slice::from_ref(observation), 1)?;
+        check(wheel, core::slice::from_ref(observation), 1, Weighed::Nothing)?;
         if observation.state.slip < S::zero() {
             return Ok(());
         }

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 
-use crate::identification::observation::check;
+use crate::identification::observation::{Weighed, check};
 use crate::identification::{Identified, Observation, Refusal, SoilPrior, Told};
 use crate::scalar::Scalar;
 use crate::terramechanics::effects::Conditions;
@@ -123,7 +123,7 @@ fn solve<const N: usize, S: Scalar>(
     observations: &[Observation<S>],
     conditions: &[Conditions<S>],
 ) -> Result<MapEstimate<S>, Refusal> {
-    check(forward.wheel, observations, 1)?;
+    check(forward.wheel, observations, 1, Weighed::All)?;
     if observations.len() > N {
         return Err(Refusal::TooMany { room: u8::try_from(N).unwrap_or(u8::MAX) });
     }

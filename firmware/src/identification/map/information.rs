@@ -1,6 +1,6 @@
 //! What observations would tell, before they are made: the Cramér–Rao bound of a design.
 
-use crate::identification::observation::check;
+use crate::identification::observation::{Weighed, check};
 use crate::identification::{Belief, Observation, Refusal, SoilPrior};
 use crate::scalar::Scalar;
 use crate::terramechanics::{Soil, Wheel, sinkage_for_load};
@@ -40,7 +40,7 @@ pub fn information<S: Scalar>(
     design: &[Observation<S>],
     prior: &SoilPrior<S>,
 ) -> Result<Foreseen<S>, Refusal> {
-    check(wheel, design, 1)?;
+    check(wheel, design, 1, Weighed::All)?;
     if design.len() > CAPACITY {
         return Err(Refusal::TooMany { room: CAPACITY as u8 });
     }

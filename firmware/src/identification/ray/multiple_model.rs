@@ -5,7 +5,7 @@ use heapless::Vec;
 use crate::scalar::Scalar;
 use crate::terramechanics::{Soil, Wheel};
 
-use super::super::observation::check;
+use super::super::observation::{Weighed, check};
 use super::super::{Identified, Observation, Refusal};
 use super::likelihood::Likelihood;
 use super::posterior::answer;
@@ -65,7 +65,7 @@ impl<'a, S: Scalar, const N: usize> MultipleModel<'a, S, N> {
     /// [`Refusal::NoSoilFits`] where no soil of the bank carries every wheel, [`Refusal::TooFew`] without observations,
     /// [`Refusal::NotFinite`] and [`Refusal::OutOfRange`]. The probabilities then stay as they were.
     pub fn update(&mut self, wheel: &Wheel<S>, observations: &[Observation<S>]) -> Result<Identified<S>, Refusal> {
-        check(wheel, observations, 1)?;
+        check(wheel, observations, 1, Weighed::AllButSinkage)?;
         let mut logarithms = Vec::<Option<S>, N>::new();
         let (mut best, mut least_chi_square) = (None::<S>, None::<S>);
         for (soil, probability) in self.bank.iter().zip(&self.probabilities) {

@@ -127,6 +127,21 @@ impl Method {
         self != Self::Network || is_known_slip(slip as f32, std as f32)
     }
 
+    /// The channels by whose noise the method weighs.
+    pub const fn weighs(self) -> &'static [Channel] {
+        match self {
+            Self::Iagnemma | Self::IagnemmaRecursive => &[],
+            Self::Hutangkabodee => &[Channel::DrawbarPull],
+            Self::Ray => &FORCES,
+            _ => &FORCES_AND_SINKAGE,
+        }
+    }
+
+    /// Whether the method's equations are of a wheel that has sunk: at no sinkage they have no contact.
+    pub const fn needs_contact(self) -> bool {
+        matches!(self, Self::Ding | Self::DingBounded | Self::Iagnemma | Self::IagnemmaRecursive | Self::Hutangkabodee)
+    }
+
     /// The columns without which the method cannot work.
     pub const fn needs(self) -> &'static [Channel] {
         match self {
@@ -145,7 +160,7 @@ impl Method {
 /// # Errors
 /// The reason, in words.
 pub fn answer(method: Method, evidence: &Evidence) -> Result<Finding, String> {
-    let refused = |reason| out_of_range::named(evidence).unwrap_or(reason);
+    let refused = |reason| out_of_range::named(method, evidence).unwrap_or(reason);
     let mut finding = by_itself(method, evidence).map_err(refused)?;
     bootstrap::complete(&mut finding, evidence, |redrawn| by_itself(method, redrawn).ok());
     no_soil::doubt(&mut finding);
