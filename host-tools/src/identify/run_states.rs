@@ -12,6 +12,8 @@ use super::method::Method;
 
 /// Why a row is left out at which a wheel is braked, or slips by too little.
 const UNKNOWN_SLIP: &str = "the networks have learned no wheel that slips so little";
+/// Why a row is left out at which a wheel has not sunk.
+const NO_CONTACT: &str = "sinkage_m is not above 0, and at no sinkage the method has no contact";
 
 /// A run as a method sees it.
 #[derive(Debug, Clone)]
@@ -42,10 +44,13 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> V
         }
         let is_known = |sample: &Sample| method.knows_slip(sample.slip, noise.slip.std);
         if samples.iter().any(|(_, sample)| is_known(sample)) {
-            let (known, unknown): (Vec<_>, Vec<_>) = samples.into_iter().partition(|(_, sample)| is_known(sample));
-            samples = known;
-            rows_left_out.extend(unknown.into_iter().map(|(line, _)| (line, UNKNOWN_SLIP.to_owned())));
-            rows_left_out.sort_by_key(|(line, _)| *line);
+            leave_out(&mut samples, &mut rows_left_out, UNKNOWN_SLIP, is_known);
+        }
+        // Of means it counts whether they are above 0: to leave out the rows that noise has pushed below would push them up.
+        if method.needs_contact() && samples.len() <= method.most_states() {
+            leave_out(&mut samples, &mut rows_left_out, NO_CONTACT, |sample| {
+                sample.slip < 0.0 || sample.sinkage_m.is_none_or(|sinkage_m| sinkage_m > 0.0)
+            });
         }
         let mut samples: Vec<Sample> = samples.into_iter().map(|(_, sample)| sample).collect();
         // In which order a file lists the wheels of an instant says nothing.
@@ -65,6 +70,18 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> V
         }
     };
     campaign.runs().into_iter().map(of_run).collect()
+}
+
+/// Leaves out the rows that are not kept, by their lines.
+fn leave_out(
+    samples: &mut Vec<(u64, Sample)>,
+    rows_left_out: &mut Vec<(u64, String)>,
+    reason: &str,
+    is_kept: impl Fn(&Sample) -> bool,
+) {
+    let left_out = samples.extract_if(.., |(_, sample)| !is_kept(sample));
+    rows_left_out.extend(left_out.map(|(line, _)| (line, reason.to_owned())));
+    rows_left_out.sort_by_key(|(line, _)| *line);
 }
 
 /// Checks that a campaign has the columns that a method needs.
