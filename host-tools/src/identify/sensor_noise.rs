@@ -53,6 +53,10 @@ const LIKE_LOAD: f64 = 0.1;
 /// Times what is usual from which a difference between like rows is a gross error's.
 const FAR_OUT: f64 = 6.0;
 
+/// What a rig sets, and a file may hold to be exact. No method can weigh by nothing: such a channel is taken to be as good as the networks know
+/// any, the mean of 400 instants of the flight sensors.
+const SET: [Channel; 2] = [Channel::Slip, Channel::Load];
+
 impl SensorNoise {
     /// The noise of a campaign's rows: stated, else from repeats, else that of the flight sensors.
     ///
@@ -61,7 +65,10 @@ impl SensorNoise {
         let pairs = of_each_run(campaign);
         let scale = INSTANT_NOISE.on(mean_load(campaign), campaign.wheel.radius_m);
         let channel = |channel, flight_sensors| {
-            let stated = campaign.noise.of(channel).map(|std| ChannelStd { std, source: NoiseSource::Campaign });
+            let stated = campaign.noise.of(channel).map(|std| ChannelStd {
+                std: if std == 0.0 && SET.contains(&channel) { AVERAGING.low * flight_sensors } else { std },
+                source: NoiseSource::Campaign,
+            });
             let repeats =
                 || Some(ChannelStd { std: from_pairs(campaign, &pairs, channel)?, source: NoiseSource::Repeats });
             let fallback = ChannelStd { std: flight_sensors, source: NoiseSource::FlightSensors };
