@@ -101,11 +101,15 @@ impl Campaign {
             if 2 * bad > all {
                 let (name, unit) = (channel.name(), unit(channel));
                 let or_load = if self.plausible.is_by_load(channel) { ", or load_n in newtons" } else { "" };
+                let by_radius = match channel {
+                    Channel::Sinkage | Channel::Torque => format!(" where radius_m is {} m", self.wheel.radius_m),
+                    _ => String::new(),
+                };
                 return Err(self.error_at_row(
                     row,
                     channel,
                     format!(
-                        "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (a load is above 0; here at most {limit:.3} {unit}): \
+                        "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (a load is above 0; here at most {limit:.3} {unit}{by_radius}): \
                          expected newtons, newton-metres and metres{or_load}",
                     ),
                 ));
@@ -120,5 +124,21 @@ fn unit(channel: Channel) -> &'static str {
         Channel::Sinkage => "m",
         Channel::Torque => "N·m",
         _ => "N",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn a_radius_in_other_units_is_named_beside_the_sinkage_that_it_forbids() {
+        let toml = "name = \"small\"\nkind = \"simulated\"\nsource = \"\"\ngravity_m_s2 = 9.81\n[wheel]\nradius_m = 1e-9\n\
+                    width_m = 0.1\n";
+        let csv = "run,t_s,slip,load_n,sinkage_m\na,0,0.3,50,0.01\na,1,0.4,51,0.01\n";
+        let said = Campaign::parse(Path::new("small.csv"), csv, toml).expect_err("no such wheel").to_string();
+        assert!(said.contains("at most 0.000 m where radius_m is 0.000000001 m"), "{said}");
     }
 }
