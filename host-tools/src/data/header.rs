@@ -8,13 +8,15 @@ use crate::error::HostError;
 #[derive(Debug, Clone)]
 pub struct Header {
     path: PathBuf,
+    /// Line of the file, from 1.
+    line: u64,
     names: Vec<String>,
 }
 
 impl Header {
     /// Of a table whose names are yet to be read.
     pub fn unread(path: &Path) -> Self {
-        Self { path: path.to_path_buf(), names: Vec::new() }
+        Self { path: path.to_path_buf(), line: 1, names: Vec::new() }
     }
 
     /// Takes the names of the columns from the fields of a line, blanks around them taken off.
@@ -23,6 +25,7 @@ impl Header {
     /// Where something else than commas seems to part the columns, there are remarks in place of names, a column without a name, or a name
     /// twice.
     pub fn take<'a>(&mut self, line: u64, fields: impl Iterator<Item = &'a str>) -> Result<(), HostError> {
+        self.line = line;
         self.names = column_names(fields).map_err(|wrong| self.error(line, wrong.column, wrong.message))?;
         Ok(())
     }
@@ -30,6 +33,11 @@ impl Header {
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The line that it stands on, from 1; 1 before it is read.
+    pub fn line(&self) -> u64 {
+        self.line
     }
 
     /// The names of the columns; none before they are read.
@@ -47,7 +55,7 @@ impl Header {
     /// # Errors
     /// Where there is none.
     pub fn required(&self, name: &str) -> Result<usize, HostError> {
-        self.position(name).ok_or_else(|| self.error(1, 1, self.no_column(&[name])))
+        self.position(name).ok_or_else(|| self.error(self.line, 1, self.no_column(&[name])))
     }
 
     /// What is said where there is none of some columns, of which one is needed.

@@ -88,6 +88,11 @@ impl Table {
         self.header.names()
     }
 
+    /// The line that the header stands on, from 1.
+    pub fn header_line(&self) -> u64 {
+        self.header.line()
+    }
+
     /// The column of that name.
     pub fn column(&self, name: &str) -> Option<Column> {
         self.header.position(name).map(Column)
@@ -154,7 +159,7 @@ impl Table {
 
     /// An error about the table as a whole, at its header.
     pub fn error_in_header(&self, message: impl Into<String>) -> HostError {
-        self.header.error(1, 1, message)
+        self.header.error(self.header_line(), 1, message)
     }
 
     /// Writes the table: beside its place, then renamed there.
@@ -212,5 +217,18 @@ fn check_quotes(file: &TextFile) -> Result<(), HostError> {
                 .error_at(last, "a quote is not closed: expected another (a quote within a field is written twice)"))
         }
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_is_told_by_its_line() {
+        let table = Table::parse(&TextFile::new(Path::new("t.csv"), "\n\nslip\n0.2\n")).expect("a table");
+        let said = table.required_column("load_n").expect_err("none").to_string();
+        assert!(said.starts_with("t.csv:3:1: no column `load_n`"), "{said}");
+        assert!(table.error_in_header("wrong").to_string().starts_with("t.csv:3:1: "));
     }
 }

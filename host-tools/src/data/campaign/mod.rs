@@ -65,6 +65,7 @@ pub struct Campaign {
     /// The effects that the model is told of.
     pub declared: Declared,
     header: Vec<String>,
+    header_line: u64,
     rows: Vec<RowId>,
     columns: Vec<Measured>,
     repeats: usize,
@@ -139,6 +140,7 @@ impl Campaign {
             notes: Vec::from(about.notes).iter().map(|note: &String| paragraph(note)).collect(),
             gravity_m_s2: about.gravity_m_s2.into_inner(),
             header: table.header().to_vec(),
+            header_line: table.header_line(),
             rows,
             columns,
             repeats,
@@ -240,7 +242,7 @@ impl Campaign {
     /// An error about a column that the table lacks; columns that may be meant are named beside.
     pub fn error(&self, message: impl Into<String>) -> HostError {
         let said: Vec<_> = std::iter::once(message.into()).chain(further_columns::misspelt(&self.header)).collect();
-        HostError::Input { path: self.path.clone(), line: 1, column: 1, message: said.join(". ") }
+        HostError::Input { path: self.path.clone(), line: self.header_line, column: 1, message: said.join(". ") }
     }
 }
 
