@@ -189,9 +189,9 @@ fn tables_that_are_wrong_are_refused_by_line_and_column() {
         ),
         (b"slip,load_n\r\n0.2,65\r\n\r\n0.2,65,1\r\n", "in.csv:4:3: 3 fields in this row"),
         (b"slip,load_n\n0.2\n", "in.csv:2:2: 1 fields in this row"),
-        (b"slip,load_n\n0.2,6\xff5\n", "in.csv:2:6: this byte is not UTF-8"),
-        (b"slip,load_n\n0.2,\"65\n", "in.csv:2:5: a quote is not closed"),
-        (b"slip,load_n\n0.2,65\r0.3,65\n", "in.csv:2:7: a line ends in a carriage return alone"),
+        (b"slip,load_n\n0.2,6\xff5\n", "in.csv:2:2: this byte is not UTF-8"),
+        (b"slip,load_n\n0.2,\"65\n", "in.csv:2:2: a quote is not closed"),
+        (b"slip,load_n\n0.2,65\r0.3,65\n", "in.csv:2:2: a line ends in a carriage return alone"),
     ];
     for (rows, expected) in cases {
         let said = Run::new(WHEEL, SOIL, rows).refusal();

@@ -3,6 +3,7 @@
 pub mod assumed_keys;
 pub mod atomic_write;
 pub mod campaign;
+mod csv_fault;
 pub mod frame_file;
 mod header;
 pub mod misspelling;

@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use csv::{ReaderBuilder, StringRecord};
 
+use super::csv_fault::Fault;
 use super::header::Header;
 use crate::error::HostError;
 
@@ -95,17 +96,10 @@ impl NumberStream {
         if self.text.len() as u64 == LONGEST_ROW {
             return Err(self.error(self.line, 1, "this row does not end: expected a table of numbers"));
         }
-        let text = std::str::from_utf8(&self.text).map_err(|error| {
-            let column = String::from_utf8_lossy(&self.text[..error.valid_up_to()]).chars().count() as u64 + 1;
-            self.error(self.line, column, "this byte is not UTF-8; expected text in UTF-8")
-        })?;
-        if let Some(place) = text.trim_end_matches(['\r', '\n']).find('\r') {
-            let column = text[..place].matches(',').count() as u64 + 1;
-            return Err(self.error(self.line, column, "a line ends in a carriage return alone: expected a line feed"));
-        }
-        if text.matches('"').count() % 2 == 1 {
-            let column = text.rfind('"').map_or(1, |place| text[..place].chars().count() as u64 + 1);
-            return Err(self.error(self.line, column, "a quote is not closed: expected another in the same line"));
+        let told = |fault: Fault| fault.told(self.line, |line, field, said| self.error(line, field, said));
+        let text = str::from_utf8(&self.text).map_err(|error| told(Fault::of_encoding(&self.text, &error)))?;
+        if let Some(fault) = Fault::of(text) {
+            return Err(told(fault));
         }
         let mut fields = StringRecord::new();
         let mut reader = ReaderBuilder::new().has_headers(false).buffer_capacity(1 << 9).from_reader(text.as_bytes());

@@ -1,11 +1,13 @@
 //! Tables in CSV: a header of column names with their units, then numbers, a field left empty where nothing was measured.
 
+use std::fs;
 use std::io::Write;
 use std::path::Path;
 
 use csv::{Reader, ReaderBuilder, StringRecord, Terminator, WriterBuilder};
 
 use super::atomic_write::write_atomically;
+use super::csv_fault::Fault;
 use super::header::Header;
 use super::text::TextFile;
 use crate::error::HostError;
@@ -36,7 +38,12 @@ impl Table {
     /// Where the file cannot be read or is not UTF-8, leaves a quote open, has a line that ends in a carriage return alone, has no header,
     /// names a column twice, or has a row that is longer or shorter than the header.
     pub fn read(path: &Path) -> Result<Self, HostError> {
-        Self::parse(&TextFile::read(path)?)
+        let bytes = fs::read(path).map_err(HostError::file(path))?;
+        let header = Header::unread(path);
+        let text = str::from_utf8(&bytes).map_err(|error| {
+            Fault::of_encoding(&bytes, &error).told(1, |line, field, said| header.error(line, field, said))
+        })?;
+        Self::parse(&TextFile::new(path, text))
     }
 
     /// Reads a table from text.
@@ -44,10 +51,12 @@ impl Table {
     /// # Errors
     /// As [`Self::read`].
     pub fn parse(file: &TextFile) -> Result<Self, HostError> {
-        check_quotes(file)?;
-        check_line_ends(file)?;
+        let header = Header::unread(file.path());
+        if let Some(fault) = Fault::of(file.text()) {
+            return Err(fault.told(1, |line, field, said| header.error(line, field, said)));
+        }
         let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).from_reader(file.text().as_bytes());
-        let mut table = Self { header: Header::unread(file.path()), rows: Vec::new() };
+        let mut table = Self { header, rows: Vec::new() };
         let mut record = StringRecord::new();
         let mut lines = Lines { text: file.text(), offset: 0, line: 1 };
         while table.read_record(&mut reader, &mut record)? {
@@ -197,26 +206,6 @@ impl Lines<'_> {
         self.line += passed.matches('\n').count() as u64;
         self.offset = start;
         self.line
-    }
-}
-
-/// Refuses such a line: it would run into the next one, and lines would be counted wrongly.
-fn check_line_ends(file: &TextFile) -> Result<(), HostError> {
-    let alone = file.text().match_indices('\r').find(|(place, _)| !file.text()[place + 1..].starts_with('\n'));
-    match alone {
-        Some((place, _)) => Err(file.error_at(place, "a line ends in a carriage return alone: expected a line feed")),
-        None => Ok(()),
-    }
-}
-
-/// Refuses a quote that is never closed: the rest of the file would vanish into one field.
-fn check_quotes(file: &TextFile) -> Result<(), HostError> {
-    match file.text().rfind('"') {
-        Some(last) if file.text().matches('"').count() % 2 == 1 => {
-            Err(file
-                .error_at(last, "a quote is not closed: expected another (a quote within a field is written twice)"))
-        }
-        _ => Ok(()),
     }
 }
 

@@ -149,8 +149,8 @@ fn frames_that_are_wrong_are_refused_by_line_and_column() {
         (b"t_s,gyro_x_rad_s\nnan,1\n", "f.csv:2:1: t_s: NaN: expected a time of 0 s or more"),
         (b"t_s,gyro_x_rad_s\n1e300,1\n", "f.csv:2:1: t_s: 1000"),
         (b"t_s,gyro_x_rad_s\r\n0.2,1\r\n0.1,1\r\n", "f.csv:3:1: t_s: 0.1: time runs backwards"),
-        (b"t_s,gyro_x_rad_s\n0,\xff\n", "f.csv:2:3: this byte is not UTF-8"),
-        (b"t_s,gyro_x_rad_s\n0,\"1\n", "f.csv:2:3: a quote is not closed"),
+        (b"t_s,gyro_x_rad_s\n0,\xff\n", "f.csv:2:2: this byte is not UTF-8"),
+        (b"t_s,gyro_x_rad_s\n0,\"1\n", "f.csv:2:2: a quote is not closed"),
         (b"t_s,gyro_x_rad_s\n0,1\r0.1,1\n", "f.csv:2:2: a line ends in a carriage return alone"),
     ];
     for (text, expected) in cases {
