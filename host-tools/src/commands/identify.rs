@@ -8,7 +8,8 @@ use crate::data::atomic_write::write_json;
 use crate::data::outputs;
 use crate::error::HostError;
 use crate::flight_computer::FlightComputer;
-use crate::identify::{Document, Method, identify_by, identify_rehearsed};
+use crate::identify::{Document, Method, identify_beside, identify_rehearsed};
+use crate::progress::{spinner, with_progress};
 use crate::report::identified;
 
 use super::diagnose::campaign;
@@ -36,9 +37,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
     let document = match arguments.method {
         Method::Network => {
             let mut computer = FlightComputer::in_process()?;
+            let _spinner = spinner("networks");
             Document::of(&campaign, &identify_rehearsed(&campaign, false, &mut |query| computer.query(query))?)
         }
-        method => identify_by(method, &campaign)?,
+        method => with_progress("runs", |bar| identify_beside(method, &campaign, bar))?,
     };
     write_json(&arguments.json, &document)?;
     outputs::tell(&identified(&document), &outputs);

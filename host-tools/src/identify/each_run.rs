@@ -1,5 +1,6 @@
 //! Each run of a campaign by one of the methods.
 
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 
 use crate::data::campaign::Campaign;
@@ -15,11 +16,25 @@ use super::{Document, SensorNoise};
 /// # Errors
 /// Where the campaign lacks a column that the method needs.
 pub fn identify_by(method: Method, campaign: &Campaign) -> Result<Document, HostError> {
+    identify_beside(method, campaign, &ProgressBar::hidden())
+}
+
+/// The same beside a bar over the runs.
+///
+/// # Errors
+/// As [`identify_by`].
+pub fn identify_beside(method: Method, campaign: &Campaign, bar: &ProgressBar) -> Result<Document, HostError> {
     check_columns(campaign, method.name(), method.needs())?;
     let noise = SensorNoise::of(campaign);
     let runs = run_states(campaign, &noise, method);
     let seen = method.sees(campaign);
-    let found: Vec<_> = runs.into_par_iter().map(|states| of_run(method, &seen, &noise, states)).collect();
+    bar.set_length(runs.len() as u64);
+    let of_run = |states| {
+        let found = of_run(method, &seen, &noise, states);
+        bar.inc(1);
+        found
+    };
+    let found: Vec<_> = runs.into_par_iter().map(of_run).collect();
     Ok(Document::by(method, campaign, &noise, &found))
 }
 
@@ -34,10 +49,7 @@ fn of_run(
     } else {
         let evidence = evidence(method, campaign, noise, &states.states);
         answer(method, &evidence).map(|mut finding| {
-            // The soils that are drawn know no effects.
-            if campaign.declared.ids().is_empty() {
-                rehearse(method, &evidence, &states.states, noise, &mut finding);
-            }
+            rehearse(method, &evidence, &states.states, noise, &mut finding);
             finding
         })
     };

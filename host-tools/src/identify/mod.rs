@@ -31,7 +31,7 @@ use kapvik_firmware::wheel_state::SoilQuery;
 use crate::error::HostError;
 
 pub use document::{Document, NoiseDocument, ParameterDocument, RunDocument, SoilDocument, WheelDocument};
-pub use each_run::identify_by;
+pub use each_run::{identify_beside, identify_by};
 pub use method::{Method, network_refusal};
 pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify, identify_rehearsed};
 pub use rehearsal::Missing;
