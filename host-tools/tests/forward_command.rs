@@ -227,7 +227,7 @@ fn descriptions_that_are_wrong_are_refused_by_line_and_column() {
         (SOIL.replace("n = 1.1", "n = nan"), "s.toml:1:5: n = NaN: expected a finite number"),
         (SOIL.replace("n = 1.1", "n = { value = 1.1, sdt = 1 }"), "s.toml:1:5: expected a number"),
         (SOIL.replace("K = ", "k = "), "s.toml:6:1: unknown field `k`"),
-        (format!("{SOIL}k_eff = 1e6\n"), "s.toml:9:9: k_eff stands beside"),
+        (format!("{SOIL}k_eff = 1e6\n"), "s.toml:9:9: k_eff beside"),
         (format!("{SOIL}n = 1\n"), "s.toml:9:1: duplicate key"),
         (format!("[soil]\n{SOIL}kphi = 1\n"), "s.toml:10:1: unknown field `kphi`"),
     ];

@@ -159,11 +159,7 @@ impl RoverTable {
                 return Err(file.error_at(number, message));
             }
         }
-        let height = &self.wheel.grouser_height_m;
-        if let Some(height) = height.as_ref().filter(|height| *height.get_ref() < 0.0 || height.get_ref().is_nan()) {
-            let message = format!("grouser_height_m = {}: expected 0 m or more", height.get_ref());
-            return Err(file.error_at(height, message));
-        }
+        super::wheel_file::check_grouser_height(self.wheel.grouser_height_m.as_ref(), file)?;
         let points = [
             ("front_hub", front_hub),
             ("bogie_pivot", bogie_pivot),

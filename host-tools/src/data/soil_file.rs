@@ -100,17 +100,26 @@ impl SoilTable {
         Ok(soil)
     }
 
+    /// Refuses a stiffness that stands twice.
+    ///
+    /// # Errors
+    /// At `k_eff`, in `file`.
+    pub fn check_stiffness(&self, file: &TomlFile) -> Result<(), HostError> {
+        match &self.k_eff {
+            Some(k_eff) if self.k_c.is_some() || self.k_phi.is_some() => {
+                Err(file.error_at(k_eff, "k_eff beside k_c or k_phi: expected k_eff alone, or k_c and k_phi"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// k_c and k_phi, however the file gives them.
     fn moduli(&self, file: &TomlFile) -> Result<(f64, f64), HostError> {
+        self.check_stiffness(file)?;
         let k_c = optional(file, "k_c", &self.k_c)?;
         let k_phi = optional(file, "k_phi", &self.k_phi)?;
         match (optional(file, "k_eff", &self.k_eff)?, k_phi) {
-            (Some(k_eff), None) if k_c.is_none() => Ok((0.0, k_eff)),
-            (Some(_), _) => {
-                let place = self.k_eff.as_ref().map_or(0, |k_eff| k_eff.span().start);
-                Err(file
-                    .error_at_offset(place, "k_eff stands beside k_c or k_phi: expected k_eff alone, or k_c and k_phi"))
-            }
+            (Some(k_eff), _) => Ok((0.0, k_eff)),
             (None, Some(k_phi)) => Ok((k_c.unwrap_or(0.0), k_phi)),
             (None, None) => Err(file.error_at_start("k_phi is missing: expected k_phi (with k_c) in Pa/m^n, or k_eff")),
         }

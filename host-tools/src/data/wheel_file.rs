@@ -64,13 +64,7 @@ impl WheelTable {
                 return Err(file.error_at(length, format!("{name} = {}: {expected}", length.get_ref())));
             }
         }
-        match &self.grouser_height_m {
-            Some(height) if !(*height.get_ref() >= 0.0 && height.get_ref().is_finite()) => {
-                let message = format!("grouser_height_m = {}: expected 0 m or more", height.get_ref());
-                Err(file.error_at(height, message))
-            }
-            _ => Ok(()),
-        }
+        check_grouser_height(self.grouser_height_m.as_ref(), file)
     }
 
     /// The wheel of equations 1–11.
@@ -84,5 +78,19 @@ impl WheelTable {
             height_m: self.grouser_height_m.as_ref().map_or(0.0, |height| *height.get_ref()),
             count: self.grouser_count.unwrap_or(0),
         }
+    }
+}
+
+/// Refuses a height of grousers, where a file states one, that is none.
+///
+/// # Errors
+/// At the height, in `file`.
+pub(super) fn check_grouser_height(height_m: Option<&Spanned<f64>>, file: &TomlFile) -> Result<(), HostError> {
+    match height_m {
+        Some(height) if !(*height.get_ref() >= 0.0 && height.get_ref().is_finite()) => {
+            let message = format!("grouser_height_m = {}: expected 0 m or more", height.get_ref());
+            Err(file.error_at(height, message))
+        }
+        _ => Ok(()),
     }
 }

@@ -119,9 +119,7 @@ impl Ground {
         let read = |name, place: &Option<Spanned<Parameter>>| {
             place.as_ref().map(|parameter| knowledge(file, name, parameter, SoilRange::of(name))).transpose()
         };
-        if let (Some(k_eff), true) = (&table.k_eff, table.k_c.is_some() || table.k_phi.is_some()) {
-            return Err(file.error_at(k_eff, "k_eff beside k_c or k_phi: expected k_eff alone, or k_c and k_phi"));
-        }
+        table.check_stiffness(file)?;
         Ok(Self {
             sinkage_exponent: read("n", &table.n)?,
             cohesive_modulus: read("k_c", &table.k_c)?,
