@@ -2,7 +2,6 @@
 //! Kapvik wheel on the seed's sand under 65.4 N, at slips of 0.1, 0.3 and 0.6 (the catalogue of effects in the
 //! project's notes on methods, section 13, computed with other code).
 
-use kapvik_firmware::scalar::Scalar;
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, Conditions, Effects, Grousers};
 use kapvik_firmware::terramechanics::{
     Memory, Quadrature, Readings, Soil, Wheel, WheelOnSoil, WheelTruth, sinkage_for_load, wheel_forces,
@@ -10,10 +9,10 @@ use kapvik_firmware::terramechanics::{
 
 use super::{kapvik_wheel, table_1_sand};
 
-const WHEEL: Wheel<f64> = kapvik_wheel();
-const SAND: Soil<f64> = table_1_sand();
+pub(super) const WHEEL: Wheel<f64> = kapvik_wheel();
+pub(super) const SAND: Soil<f64> = table_1_sand();
 const GROUSERS: Grousers<f64> = Grousers { height_m: 0.005, count: 24.0 };
-const LOAD_N: f64 = 65.4;
+pub(super) const LOAD_N: f64 = 65.4;
 const SLIPS: [f64; 3] = [0.1, 0.3, 0.6];
 const EVERYTHING_KNOWN: Conditions<f64> = Conditions {
     pass: Some(2.0),
@@ -28,7 +27,7 @@ const EVERYTHING_KNOWN: Conditions<f64> = Conditions {
     felt_slip: Some(0.25),
 };
 
-fn on_sand(effects: &Effects<f64>) -> WheelOnSoil<'_, f64> {
+pub(super) fn on_sand(effects: &Effects<f64>) -> WheelOnSoil<'_, f64> {
     WheelOnSoil {
         wheel: &WHEEL,
         grousers: &GROUSERS,
@@ -39,11 +38,11 @@ fn on_sand(effects: &Effects<f64>) -> WheelOnSoil<'_, f64> {
     }
 }
 
-fn state(effects: &Effects<f64>, conditions: &Conditions<f64>, slip: f64) -> WheelTruth<f64> {
+pub(super) fn state(effects: &Effects<f64>, conditions: &Conditions<f64>, slip: f64) -> WheelTruth<f64> {
     on_sand(effects).at_load(conditions, slip, LOAD_N).expect("the sand carries it")
 }
 
-fn with(settings: &[(&str, &str, f64)]) -> Effects<f64> {
+pub(super) fn with(settings: &[(&str, &str, f64)]) -> Effects<f64> {
     let mut effects = Effects::none();
     for (id, parameter, value) in settings {
         assert!(effects.set(id, parameter, *value), "{id} {parameter}");
@@ -248,81 +247,6 @@ fn every_form_is_whole() {
             }
         }
     }
-}
-
-#[test]
-fn sinkage_follows_travel() {
-    let effects = with(&[("sinkage-lag", "length_m", 0.05), ("sinkage-lag", "start", 0.0)]);
-    let settled = state(&effects, &Conditions::default(), 0.3);
-    let mut memory = Memory::start();
-    for travel in [0.01, 0.02, 0.05, 0.1, 0.4] {
-        let conditions = Conditions { travel_m: Some(travel), ..Conditions::default() };
-        let read = on_sand(&effects).readings(&conditions, &settled, &mut memory);
-        let closed_form = settled.sinkage_m * (1.0 - (-travel / 0.05_f64).exp());
-        assert!((read.sinkage_m - closed_form).abs() < 1e-12);
-    }
-}
-
-/// A wheel whose radius is taken 5 % too great, at v/(rω) = 0.8 and at a standstill of slip.
-#[test]
-fn slip_with_a_wrong_radius() {
-    let effects = with(&[("rolling-radius", "excess", 0.05)]);
-    let read = |slip: f64| {
-        let truth = state(&Effects::none(), &Conditions::default(), slip);
-        on_sand(&effects).readings(&Conditions::default(), &truth, &mut Memory::start()).slip
-    };
-    assert!((read(0.2) - (1.0 - 0.8 / 1.05)).abs() < 1e-12);
-    assert!((read(0.0) - (1.0 - 1.0 / 1.05)).abs() < 1e-12);
-    // rω/v = 0.98 is read as 1.029: driving.
-    assert!((read(-0.02) - (1.0 - 1.0 / (0.98 * 1.05))).abs() < 1e-12);
-    assert!((read(-0.5) - (0.5 * 1.05 - 1.0)).abs() < 1e-12);
-}
-
-#[test]
-fn stronger_soil_keeps_its_angle_below_upright() {
-    let mut soil = SAND;
-    soil.scale_strength(2.0);
-    assert!((soil.friction_angle_rad.tan() - 2.0 * SAND.friction_angle_rad.tan()).abs() < 1e-12);
-    assert_eq!(soil.cohesion_pa, 500.0);
-    assert!(Scalar::is_finite(soil.friction_angle_rad));
-}
-
-/// ρ b z v² of the swept soil comes off the drawbar pull, and nothing else changes.
-#[test]
-fn excavated_soil_takes_its_momentum() {
-    let conditions = Conditions { speed_m_s: Some(0.5), ..Conditions::default() };
-    let (plain, slowed) =
-        (state(&Effects::none(), &conditions, 0.3), state(&with(&[("rate", "excavation", 1.0)]), &conditions, 0.3));
-    let momentum_n = 1600.0 * WHEEL.width_m * plain.sinkage_m * 0.5 * 0.5;
-    assert!((plain.drawbar_pull_n - slowed.drawbar_pull_n - momentum_n).abs() < 1e-12);
-    assert_eq!((plain.torque_nm, plain.sinkage_m), (slowed.torque_nm, slowed.sinkage_m));
-}
-
-/// A drift that settles is the closed form, and the line where it does not settle.
-#[test]
-fn drift_settles() {
-    let read = |settling_per_h: f64, hours: f64| {
-        let effects = with(&[("force-drift", "load_n_per_h", 2.0), ("force-drift", "settling_per_h", settling_per_h)]);
-        let conditions = Conditions { hours_since_zero: Some(hours), ..Conditions::default() };
-        let truth = state(&Effects::none(), &conditions, 0.3);
-        on_sand(&effects).readings(&conditions, &truth, &mut Memory::start()).load_n - truth.load_n
-    };
-    assert!((read(0.0, 3.0) - 6.0).abs() < 1e-12);
-    assert!((read(1.0, 3.0) - 2.0 * (1.0 - (-3.0_f64).exp())).abs() < 1e-12);
-    // The two ways of computing it meet where one takes over from the other.
-    assert!((read(0.999e-3, 1.0) - read(1.001e-3, 1.0)).abs() < 3e-6);
-}
-
-/// A second pass over soil that gains half its strength in the limit.
-#[test]
-fn strength_grows_with_passes() {
-    let conditions = Conditions { pass: Some(2.0), ..Conditions::default() };
-    let stronger = state(&with(&[("multi-pass", "strength", 0.5)]), &conditions, 0.3);
-    let mut soil = SAND;
-    soil.scale_strength(1.0 + 0.5 * (1.0 - (-1.0_f64).exp()));
-    let nothing = Effects::none();
-    let expected = WheelOnSoil { soil: &soil, ..on_sand(&nothing) }.at_load(&conditions, 0.3, LOAD_N).expect("carried");
-    assert!((stronger.drawbar_pull_n - expected.drawbar_pull_n).abs() < 1e-9);
 }
 
 /// An effect under which forces at a sinkage hang on the load says so: who simulates it at a given sinkage has to look for the load, then.

@@ -1,6 +1,7 @@
 //! The wheel–soil equations against closed forms, limits, published figures and integrations made elsewhere.
 
 mod effects;
+mod effects_closed_forms;
 #[path = "../support/kapvik.rs"]
 mod kapvik;
 mod limits;
