@@ -4,6 +4,8 @@ mod gate;
 mod limits;
 mod linear;
 mod missing;
+#[path = "../support/mostly.rs"]
+mod mostly;
 mod numbers;
 mod precision;
 mod statistics;

@@ -13,6 +13,8 @@ mod kapvik;
 mod made;
 mod map;
 mod map_design;
+#[path = "../support/mostly.rs"]
+mod mostly;
 mod non_uniqueness;
 mod properties;
 mod ray;

@@ -5,6 +5,8 @@ mod effects_closed_forms;
 #[path = "../support/kapvik.rs"]
 mod kapvik;
 mod limits;
+#[path = "../support/mostly.rs"]
+mod mostly;
 mod properties;
 mod published;
 mod reference;
