@@ -1,44 +1,17 @@
 //! The flight image's link under fire: what is bad is counted, answered with its reason, and changes nothing else.
 
+#[path = "../firmware/tests/link/damaged.rs"]
+mod damaged;
+
 use std::time::Duration;
 
-use kapvik_firmware::checksum::Checksum;
-use kapvik_firmware::link::{
-    FrameBuffer, Header, HealthReport, LinkError, NO_SEQUENCE, PAYLOAD_CAPACITY, Reply, Request,
-};
+use damaged::damaged;
+use kapvik_firmware::link::{FrameBuffer, Header, HealthReport, LinkError, NO_SEQUENCE, Reply, Request};
 use kapvik_host::flight_computer::FlightComputer;
 use kapvik_tests::{bits, flight_computer, noise_bytes, queries, random};
 
 /// Far longer than a reply takes.
 const PATIENCE: Duration = Duration::from_secs(20);
-
-fn health_frame() -> Vec<u8> {
-    FrameBuffer::new().encode(Header::new(1), &Request::Health).expect("a request fits").to_vec()
-}
-
-/// A frame with a right checksum around a content that has no zero and fits one run of the byte stuffing.
-fn frame_around(content: &[u8]) -> Vec<u8> {
-    let mut payload = content.to_vec();
-    payload.extend(Checksum::of(content).to_le_bytes());
-    assert!(payload.len() < 254 && !payload.contains(&0));
-    [&[payload.len() as u8 + 1], payload.as_slice(), &[0]].concat()
-}
-
-/// One frame of each kind of damage.
-fn damaged() -> Vec<(LinkError, Vec<u8>)> {
-    let mut checksum = health_frame();
-    checksum[5] ^= 0x40;
-    let whole = health_frame();
-    let cut = [&whole[..whole.len() - 3], &[0]].concat();
-    vec![
-        (LinkError::Checksum, checksum),
-        (LinkError::Cut, cut),
-        (LinkError::Oversized, [vec![0x55; PAYLOAD_CAPACITY * 4], vec![0]].concat()),
-        (LinkError::Short, vec![3, 1, 1, 0]),
-        (LinkError::Version, frame_around(&[77, 1, 1])),
-        (LinkError::Undecodable, frame_around(&[2, 9, 99])),
-    ]
-}
 
 fn refused(health: &HealthReport, reason: LinkError) -> u32 {
     match reason {

@@ -1,13 +1,14 @@
 //! The link, from bytes to messages and back.
 
+mod damaged;
 mod longest;
 mod port;
 mod sensor_frames;
 
-use kapvik_firmware::checksum::Checksum;
+use damaged::{damaged, frame_around};
 use kapvik_firmware::link::{
-    FrameBuffer, FrameReceiver, Header, Incoming, Link, LinkError, LinkHealth, NO_SEQUENCE, PAYLOAD_CAPACITY, Reply,
-    Request, next_sequence,
+    FrameBuffer, FrameReceiver, Header, Incoming, Link, LinkError, LinkHealth, NO_SEQUENCE, Reply, Request,
+    next_sequence,
 };
 use kapvik_firmware::rover::{Axes, PerAxle, PerSide, Rover};
 use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
@@ -40,17 +41,6 @@ fn encode(sequence: u16, request: &Request) -> Vec<u8> {
     FrameBuffer::new().encode(Header::new(sequence), request).expect("a request fits").to_vec()
 }
 
-/// A frame with a right checksum around any content.
-fn frame_around(content: &[u8]) -> Vec<u8> {
-    let mut payload = content.to_vec();
-    payload.extend(Checksum::of(content).to_le_bytes());
-    let mut wire = vec![0; payload.len() + payload.len() / 254 + 1];
-    let length = cobs::encode(&payload, &mut wire);
-    wire.truncate(length);
-    wire.push(0);
-    wire
-}
-
 #[test]
 fn the_wire_format_is_as_documented() {
     assert_eq!(encode(1, &Request::Hello), HELLO);
@@ -59,22 +49,14 @@ fn the_wire_format_is_as_documented() {
 
 #[test]
 fn each_damage_has_its_reason() {
-    let whole = encode(7, &Request::Health);
-    let mut wrong_checksum = whole.clone();
-    wrong_checksum[5] ^= 0x40;
-    let cut: Vec<u8> = whole[..whole.len() - 3].iter().copied().chain([0]).collect();
-    let oversized: Vec<u8> = std::iter::repeat_n(0x55, PAYLOAD_CAPACITY * 3).chain([0]).collect();
-    for (bytes, reason) in [
-        (wrong_checksum, LinkError::Checksum),
-        (cut, LinkError::Cut),
-        (oversized, LinkError::Oversized),
-        (vec![3, 1, 1, 0], LinkError::Short),
-        (vec![1, 0], LinkError::Short),
-        (frame_around(&[1, 1, 0]), LinkError::Version),
-        (frame_around(&[2, 1, 200]), LinkError::Undecodable),
+    let more = [
+        (LinkError::Short, vec![1, 0]),
+        (LinkError::Version, frame_around(&[1, 1, 0])),
+        (LinkError::Undecodable, frame_around(&[2, 1, 200])),
         // One byte too many after a whole message.
-        (frame_around(&[2, 1, 0, 9]), LinkError::Undecodable),
-    ] {
+        (LinkError::Undecodable, frame_around(&[2, 1, 0, 9])),
+    ];
+    for (reason, bytes) in damaged().into_iter().chain(more) {
         let followed: Vec<u8> = bytes.iter().chain(&HELLO).copied().collect();
         assert_eq!(reasons(&followed), [Some(reason), None]);
         assert_eq!(receive(&followed).1.refused(), 1);
