@@ -1,19 +1,22 @@
 //! What a recording itself shows of signs, zeros and mountings, on drives of the simulator: silent where all is as agreed, and not where a
 //! sensor is otherwise.
 
+mod recorded;
+
 use clap::ValueEnum;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::replay::Doubts;
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
 use rayon::prelude::*;
+use recorded::recorded;
 
 /// What is doubted of a drive whose frames are changed so.
 fn doubted(scenario: Scenario, seed: u64, change: impl Fn(&mut SensorFrame)) -> Vec<String> {
     let rover = Rover::assumed();
     let mut doubts = Doubts::of(&rover.map(|value| value as f32));
-    for step in Traverse::new(scenario, seed, &rover, &Options::default()).expect("a drive") {
-        let (mut frame, _) = step.expect("a frame");
+    for (frame, _) in recorded(scenario, seed, &rover, &Options::default()).iter() {
+        let mut frame = *frame;
         change(&mut frame);
         doubts.take(&frame);
     }

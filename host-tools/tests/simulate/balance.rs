@@ -72,7 +72,7 @@ fn on_plane_ground_pulls_and_loads_are_those_of_the_weight() {
     let weight_n = rover.mass_kg * rover.gravity_m_s2;
     for (scenario, slope_deg) in [(Scenario::Level, 0.0_f64), (Scenario::Spread, 0.0), (Scenario::Slope, 10.0)] {
         let (sine, cosine) = slope_deg.to_radians().sin_cos();
-        for (frame, truth) in drive(scenario, 3, &Options::default()) {
+        for (frame, truth) in drive(scenario, 3, &Options::default()).iter() {
             if frame.time_us < 10_000_000 {
                 continue;
             }

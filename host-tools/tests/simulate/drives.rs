@@ -9,7 +9,7 @@ use kapvik_host::simulate::{Options, Scenario, SimulationError, Traverse};
 use super::drive;
 
 fn truths(scenario: Scenario, seed: u64) -> Vec<Truth> {
-    drive(scenario, seed, &Options::default()).into_iter().map(|(_, truth)| truth).collect()
+    drive(scenario, seed, &Options::default()).iter().map(|(_, truth)| *truth).collect()
 }
 
 /// Least and greatest of a quantity of the wheels.
@@ -123,7 +123,7 @@ fn soil_changes_where_it_was_said_to() {
         let changes = Some(vec![Change { from_m: 0.5, becomes }]);
         let rows = drive(Scenario::SoilChange, 9, &Options { changes, ..Options::default() });
         let first = rows[0].1.soil;
-        for (_, truth) in &rows {
+        for (_, truth) in rows.iter() {
             for (wheel, place) in truth.wheels.left.as_array().into_iter().zip([0.35, 0.0, -0.35]) {
                 // The rover pitches by less than 3°, and its hubs lie 0.2 m below the axis: they are within 15 mm.
                 let x_m = truth.x_m + place;

@@ -9,7 +9,7 @@ use super::drive;
 
 fn frames(faults: Vec<Fault>) -> Vec<SensorFrame> {
     let options = Options { duration_s: Some(8.0), faults, ..Options::default() };
-    drive(Scenario::Level, 3, &options).into_iter().map(|(frame, _)| frame).collect()
+    drive(Scenario::Level, 3, &options).iter().map(|(frame, _)| *frame).collect()
 }
 
 #[test]

@@ -8,14 +8,15 @@ mod faults;
 mod files;
 #[path = "../kapvik/mod.rs"]
 mod kapvik;
+#[path = "../recorded/mod.rs"]
+mod recorded;
 #[path = "../refused/mod.rs"]
 mod refused;
 mod sensors;
 
 use kapvik_firmware::rover::{Rover, SensorNoise};
-use kapvik_firmware::sensor_frame::SensorFrame;
-use kapvik_host::data::truth_file::Truth;
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
+use recorded::{Recording, recorded};
 
 /// Kapvik with sensors that err by a ten-millionth of what they do.
 fn quiet_rover() -> Rover<f64> {
@@ -24,9 +25,8 @@ fn quiet_rover() -> Rover<f64> {
 }
 
 /// A drive of the quiet rover.
-fn drive(scenario: Scenario, seed: u64, options: &Options) -> Vec<(SensorFrame, Truth)> {
-    let traverse = Traverse::new(scenario, seed, &quiet_rover(), options).expect("a drive");
-    traverse.run().expect("frames")
+fn drive(scenario: Scenario, seed: u64, options: &Options) -> Recording {
+    recorded(scenario, seed, &quiet_rover(), options)
 }
 
 /// A value that a sensor gave.

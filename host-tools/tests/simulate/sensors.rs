@@ -111,7 +111,7 @@ fn noise_is_white_and_as_large_as_the_rover_file_says() {
         };
         let residuals: Vec<f64> = noisy
             .iter()
-            .zip(&quiet)
+            .zip(quiet.iter())
             .map(|(noisy, quiet)| (given(values(&noisy.0)[channel]) - given(values(&quiet.0)[channel])) / std)
             .collect();
         let count = residuals.len() as f64;
@@ -131,7 +131,7 @@ fn with_effect(id: &str, value: f64) -> Vec<[(kapvik_firmware::sensor_frame::Sen
     let with = drive(Scenario::Slope, 6, &options);
     let without = drive(Scenario::Slope, 6, &Options { effects: RoverEffects::default(), ..options });
     with.iter()
-        .zip(&without)
+        .zip(without.iter())
         .map(|(with, without)| {
             [with, without].map(|(frame, truth)| (*frame, truth.wheels.left.front.slip.unwrap_or(0.0)))
         })
