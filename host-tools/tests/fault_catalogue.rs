@@ -1,13 +1,19 @@
 //! Every fault of every sensor, in the middle of simulated drives: the estimators survive it, say so, and are back in time.
 
+mod driven;
+mod failing;
+mod recorded;
+
+use driven::driven;
+use failing::failing;
 use kapvik_firmware::estimator::Estimate;
-use kapvik_firmware::pipeline::Pipeline;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::bench::faults::REPORTED;
 use kapvik_host::replay::troubles;
 use kapvik_host::simulate::faults::{Failure, Fault};
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::faults::{ALLOWED_FRAMES, Case, catalogue};
+use recorded::recorded;
 
 /// Spread slips and hills, four drives each. A drive in which the estimates are out of bounds without a fault is asked for no
 /// better than that: see [`kapvik_host::trial::faults::Outcome::frames_to_recover`].
@@ -40,13 +46,13 @@ const LESS: f64 = 0.02;
 /// which they are least often.
 fn counted_and_true(failure: Failure, column: &str, reason: &str, seed: u64) -> (u16, f64) {
     let fault = Fault::new(failure, column, DEAD_S).expect("a fault");
-    let options = Options { duration_s: Some(60.0), faults: vec![fault], ..Options::default() };
-    let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
+    let options = Options { duration_s: Some(60.0), ..Options::default() };
+    let rover = Rover::assumed();
+    let drive = recorded(Scenario::Hills, seed, &rover, &options);
+    let (said, pipeline) = driven(&rover, failing(&drive, vec![fault]));
     let (mut frames, mut true_frames) = (0_u32, [0_u32; 6]);
-    for step in Traverse::new(Scenario::Hills, seed, &Rover::assumed(), &options).expect("a drive") {
-        let (frame, truth) = step.expect("the rover drives on");
-        let estimate = *pipeline.tick(&frame);
-        if !(DEAD_S.0..=WATCHED_UNTIL_S).contains(&(1e-6 * frame.time_us as f64)) {
+    for (estimate, truth) in said {
+        if !(DEAD_S.0..=WATCHED_UNTIL_S).contains(&(1e-6 * truth.time_us as f64)) {
             continue;
         }
         frames += 1;

@@ -1,11 +1,18 @@
 //! The soil that is stated where a sensor is lost that pulls hang on: what errs is not told, or told as uncertain as it is.
 
-use kapvik_firmware::pipeline::Pipeline;
+mod driven;
+mod failing;
+mod recorded;
+
+use driven::driven;
+use failing::failing;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 use kapvik_host::data::truth_file::TrueSoil;
 use kapvik_host::simulate::faults::{Failure, Fault};
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
+use rayon::prelude::*;
+use recorded::recorded;
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8440..8450;
@@ -17,15 +24,11 @@ const LEARNED_S: f64 = 20.0;
 /// What is stated of the soil at the end of a drive on which a sensor is silent from some second on, and the true one.
 fn at_end(scenario: Scenario, seed: u64, column: &str, from_s: f64) -> (SoilEstimate, TrueSoil) {
     let fault = Fault::new(Failure::Dropout, column, (from_s, LONGEST_S)).expect("a fault");
-    let options = Options { faults: vec![fault], duration_s: Some(45.0), ..Options::default() };
-    let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-    let mut truly = None;
-    for step in Traverse::new(scenario, seed, &Rover::assumed(), &options).expect("there is such a drive") {
-        let Ok((frame, truth)) = step else { break };
-        let _ = pipeline.tick(&frame);
-        truly = Some(truth.soil);
-    }
-    (pipeline.last().soil.expect("it rolls").estimate, truly.expect("frames"))
+    let options = Options { duration_s: Some(45.0), ..Options::default() };
+    let rover = Rover::assumed();
+    let (said, _) = driven(&rover, failing(&recorded(scenario, seed, &rover, &options), vec![fault]));
+    let (estimate, truth) = said.last().expect("frames");
+    (estimate.soil.as_ref().expect("it rolls").estimate, truth.soil)
 }
 
 /// What tells the angles of all contacts of a side at once.
@@ -79,9 +82,12 @@ const LEAST: f64 = 0.85;
 fn without_a_load_cell_or_a_bogies_angle_what_is_told_of_the_soil_is_true() {
     let cells = &["load_cell_fl_n", "load_cell_mr_n", "load_cell_rl_n"][..];
     for (kind, columns) in [("a load cell", cells), ("a bogie's angle", &["bogie_angle_l_rad", "bogie_angle_r_rad"])] {
-        let drives = [Scenario::Hills, Scenario::Rock].into_iter().flat_map(|s| SEEDS.map(move |seed| (s, seed)));
-        let each = drives.flat_map(|(s, seed)| columns.iter().map(move |column| told_and_within(s, seed, column)));
-        let [told, within] = each.fold([0, 0], |[all, so], [told, within]| [all + told, so + within]);
+        let drives =
+            [Scenario::Hills, Scenario::Rock].into_par_iter().flat_map_iter(|s| SEEDS.map(move |seed| (s, seed)));
+        let each: Vec<_> = drives
+            .flat_map_iter(|(s, seed)| columns.iter().map(move |column| told_and_within(s, seed, column)))
+            .collect();
+        let [told, within] = each.into_iter().fold([0, 0], |[all, so], [told, within]| [all + told, so + within]);
         println!("without {kind} {within} of {told} that are told are within two standard deviations");
         assert!(told >= 50, "without {kind}: {told} are told");
         assert!(f64::from(within) >= LEAST * f64::from(told), "without {kind}: {within} of {told}");

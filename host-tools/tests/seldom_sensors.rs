@@ -1,13 +1,23 @@
 //! Sensors that speak in some frames only, encoders of drives that hold their rate, records that begin on the way: what is stated of the
 //! wheels must stay near the truth.
 
-use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
+mod drive_errors;
+mod driven;
+mod failing;
+mod recorded;
+
+use drive_errors::drive_errors;
+use driven::driven;
+use failing::failing;
+use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::data::truth_file::Truth;
 use kapvik_host::simulate::faults::{Failure, Fault};
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
+use kapvik_host::trial::Quantity;
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Quantity, errors_over};
+use rayon::prelude::*;
+use recorded::recorded;
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8300..8304;
@@ -15,8 +25,12 @@ const SEEDS: std::ops::Range<u64> = 8300..8304;
 const LONGEST_S: f64 = 120.0;
 
 fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
-    let options = Options { faults: faults.to_vec(), ..Options::default() };
-    errors_over(scenario, SEEDS, &Rover::assumed(), &options).expect("drives")
+    let of_drive = |seed| {
+        let rover = Rover::assumed();
+        let drive = recorded(scenario, seed, &rover, &Options::default());
+        drive_errors(&rover, &failing(&drive, faults.to_vec()).collect::<Vec<_>>())
+    };
+    SEEDS.into_par_iter().map(of_drive).collect::<Vec<Errors>>().into_iter().sum()
 }
 
 /// Errors may grow to four times those with all readings, give or take one, and so many must be within two standard deviations.
@@ -107,21 +121,12 @@ fn a_record_of_fast_frames_that_begins_on_hills_is_stated_honestly() {
     let options = Options { rate_hz: Some(50.0), duration_s: Some(40.0), ..Options::default() };
     for seed in SEEDS {
         let rover = Rover::<f64>::assumed();
-        let frames: Vec<_> = Traverse::new(Scenario::Hills, seed, &rover, &options)
-            .expect("there is such a drive")
-            .map(|step| step.expect("the rover drives on"))
-            .collect();
+        let frames = recorded(Scenario::Hills, seed, &rover, &options);
         for begins_s in [8.0, 16.0] {
-            let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-            let after = |time_s: f64| move |time_us: u64| time_us as f64 * 1e-6 >= time_s;
-            let (recorded, counts) = (after(begins_s), after(begins_s + 3.0));
-            let pairs: Vec<_> = frames
-                .iter()
-                .filter(|(frame, _)| recorded(frame.time_us))
-                .map(|(frame, truth)| (*pipeline.tick(frame), *truth))
-                .filter(|(estimate, _)| counts(estimate.time_us))
-                .collect();
-            let (within, most) = honesty(&pairs);
+            let from = |time_s: f64| frames.partition_point(|(frame, _)| (frame.time_us as f64) < 1e6 * time_s);
+            let (begins, counts) = (from(begins_s), from(begins_s + 3.0));
+            let (pairs, _) = driven(&rover, frames.iter().skip(begins).copied());
+            let (within, most) = honesty(&pairs[counts - begins..]);
             println!("seed {seed} from {begins_s} s on: {within:.3} within two standard deviations, at most {most:.1}");
             assert!(within >= 0.8 && most < 10.0, "seed {seed} from {begins_s} s on: {within}, {most}");
         }
@@ -134,18 +139,14 @@ fn a_record_of_fast_frames_that_begins_on_hills_is_stated_honestly() {
 fn an_encoder_that_always_says_the_same_is_not_lost() {
     const STEP_RAD_S: f32 = 0.01;
     for scenario in [Scenario::Level, Scenario::Hills] {
-        let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-        let traverse = Traverse::new(scenario, SEEDS.start, &Rover::assumed(), &Options::default());
+        let rover = Rover::assumed();
+        let mut frames = recorded(scenario, SEEDS.start, &rover, &Options::default()).to_vec();
+        for wheel in frames.iter_mut().flat_map(|(frame, _)| frame.wheels.iter_wheels_mut()) {
+            wheel.rate_rad_s = wheel.rate_rad_s.map(|rate| (rate / STEP_RAD_S).round() * STEP_RAD_S);
+        }
+        let (said, pipeline) = driven(&rover, frames);
         let (mut squares, mut within, mut count) = (0.0, 0.0, 0.0);
-        for step in traverse.expect("there is such a drive") {
-            let (mut frame, truth) = step.expect("the rover drives on");
-            for wheel in frame.wheels.iter_wheels_mut() {
-                wheel.rate_rad_s = wheel.rate_rad_s.map(|rate| (rate / STEP_RAD_S).round() * STEP_RAD_S);
-            }
-            let estimate = pipeline.tick(&frame);
-            if frame.time_us < 5_000_000 {
-                continue;
-            }
+        for (estimate, truth) in said.iter().filter(|(estimate, _)| estimate.time_us >= 5_000_000) {
             for (wheel, truth) in estimate.wheels.iter_wheels().zip(truth.wheels.iter_wheels()) {
                 let (Some(slip), Some(truth)) = (wheel.slip, truth.slip) else { continue };
                 let error = f64::from(slip.value) - truth;
@@ -170,11 +171,8 @@ fn a_record_of_one_frame_a_second_claims_no_soil() {
     for (scenario, seed) in
         [Scenario::Level, Scenario::Spread].into_iter().flat_map(|s| SEEDS.map(move |seed| (s, seed)))
     {
-        let mut pipeline = Pipeline::new(&rover.map(|value| value as f32)).expect("a rover");
-        for step in Traverse::new(scenario, seed, &rover, &options).expect("a drive") {
-            let _ = pipeline.tick(&step.expect("a frame").0);
-        }
-        let soil = pipeline.last().soil.expect("it rolls");
+        let (said, _) = driven(&rover, recorded(scenario, seed, &rover, &options).iter().copied());
+        let soil = said.last().and_then(|(estimate, _)| estimate.soil.ok()).expect("it rolls");
         assert_eq!(soil.changes, 0, "{scenario:?}, seed {seed}");
     }
 }
