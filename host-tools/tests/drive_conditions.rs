@@ -1,24 +1,24 @@
 //! Starting, stopping, standing, turning back, a wheel in the air: what the estimators say must be what is defined.
 
+mod driven;
+mod recorded;
+
+use driven::driven;
 use kapvik_firmware::estimator::WheelActivity;
-use kapvik_firmware::pipeline::{FrameEstimate, Pipeline};
+use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::data::truth_file::Truth;
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
+use rayon::prelude::*;
+use recorded::recorded;
 
 fn drive(scenario: Scenario, seed: u64) -> Vec<(FrameEstimate, Truth)> {
     drive_with(scenario, seed, &Options::default())
 }
 
 fn drive_with(scenario: Scenario, seed: u64, options: &Options) -> Vec<(FrameEstimate, Truth)> {
-    let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-    let traverse = Traverse::new(scenario, seed, &Rover::assumed(), options).expect("there is such a drive");
-    traverse
-        .map(|step| {
-            let (frame, truth) = step.expect("the rover drives on");
-            (*pipeline.tick(&frame), truth)
-        })
-        .collect()
+    let rover = Rover::assumed();
+    driven(&rover, recorded(scenario, seed, &rover, options).iter().copied()).0
 }
 
 /// A wheel that has stood for a second has no slip, and one that has moved for a second has one, in either direction.
@@ -48,7 +48,9 @@ fn a_wheel_that_stands_has_no_slip_and_one_that_turns_back_has() {
 /// In the first frame in which wheels turn the filter knows only that they stood; their encoders say better, however seldom they speak.
 #[test]
 fn a_wheel_that_starts_is_not_taken_for_blocked() {
-    for (seed, rate_hz) in (1000..1004).flat_map(|seed| [1.0, 2.0, 5.0, 10.0].map(|rate_hz| (seed, rate_hz))) {
+    let drives =
+        (1000..1004).into_par_iter().flat_map_iter(|seed| [1.0, 2.0, 5.0, 10.0].map(|rate_hz| (seed, rate_hz)));
+    drives.for_each(|(seed, rate_hz)| {
         let options = Options { rate_hz: Some(rate_hz), ..Options::default() };
         let mut starts = 0;
         for pair in drive_with(Scenario::StartStop, seed, &options).windows(2) {
@@ -62,12 +64,12 @@ fn a_wheel_that_starts_is_not_taken_for_blocked() {
             }
         }
         assert!(starts >= 6, "seed {seed}, {rate_hz} frames a second: {starts} starts");
-    }
+    });
 }
 
 #[test]
 fn a_wheel_in_the_air_is_told_and_bears_nothing() {
-    for seed in 1000..1004 {
+    (1000..1004).into_par_iter().for_each(|seed| {
         let frames = drive(Scenario::WheelLift, seed);
         let mut in_the_air = 0;
         for window in frames.windows(6) {
@@ -84,7 +86,7 @@ fn a_wheel_in_the_air_is_told_and_bears_nothing() {
             }
         }
         assert!(in_the_air > 50, "seed {seed}: {in_the_air}");
-    }
+    });
 }
 
 /// Pulls and torques of wheels that roll back are those of their mirror images: the soil is the one that it was.
@@ -109,9 +111,10 @@ fn a_rover_that_turns_back_stays_on_its_soil() {
 fn wheels_of_a_bogie_that_start_slip_as_surely_as_they_say() {
     const STARTING: std::ops::Range<usize> = 1..8;
     let (mut starting, mut within, mut squares) = (0_u32, 0_u32, 0.0);
-    for seed in 1000..1020 {
+    let drives: Vec<_> = (1000..1020).into_par_iter().map(|seed| drive(Scenario::StartStop, seed)).collect();
+    for frames in drives {
         let mut rolling = [0; 4];
-        for (estimate, truth) in drive(Scenario::StartStop, seed) {
+        for (estimate, truth) in frames {
             let bogies = estimate.wheels.as_ref().zip(truth.wheels.as_ref());
             let bogies = [bogies.left, bogies.right]
                 .map(|(said, true_one)| [(&said.middle, &true_one.middle), (&said.rear, &true_one.rear)]);

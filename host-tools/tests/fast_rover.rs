@@ -3,7 +3,9 @@
 //! The simulator's drives go at a few centimetres a second: a slow drive of a rover of 8² times the inertia, told in an eighth of the time,
 //! is one of a fast rover on the same ground, for nothing else in it has a mass.
 
-use kapvik_firmware::pipeline::Pipeline;
+mod driven;
+
+use driven::driven;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
@@ -38,10 +40,10 @@ fn drive(seed: u64, torques: &mut Tally) {
     let rover = Rover::assumed();
     let options = Options { rate_hz: Some(RATE_HZ / FASTER), ..Options::default() };
     let traverse = Traverse::new(Scenario::Hills, seed, &slower(&rover), &options).expect("a drive");
-    let mut pipeline = Pipeline::new(&rover.map(|value| value as f32)).expect("a rover");
-    for (frame, truth) in traverse.run().expect("frames") {
-        let frame = faster(frame);
-        let estimate = *pipeline.tick(&frame);
+    let frames: Vec<_> =
+        traverse.run().expect("frames").into_iter().map(|(frame, truth)| (faster(frame), truth)).collect();
+    let (said, _) = driven(&rover, frames.iter().copied());
+    for ((estimate, truth), (frame, _)) in said.iter().zip(&frames) {
         if frame.time_us < (1.0e6 * STARTED_S) as u64 {
             continue;
         }

@@ -1,23 +1,31 @@
 //! Torques and loads that swing as each grouser passes: the filters' models know nothing of it, and may not fall behind the raw sensors
 //! for that, nor refuse good ones.
 
-use kapvik_firmware::pipeline::Pipeline;
+mod drive_errors;
+mod driven;
+mod recorded;
+
+use drive_errors::drive_errors;
+use driven::driven;
 use kapvik_firmware::rover::Rover;
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
+use kapvik_host::trial::Quantity;
 use kapvik_host::trial::errors::Errors;
-use kapvik_host::trial::{Quantity, errors_over};
+use rayon::prelude::*;
+use recorded::{Recording, recorded};
 
 const SEEDS: std::ops::Range<u64> = 5..9;
 
-/// Drives whose soil's stresses swing by such a share.
-fn options(share: f64) -> Options {
+/// A drive whose soil's stresses swing by such a share.
+fn drive(scenario: Scenario, seed: u64, share: f64) -> Recording {
     let mut options = Options::default();
     options.effects.set("grouser-ripple", share).expect("an effect");
-    options
+    recorded(scenario, seed, &Rover::assumed(), &options)
 }
 
 fn errors(scenario: Scenario, share: f64) -> Errors {
-    errors_over(scenario, SEEDS, &Rover::assumed(), &options(share)).expect("drives")
+    let of_drive = |seed| drive_errors(&Rover::assumed(), &drive(scenario, seed, share));
+    SEEDS.into_par_iter().map(of_drive).collect::<Vec<Errors>>().into_iter().sum()
 }
 
 /// The most that errors of slip, torque and load may be, over those of the raw sensors. Of a torque that changes by several times its noise
@@ -73,13 +81,8 @@ fn what_no_sensor_follows_is_stated_nearly_wide_enough() {
 #[test]
 fn good_encoders_and_cells_are_not_refused() {
     for seed in SEEDS {
-        let rover = Rover::<f64>::assumed();
-        let mut pipeline = Pipeline::new(&rover.map(|value| value as f32)).expect("a rover");
-        let mut readings = 0_u32;
-        for step in Traverse::new(Scenario::Spread, seed, &rover, &options(0.2)).expect("a drive") {
-            let _ = pipeline.tick(&step.expect("a frame").0);
-            readings += 6;
-        }
+        let (said, pipeline) = driven(&Rover::assumed(), drive(Scenario::Spread, seed, 0.2).iter().copied());
+        let readings = 6 * said.len() as u32;
         let sensors = pipeline.estimator().health().sensors;
         for (what, health) in [("encoders", sensors.wheel_rate), ("cells", sensors.load_cell)] {
             let refused: u32 = health.iter_wheels().map(|sensor| u32::from(sensor.surprising)).sum();

@@ -1,6 +1,8 @@
 //! The soil that is told of drives whose sides stand on different soils: half-way between them, within what is said.
 
-use kapvik_firmware::pipeline::Pipeline;
+mod driven;
+
+use driven::driven;
 use kapvik_firmware::rover::{Rover, Side};
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_host::prior::FRICTION_ANGLE_RAD;
@@ -25,14 +27,10 @@ fn end_of_drive(seed: u64, apart_rad: f64) -> Option<(f64, f64)> {
     let middle = soil.friction_angle_rad.clamp(low, high);
     let of_side = |way: f64| Some(Soil { friction_angle_rad: middle + way, ..soil });
     let options = Options { soil: of_side(-apart_rad / 2.0), right_soil: of_side(apart_rad / 2.0), ..options };
-    let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-    let mut told = None;
-    for step in Traverse::new(Scenario::Spread, seed, &rover, &options).ok()? {
-        let (frame, truth) = step.ok()?;
-        told = pipeline.tick(&frame).soil.ok().map(|soil| (soil.estimate.friction_angle_rad, truth.soil));
-    }
-    let (estimate, truth) = told?;
-    Some((f64::from(estimate.value) - truth.friction_angle_rad, f64::from(estimate.std)))
+    let (said, _) = driven(&rover, Traverse::new(Scenario::Spread, seed, &rover, &options).ok()?.run().ok()?);
+    let (last, truth) = said.last()?;
+    let estimate = last.soil.as_ref().ok()?.estimate.friction_angle_rad;
+    Some((f64::from(estimate.value) - truth.soil.friction_angle_rad, f64::from(estimate.std)))
 }
 
 #[test]

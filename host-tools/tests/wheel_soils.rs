@@ -1,9 +1,14 @@
 //! The soil that is stated under each single wheel of a rover that drives: it tells little, and must say so.
 
-use kapvik_firmware::pipeline::Pipeline;
+mod driven;
+mod recorded;
+
+use driven::driven;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::soil::ParameterEstimate;
-use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::simulate::{Options, Scenario};
+use rayon::prelude::*;
+use recorded::recorded;
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8400..8430;
@@ -34,24 +39,23 @@ impl Share {
 /// Shares of the friction angles under wheels within two standard deviations: all, and those marked as identifiable; and what share is.
 fn within(scenario: Scenario) -> [Share; 3] {
     let [mut all, mut identifiable, mut marked] = [Share::default(); 3];
-    let options = Options { duration_s: Some(31.0), ..Options::default() };
-    for seed in SEEDS {
-        let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover is possible");
-        for step in Traverse::new(scenario, seed, &Rover::assumed(), &options).expect("there is such a drive") {
-            let Ok((frame, truth)) = step else { break };
-            let estimate = pipeline.tick(&frame);
-            if !LOOKS_S.iter().any(|look_s| frame.time_us == 1_000_000 * look_s) {
-                continue;
-            }
-            for (soil, truth) in estimate.wheel_soils.iter_wheels().zip(truth.wheels.iter_wheels()) {
-                let Some(soil) = soil.as_ref().ok().filter(|soil| !soil.outside_training_range) else { continue };
-                let ParameterEstimate { value, std, identifiable: is_marked, .. } = soil.friction_angle_rad;
-                let is_within = (f64::from(value) - truth.soil.friction_angle_rad).abs() <= 2.0 * f64::from(std);
-                all.count(is_within);
-                marked.count(is_marked);
-                if is_marked {
-                    identifiable.count(is_within);
-                }
+    let looks = |seed| {
+        let rover = Rover::assumed();
+        let options = Options { duration_s: Some(31.0), ..Options::default() };
+        let (mut said, _) = driven(&rover, recorded(scenario, seed, &rover, &options).iter().copied());
+        said.retain(|(estimate, _)| LOOKS_S.iter().any(|look_s| estimate.time_us == 1_000_000 * look_s));
+        said
+    };
+    let looks: Vec<_> = SEEDS.into_par_iter().flat_map_iter(looks).collect();
+    for (estimate, truth) in looks {
+        for (soil, truth) in estimate.wheel_soils.iter_wheels().zip(truth.wheels.iter_wheels()) {
+            let Some(soil) = soil.as_ref().ok().filter(|soil| !soil.outside_training_range) else { continue };
+            let ParameterEstimate { value, std, identifiable: is_marked, .. } = soil.friction_angle_rad;
+            let is_within = (f64::from(value) - truth.soil.friction_angle_rad).abs() <= 2.0 * f64::from(std);
+            all.count(is_within);
+            marked.count(is_marked);
+            if is_marked {
+                identifiable.count(is_within);
             }
         }
     }
