@@ -6,19 +6,19 @@ use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 use rayon::prelude::*;
 
-/// What a drive of `truly` says of a rover file that states `stated`; none where the rover gets stuck.
-fn misfit(
-    scenario: Scenario,
-    seed: u64,
+/// What a drive of `truly` says of rover files, each of which states such a rover; none where the rover gets stuck.
+fn misfits<const FILES: usize>(
+    (scenario, seed): (Scenario, u64),
     truly: &Rover<f64>,
-    stated: &Rover<f64>,
+    stated: [Rover<f64>; FILES],
     options: &Options,
-) -> Option<Option<Misfit>> {
-    let mut weighing = Weighing::of(&stated.map(|value| value as f32));
+) -> Option<[Option<Misfit>; FILES]> {
+    let mut weighings = stated.map(|stated| Weighing::of(&stated.map(|value| value as f32)));
     for step in Traverse::new(scenario, seed, truly, options).ok()? {
-        weighing.take(&step.ok()?.0);
+        let (frame, _) = step.ok()?;
+        weighings.iter_mut().for_each(|weighing| weighing.take(&frame));
     }
-    Some(weighing.misfit())
+    Some(weighings.map(|weighing| weighing.misfit()))
 }
 
 const DRIVES: [Scenario; 11] = [
@@ -71,8 +71,8 @@ fn a_right_rover_file_is_not_doubted() {
     let of_rover = |(rover, options): (Rover<f64>, Options)| {
         let drives = DRIVES.into_par_iter().flat_map_iter(|scenario| (1..5).map(move |seed| (scenario, seed)));
         let through = drives.filter_map(|(scenario, seed)| {
-            let found = misfit(scenario, seed, &rover, &rover, &options)?;
-            assert_eq!(found, None, "{} kg, {scenario:?}, seed {seed}, {:?}", rover.mass_kg, options.effects);
+            let found = misfits((scenario, seed), &rover, [rover], &options)?;
+            assert_eq!(found, [None], "{} kg, {scenario:?}, seed {seed}, {:?}", rover.mass_kg, options.effects);
             Some(())
         });
         through.count()
@@ -85,18 +85,17 @@ fn a_right_rover_file_is_not_doubted() {
 #[test]
 fn a_wrong_mass_is_noticed() {
     let truly = Rover::assumed();
-    for mass_kg in [40.0, 40.5] {
-        let stated = Rover { mass_kg, ..truly };
-        for scenario in DRIVES {
-            for seed in 1..4 {
-                let found = misfit(scenario, seed, &truly, &stated, &Options::default()).expect("a drive");
-                let Misfit { borne_n, due_n } =
-                    found.unwrap_or_else(|| panic!("{mass_kg} kg, {scenario:?}, seed {seed}"));
-                let ratio = borne_n / due_n * mass_kg;
-                assert!((ratio - 41.0).abs() < 0.2, "{mass_kg} kg, {scenario:?}, seed {seed}: as of {ratio} kg");
-            }
+    let masses_kg = [40.0, 40.5];
+    let stated = masses_kg.map(|mass_kg| Rover { mass_kg, ..truly });
+    let drives = DRIVES.into_par_iter().flat_map_iter(|scenario| (1..4).map(move |seed| (scenario, seed)));
+    drives.for_each(|(scenario, seed)| {
+        let found = misfits((scenario, seed), &truly, stated, &Options::default()).expect("a drive");
+        for (mass_kg, found) in masses_kg.into_iter().zip(found) {
+            let Misfit { borne_n, due_n } = found.unwrap_or_else(|| panic!("{mass_kg} kg, {scenario:?}, seed {seed}"));
+            let ratio = borne_n / due_n * mass_kg;
+            assert!((ratio - 41.0).abs() < 0.2, "{mass_kg} kg, {scenario:?}, seed {seed}: as of {ratio} kg");
         }
-    }
+    });
 }
 
 /// Cells that say nothing but zero bear nothing, which is told, too.
