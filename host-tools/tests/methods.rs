@@ -5,7 +5,7 @@ mod support;
 
 use std::path::Path;
 
-use kapvik_host::compare::{CompareOptions, Comparison, ParameterScore, SITUATIONS, compare};
+use kapvik_host::compare::{CompareOptions, ParameterScore, SITUATIONS, Score, compare};
 use kapvik_host::data::campaign::Campaign;
 use kapvik_host::identify::{Method, identify_by};
 use kapvik_host::parameter::Parameter;
@@ -148,16 +148,15 @@ fn a_number_that_the_file_holds_to_be_exact_is_taken_as_given() {
     assert!(run["friction_angle_rad"]["assumed"] == true && run["no_soil"].is_null(), "{run}");
 }
 
-/// Scores of the situations in which [C] has figures (an independent implementation; its pattern of loads is not stated,
-/// and ours are drawn).
-fn compared(situation: &str) -> Comparison {
-    let options = CompareOptions { cases: 120, limit_cases: 0, seed: 7, only: vec![situation.to_owned()] };
-    compare(&options, &|| ()).expect("a situation that there is")
-}
-
-fn score(comparison: &Comparison, contender: &str, parameter: Parameter) -> ParameterScore {
-    let scores = &comparison.situations[0].scores;
-    scores.iter().find(|score| score.contender == contender).expect("a contender").parameter(parameter).clone()
+/// Score of a contender in one of the situations in which [C] has figures (an independent implementation; its pattern of loads is not
+/// stated, and ours are drawn).
+fn score(situation: &str, contender: &'static str) -> Score {
+    let (only, contenders) = (vec![situation.to_owned()], vec![contender]);
+    let options = CompareOptions { cases: 120, limit_cases: 0, seed: 7, only, contenders };
+    let comparison = compare(&options, &|| ()).expect("a situation that there is");
+    let [score] = &comparison.situations[0].scores[..] else { panic!("one contender was asked for") };
+    assert_eq!(score.contender, contender);
+    score.clone()
 }
 
 /// Published: φ 31.2 [30.8, 31.7] on one instant and 31.8 [31.3, 32.0] on a mean of a hundred, K 11.1 and 11.4 mm; of a soil
@@ -170,9 +169,8 @@ fn the_maximum_a_posteriori_is_where_it_was_published_to_be() {
         ("table1-spread-100", 31.8, 11.4),
         ("weak-spread-100", 25.4, 22.2),
     ] {
-        let comparison = compared(situation);
-        let phi = score(&comparison, "map-usual", Parameter::FrictionAngle);
-        let k = score(&comparison, "map-usual", Parameter::ShearModulus);
+        let score = score(situation, "map-usual");
+        let [phi, k] = [Parameter::FrictionAngle, Parameter::ShearModulus].map(|parameter| score.parameter(parameter));
         assert!((phi.median - friction).abs() < 1.0, "{situation}: φ {} against {friction}", phi.median);
         assert!((k.median - modulus).abs() < 0.7, "{situation}: K {} against {modulus}", k.median);
     }
@@ -182,8 +180,8 @@ fn the_maximum_a_posteriori_is_where_it_was_published_to_be() {
 /// with loads ±50 %.
 #[test]
 fn iagnemma_needs_a_spread_of_loads() {
-    let narrow = score(&compared("table1-8-1"), "iagnemma-K", Parameter::FrictionAngle);
-    let wide = score(&compared("table1-spread-1"), "iagnemma-K", Parameter::FrictionAngle);
+    let friction = |situation: &str| -> ParameterScore { score(situation, "iagnemma-K").friction_angle_deg };
+    let [narrow, wide] = ["table1-8-1", "table1-spread-1"].map(friction);
     assert!((36.0..48.5).contains(&narrow.median), "{narrow:?}");
     assert!((29.6..34.9).contains(&wide.median), "{wide:?}");
     assert!(wide.bias < narrow.bias / 3.0, "{narrow:?} {wide:?}");
@@ -193,7 +191,7 @@ fn iagnemma_needs_a_spread_of_loads() {
 fn a_situation_that_is_named_twice_is_one() {
     let ids: Vec<_> = SITUATIONS.iter().take(2).map(|situation| situation.id).collect();
     let asked = [ids[1], ids[0], ids[1]].map(str::to_owned).to_vec();
-    let options = CompareOptions { cases: 2, limit_cases: 0, seed: 7, only: asked };
+    let options = CompareOptions { cases: 2, limit_cases: 0, seed: 7, only: asked, contenders: Vec::new() };
     let found = options.situations().expect("situations");
     assert_eq!(found.iter().map(|situation| situation.id).collect::<Vec<_>>(), ids);
 }

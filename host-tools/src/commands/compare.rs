@@ -46,6 +46,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         limit_cases: arguments.limit_cases as usize,
         seed: arguments.seed,
         only: arguments.only.clone(),
+        contenders: Vec::new(),
     };
     let bar = bar("answers", options.answers()?);
     let comparison = compare(&options, &|| bar.inc(1))?;

@@ -33,6 +33,8 @@ pub struct CompareOptions {
     pub limit_cases: usize,
     /// Situations by name; none means all.
     pub only: Vec<String>,
+    /// Contenders by name; none means all.
+    pub contenders: Vec<&'static str>,
 }
 
 /// The table.
@@ -98,9 +100,16 @@ impl CompareOptions {
             let cases = |contender: &Contender| {
                 if contender.is_limit() { self.limit_cases.min(self.cases) } else { self.cases }
             };
-            CONTENDERS.iter().filter(|contender| contender.takes_part(situation)).map(cases).sum::<usize>()
+            self.contenders_in(situation).map(cases).sum::<usize>()
         };
         Ok(self.situations()?.iter().map(of).sum())
+    }
+
+    /// Those of the contenders asked for that take part in a situation.
+    fn contenders_in(&self, situation: &Situation) -> impl Iterator<Item = &'static Contender> {
+        let is_asked_for =
+            |contender: &Contender| self.contenders.is_empty() || self.contenders.contains(&contender.id);
+        CONTENDERS.iter().filter(move |contender| is_asked_for(contender) && contender.takes_part(situation))
     }
 
     /// The situations that are asked for.
@@ -125,9 +134,8 @@ fn compared(situation: &Situation, options: &CompareOptions, done: &(impl Fn() +
         (0..options.cases).into_par_iter().filter_map(|place| case(situation, options.seed, place)).collect();
     let truths: Vec<Soil<f64>> = cases.iter().map(|case| case.soil).collect();
     let limit_cases = options.limit_cases.min(cases.len());
-    let answers: Vec<(&Contender, Vec<Timed>)> = CONTENDERS
-        .iter()
-        .filter(|contender| contender.takes_part(situation))
+    let answers: Vec<(&Contender, Vec<Timed>)> = options
+        .contenders_in(situation)
         .map(|contender| {
             let asked = if contender.is_limit() { &cases[..limit_cases] } else { &cases };
             (contender, asked.par_iter().map(|case| timed(contender, case, done)).collect())
