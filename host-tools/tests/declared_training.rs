@@ -1,11 +1,7 @@
-//! Training with declared effects: scenes in which they act, and the table that says so.
+//! Training with declared effects: scenes in which they act.
 
-mod kapvik;
+use std::path::Path;
 
-use std::path::{Path, PathBuf};
-use std::process::Output;
-
-use kapvik::kapvik;
 use kapvik_firmware::terramechanics::{sinkage_for_load, wheel_forces};
 use kapvik_host::data::campaign::Declared;
 use kapvik_host::train::scene::{Design, Scene, scenes, scenes_in};
@@ -66,48 +62,4 @@ fn an_effect_that_no_rover_can_drive_with_is_an_error() {
     let declared = Declared::parse(Path::new("declared.toml"), text).unwrap();
     let error = scenes_in(&World::declared(&declared), KAPVIK, 10, 3).unwrap_err().to_string();
     assert!(error.contains("force-bias") && error.contains("0 of"), "{error}");
-}
-
-fn train(arguments: &[&str], table: &Path) -> Output {
-    kapvik().args(["train", "--quick", "--seed", "5", "-o"]).arg(table).args(arguments).output().unwrap()
-}
-
-fn write(folder: &Path, text: &str) -> PathBuf {
-    let path = folder.join("declared.toml");
-    std::fs::write(&path, text).unwrap();
-    path
-}
-
-#[test]
-fn nothing_declared_gives_the_bytes_of_plain_training_and_an_effect_others() {
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("a.table");
-    assert!(train(&[], &table).status.success());
-    let plain = std::fs::read_to_string(&table).unwrap();
-    assert!(plain.contains("note effects: none: equations 1-11\n"));
-    let declared = write(folder.path(), "[declared]\neffects = []\n");
-    assert!(train(&["--declared", declared.to_str().unwrap()], &table).status.success());
-    assert!(plain == std::fs::read_to_string(&table).unwrap());
-    let declared = write(folder.path(), "name = \"x\"\n[declared]\neffects = [\"rate\"]\n[soil]\nn = 1.1\n");
-    assert!(train(&["--declared", declared.to_str().unwrap()], &table).status.success());
-    let other = std::fs::read_to_string(&table).unwrap();
-    assert!(other.contains("note effects: rate: stiffness -0.6 ... 0.6 uniform\n"), "{}", &other[..900]);
-    assert!(other != plain);
-}
-
-#[test]
-fn a_file_that_declares_nothing_is_an_error_and_writes_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("a.table");
-    for (text, expected) in [
-        ("[soil]\nn = 1.1\n", "[declared]"),
-        ("[declared]\neffects = [\"slip-sinking\"]\n", "slip-sinkage"),
-        ("[declared]\neffects = [\"rate\"]\n[declared.rate]\nstiffness = 9.0\n", "declared.toml:4:"),
-    ] {
-        let declared = write(folder.path(), text);
-        let output = train(&["--declared", declared.to_str().unwrap()], &table);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!output.status.success() && said.contains(expected), "{text}: {said}");
-        assert!(!table.exists());
-    }
 }
