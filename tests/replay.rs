@@ -1,6 +1,7 @@
 //! A recorded drive through the flight pipeline: the same bits in QEMU and on the host, and as they were.
 
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use kapvik_firmware::checksum::Checksum;
 use kapvik_host::flight_computer::FlightComputer;
@@ -11,10 +12,10 @@ const BLESS: &str = "KAPVIK_BLESS";
 /// Of the rows of estimates each so-manieth is kept to be read in a review; the checksum is over all.
 const KEPT: usize = 10;
 
-fn on_the_host() -> Vec<u8> {
+static ON_THE_HOST: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut computer = FlightComputer::in_process().expect("the library answers in this process");
     estimates_of_the_recorded_drive(&mut computer)
-}
+});
 
 /// The header, each tenth row, and a last line with the checksum over all bytes.
 fn indication(estimates: &[u8]) -> String {
@@ -42,9 +43,9 @@ fn first_difference(expected: &str, found: &str) -> String {
 fn qemu_and_host_write_the_same_estimates() {
     let mut image = flight_computer();
     let in_qemu = estimates_of_the_recorded_drive(&mut image);
-    let on_host = on_the_host();
+    let on_host = &*ON_THE_HOST;
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    assert!(in_qemu == on_host, "{}", first_difference(&text(&on_host), &text(&in_qemu)));
+    assert!(in_qemu == *on_host, "{}", first_difference(&text(on_host), &text(&in_qemu)));
     let health = image.health().expect("the image is well");
     assert_eq!((health.link.refused(), health.link.sequence_gaps, health.link.replies_lost), (0, 0, 0));
     assert_eq!(u64::from(health.frames_taken), on_host.iter().filter(|byte| **byte == b'\n').count() as u64 - 1);
@@ -59,7 +60,7 @@ fn qemu_and_host_write_the_same_estimates() {
 #[test]
 fn the_estimates_are_what_they_were() {
     let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("replay/estimates.csv");
-    let found = indication(&on_the_host());
+    let found = indication(&ON_THE_HOST);
     if std::env::var_os(BLESS).is_some() {
         std::fs::write(&path, &found).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     }
