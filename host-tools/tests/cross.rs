@@ -1,5 +1,8 @@
 //! The earlier network of the literature: trained in seconds, the same each time, as good as a single wheel allows.
 
+#[path = "../../firmware/tests/support/six_slips.rs"]
+mod six_slips;
+
 use std::sync::LazyLock;
 
 use kapvik_firmware::identification::{Observation, Refusal};
@@ -8,13 +11,14 @@ use kapvik_firmware::wheel_state::WheelState;
 use kapvik_host::prior::KAPVIK_INSTANT_NOISE;
 use kapvik_host::soil_catalogue::TABLE_1;
 use kapvik_host::train::cross::{Scope, Trained, train};
+use six_slips::SIX_SLIPS;
 
 const SEED: u64 = 1;
 static TRAINED: LazyLock<Trained> = LazyLock::new(|| train(&Scope::KAPVIK, SEED));
 
 /// Six wheels at slips of 0.05 … 0.60 under one load, without noise.
 fn six_wheels(wheel: &Wheel<f64>, load_n: f64) -> [Observation<f64>; 6] {
-    [0.05, 0.16, 0.27, 0.38, 0.49, 0.60].map(|slip| {
+    SIX_SLIPS.map(|slip| {
         let state = WheelState::under_load(wheel, &TABLE_1, slip, load_n).expect("carried");
         Observation { state, noise: KAPVIK_INSTANT_NOISE }
     })

@@ -3,10 +3,13 @@
 
 mod described;
 mod drawn;
+#[path = "../../firmware/tests/support/six_slips.rs"]
+mod six_slips;
 
 use drawn::{Held, KEYS, Plan};
 use kapvik_firmware::pipeline;
 use kapvik_host::identify::{Document, identify_rehearsed};
+use six_slips::SIX_SLIPS;
 
 /// Of a hundred cases with a chance of 95 each, fewer than 88 are in one of 600 sets; of fifty, fewer than 42.
 fn check(plan: &Plan, soils: usize, least: usize) -> usize {
@@ -25,7 +28,7 @@ fn check(plan: &Plan, soils: usize, least: usize) -> usize {
 
 #[test]
 fn one_wheel_swept_over_slips_at_three_loads() {
-    check(&Plan::of(&[0.05, 0.16, 0.27, 0.38, 0.49, 0.60], &[45.0, 65.0, 90.0], 30), 50, 42);
+    check(&Plan::of(&SIX_SLIPS, &[45.0, 65.0, 90.0], 30), 50, 42);
 }
 
 #[test]
@@ -35,7 +38,7 @@ fn slips_that_are_all_small() {
 
 #[test]
 fn six_wheels_as_in_training_are_left_as_the_networks_state_them() {
-    let widened = check(&Plan::of(&[0.05, 0.16, 0.27, 0.38, 0.49, 0.60], &[65.0], 1), 100, 88);
+    let widened = check(&Plan::of(&SIX_SLIPS, &[65.0], 1), 100, 88);
     assert!(widened < 30, "{widened}");
 }
 
@@ -47,6 +50,6 @@ fn one_wheel_at_one_slip() {
 /// Of a hundred rows a state, whose noise keeps nine tenths from row to row, five are independent.
 #[test]
 fn rows_that_remember_each_other() {
-    let plan = Plan::of(&[0.05, 0.16, 0.27, 0.38, 0.49, 0.60], &[45.0, 65.0, 90.0], 100);
+    let plan = Plan::of(&SIX_SLIPS, &[45.0, 65.0, 90.0], 100);
     check(&Plan { kept: 0.9, ..plan }, 50, 42);
 }

@@ -2,11 +2,13 @@
 
 mod described;
 mod drawn;
+#[path = "../../firmware/tests/support/six_slips.rs"]
+mod six_slips;
 
 use drawn::{Held, KEYS, Plan};
 use kapvik_host::identify::{Method, identify_by};
+use six_slips::SIX_SLIPS;
 
-const SLIPS: [f64; 6] = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
 const SOILS: usize = 50;
 /// A rehearsal of the method of multiple models takes seconds a run, and minutes where it has eighteen states.
 const SOILS_OF_MULTIPLE_MODELS: usize = 20;
@@ -35,10 +37,10 @@ fn all_but(left_out: &[Method], plan: &Plan) {
 
 #[test]
 fn six_slips_at_one_load() {
-    all_but(&[Method::Cross], &Plan::of(&SLIPS, &[65.0], 1));
+    all_but(&[Method::Cross], &Plan::of(&SIX_SLIPS, &[65.0], 1));
 }
 
 #[test]
 fn six_slips_at_three_loads() {
-    all_but(&[Method::Cross, Method::Ray], &Plan::of(&SLIPS, &[45.0, 65.0, 90.0], 10));
+    all_but(&[Method::Cross, Method::Ray], &Plan::of(&SIX_SLIPS, &[45.0, 65.0, 90.0], 10));
 }

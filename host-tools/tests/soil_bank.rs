@@ -1,23 +1,26 @@
 //! The bank of soils for Ray's method.
 
+#[path = "../../firmware/tests/support/six_slips.rs"]
+mod six_slips;
+
 use kapvik_firmware::identification::Observation;
 use kapvik_firmware::identification::ray::{BANK, MultipleModel, ray};
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 use kapvik_host::identify::soil_bank::soil_bank;
 use kapvik_host::prior::KAPVIK_WHEEL;
+use six_slips::SIX_SLIPS;
 
 /// Six wheels under 65.4 N at slips of 0.05 … 0.60, as the mean of 100 instants has them; none where the soil does not
 /// carry them.
 fn six_wheels(soil: &Soil<f64>) -> Option<Vec<Observation<f64>>> {
     let noise = WheelNoise { drawbar_pull_n: 0.05, load_n: 0.1, torque_nm: 0.005, slip: 0.001, sinkage_m: 0.0002 };
-    let slips = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
     let observe = |slip: f64| {
         let state = WheelState::under_load(&KAPVIK_WHEEL, soil, slip, 65.4).ok()?;
         let state = WheelState { sinkage_m: None, ..state };
         Some(Observation { state, noise })
     };
-    slips.into_iter().map(observe).collect()
+    SIX_SLIPS.into_iter().map(observe).collect()
 }
 
 #[test]

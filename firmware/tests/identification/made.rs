@@ -5,9 +5,8 @@ use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 
 pub use super::kapvik::{kapvik_wheel, table_1_sand};
+pub use super::six_slips::SIX_SLIPS;
 
-/// Six slips in equal steps.
-pub const SIX_SLIPS: [f64; 6] = [0.05, 0.16, 0.27, 0.38, 0.49, 0.60];
 /// The load of each wheel where all carry the same, N.
 pub const EQUAL_LOAD_N: f64 = 65.4;
 /// The noise of one instant.

@@ -19,3 +19,5 @@ mod non_uniqueness;
 mod properties;
 mod ray;
 mod recursive;
+#[path = "../support/six_slips.rs"]
+mod six_slips;
