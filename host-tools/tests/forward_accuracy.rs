@@ -2,6 +2,8 @@
 
 #[path = "../../firmware/tests/terramechanics/reference.rs"]
 mod reference;
+#[path = "../../firmware/tests/support/worse.rs"]
+mod worse;
 
 use std::ops::Range;
 
@@ -11,6 +13,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use reference::Reference;
+use worse::worse;
 
 /// Cases for each of driving and braking.
 const CASES: usize = if cfg!(debug_assertions) { 1_000 } else { 20_000 };
@@ -78,10 +81,10 @@ struct Errors {
 }
 
 impl Errors {
-    fn worse(self, other: Self) -> Self {
+    fn or(self, other: Self) -> Self {
         Self {
-            double: self.double.max(other.double),
-            single: self.single.max(other.single),
+            double: worse(self.double, other.double),
+            single: worse(self.single, other.single),
             cases: self.cases + other.cases,
         }
     }
@@ -115,7 +118,7 @@ fn difference(exact: &Reference, found: WheelForces<f64>, radius_m: f64) -> f64 
     let pull = (found.drawbar_pull_n - exact.drawbar_pull_n).abs();
     let load = (found.load_n - exact.load_n).abs();
     let torque = (found.torque_nm - exact.torque_nm).abs() / radius_m;
-    pull.max(load).max(torque)
+    worse(worse(pull, load), torque)
 }
 
 fn sweep(seed: u64, slip: Range<f64>) -> Errors {
@@ -123,7 +126,7 @@ fn sweep(seed: u64, slip: Range<f64>) -> Errors {
     let soils: Vec<_> = rows.iter().filter_map(|row| row.complete(&Completion::SEED).ok()).collect();
     let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
     let cases: Vec<_> = (0..CASES).map(|_| draw.case(&soils, slip.clone())).collect();
-    cases.par_iter().filter_map(Errors::of).reduce(Errors::default, Errors::worse)
+    cases.par_iter().filter_map(Errors::of).reduce(Errors::default, Errors::or)
 }
 
 #[test]

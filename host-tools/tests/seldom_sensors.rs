@@ -5,6 +5,8 @@ mod drive_errors;
 mod driven;
 mod failing;
 mod recorded;
+#[path = "../../firmware/tests/support/worse.rs"]
+mod worse;
 
 use drive_errors::drive_errors;
 use driven::driven;
@@ -18,6 +20,7 @@ use kapvik_host::trial::Quantity;
 use kapvik_host::trial::errors::Errors;
 use rayon::prelude::*;
 use recorded::recorded;
+use worse::worse;
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8300..8304;
@@ -112,7 +115,7 @@ fn honesty(pairs: &[(FrameEstimate, Truth)]) -> (f64, f64) {
         })
         .collect();
     let within = errors.iter().filter(|error| **error <= 2.0).count();
-    (within as f64 / errors.len() as f64, errors.iter().fold(0.0, |most, error| most.max(*error)))
+    (within as f64 / errors.len() as f64, errors.into_iter().fold(0.0, worse))
 }
 
 /// Frames come five times as fast, and the record begins on hills, of which nothing is known then.

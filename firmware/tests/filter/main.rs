@@ -9,6 +9,8 @@ mod mostly;
 mod numbers;
 mod precision;
 mod statistics;
+#[path = "../support/worse.rs"]
+mod worse;
 
 use kapvik_firmware::filter::trial::{self, Scales};
 use kapvik_firmware::filter::{Gate, Gaussian, Innovation, Prediction, SigmaPointFilter};

@@ -3,6 +3,7 @@
 use kapvik_firmware::filter::trial::{Scales, Trial};
 use kapvik_firmware::filter::{Fusion, Gate, Gaussian, Prediction, SigmaPointFilter};
 
+use super::worse::worse;
 use super::{predict, start, update};
 
 /// The furthest that single precision is from double, in standard deviations, over a run; and the worst ratio of the two's
@@ -19,8 +20,8 @@ fn worst_difference<const N: usize, const M: usize>(scales: &Scales, steps: usiz
         assert_eq!((in_single.fusion, in_double.fusion), (Fusion::Done, Fusion::Done));
         let stds = single.estimate().stds().into_iter().zip(double.estimate().stds());
         for ((a, b), (std_a, std_b)) in single.estimate().mean().iter().zip(double.estimate().mean()).zip(stds) {
-            of_mean = of_mean.max((f64::from(*a) - b).abs() / std_b);
-            of_std = of_std.max((f64::from(std_a) / std_b - 1.0).abs());
+            of_mean = worse(of_mean, (f64::from(*a) - b).abs() / std_b);
+            of_std = worse(of_std, (f64::from(std_a) / std_b - 1.0).abs());
         }
     }
     println!("{N} states, {M} measurements: means differ by {of_mean:.1e} σ, standard deviations by {of_std:.1e}");

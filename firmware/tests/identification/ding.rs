@@ -10,6 +10,7 @@ use super::independent::CASES;
 use super::made::{
     EQUAL_LOAD_N, NOISE, Normal, SIX_SLIPS, averaged, kapvik_wheel, seen, single, six_wheels, table_1_sand,
 };
+use super::worse::worse;
 
 #[test]
 fn an_independent_implementation_finds_the_same() {
@@ -129,7 +130,7 @@ fn single_precision_is_within_a_fifth_of_a_standard_deviation() {
                 (double.shear_modulus_m, single.shear_modulus_m),
             ] {
                 if let Some(std) = double.std {
-                    worst = worst.max((f64::from(single.value) - double.value).abs() / std);
+                    worst = worse(worst, (f64::from(single.value) - double.value).abs() / std);
                     compared += 1;
                 }
             }

@@ -5,6 +5,7 @@ use kapvik_firmware::identification::{Observation, Origin, Refusal};
 use kapvik_firmware::terramechanics::{Quadrature, Soil, wheel_forces_by};
 
 use super::made::{Normal, averaged, kapvik_wheel, noisy, seen, single, six_wheels, table_1_sand};
+use super::worse::worse;
 
 /// The sand with its friction angle, shear modulus and stiffness multiplied.
 fn start(angle: f64, modulus: f64, stiffness: f64) -> Soil<f64> {
@@ -23,7 +24,7 @@ fn error(fit: &Fit<f64>) -> f64 {
         fit.identified.shear_modulus_m.value / soil.shear_modulus_m,
         fit.stiffness.value / soil.stiffness(width_m),
     ];
-    ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, f64::max)
+    ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, worse)
 }
 
 /// The eight starts a factor of two off.

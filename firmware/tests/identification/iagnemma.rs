@@ -7,6 +7,7 @@ use kapvik_firmware::wheel_state::WheelState;
 use super::drawn::{ALTERNATING, any_pattern, draw, loaded};
 use super::independent::CASES;
 use super::made::{Normal, kapvik_wheel, seen, single, table_1_sand};
+use super::worse::worse;
 
 /// The true K, and c as told or held at zero.
 pub fn assumptions(cohesion_pa: Option<f64>) -> IagnemmaAssumptions<f64> {
@@ -92,7 +93,8 @@ fn single_precision_is_within_a_thousandth_of_a_standard_deviation() {
             for (double, single) in
                 [(double.cohesion_pa, single.cohesion_pa), (double.friction_angle_rad, single.friction_angle_rad)]
             {
-                worst = worst.max((f64::from(single.value) - double.value).abs() / double.std.expect("six wheels"));
+                let std = double.std.expect("six wheels");
+                worst = worse(worst, (f64::from(single.value) - double.value).abs() / std);
             }
         }
     }

@@ -21,3 +21,5 @@ mod ray;
 mod recursive;
 #[path = "../support/six_slips.rs"]
 mod six_slips;
+#[path = "../support/worse.rs"]
+mod worse;

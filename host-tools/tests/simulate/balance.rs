@@ -11,6 +11,7 @@ use kapvik_host::simulate::{BALANCE, Options, Scenario, Traverse};
 use nalgebra::{Rotation3, Vector3};
 
 use super::drive;
+use super::worse::worse;
 
 /// Runs a drive and looks at each of its instants.
 fn each_instant(scenario: Scenario, seed: u64, look: impl FnMut(&Traverse, f64)) {
@@ -103,7 +104,7 @@ fn wheels_obey_the_wheel_soil_equations() {
         let mut worst: f64 = 0.0;
         each_instant_with(options, scenario, 11, |traverse, time_s| {
             if time_s >= 4.0 {
-                Side::ALL.as_array().into_iter().for_each(|side| worst = worst.max(damping_of(traverse, *side)));
+                Side::ALL.as_array().into_iter().for_each(|side| worst = worse(worst, damping_of(traverse, *side)));
             }
         });
         assert!(worst < most, "{scenario:?}: {worst}");
@@ -122,7 +123,7 @@ fn damping_of(traverse: &Traverse, side: Side) -> f64 {
         assert_eq!(forces.torque_nm, wheel.forces.torque_nm);
         (wheel.forces.load_n / forces.load_n - 1.0).abs()
     });
-    damping.as_array().into_iter().fold(0.0, |worst, damping| worst.max(*damping))
+    damping.as_array().into_iter().copied().fold(0.0, worse)
 }
 
 /// Places that move with the rover, by rotation matrices: hubs and rims' lowest points, then the centre of mass.

@@ -7,6 +7,7 @@ use kapvik_host::simulate::balance::WheelInstant;
 use kapvik_host::simulate::effects::RoverEffects;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 
+use super::worse::worse;
 use super::{drive, quiet_rover};
 
 /// n₁ of Mars simulants is 0.35 to 0.45, of the seed's sand about 0.3.
@@ -63,7 +64,7 @@ fn the_soil_feels_the_slip_over_the_length_of_the_contact() {
         {
             let guess = *expected + 0.1 * rate(last, *expected);
             *expected += 0.05 * (rate(last, *expected) + rate(now, guess));
-            most = most.max((found - *expected).abs());
+            most = worse(most, (found - *expected).abs());
             if let Some(slip) = now.motion.slip().filter(|_| now.motion.rim_speed_m_s > 0.01) {
                 let soil = dug(&world.soils.at(0.0), *found);
                 let forces = wheel_forces(&wheel, &soil, slip, now.motion.sinkage_m).expect("in range");

@@ -13,6 +13,8 @@ mod recorded;
 #[path = "../refused/mod.rs"]
 mod refused;
 mod sensors;
+#[path = "../../../firmware/tests/support/worse.rs"]
+mod worse;
 
 use kapvik_firmware::rover::{Rover, SensorNoise};
 use kapvik_host::simulate::{Options, Scenario};
