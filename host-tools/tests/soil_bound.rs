@@ -41,7 +41,9 @@ fn it_falls_with_the_frames_that_were_seen_and_with_the_spread_of_slips() {
 #[test]
 fn no_estimate_beats_it_on_average_and_none_says_that_it_does() {
     for scenario in [Scenario::Spread, Scenario::Level] {
-        let errors = SoilErrors::after_30_s(&trial(scenario, 100..110, &Rover::assumed()));
+        let trial = trial(scenario, 100..110, &Rover::assumed());
+        assert_eq!(trial.drives.len(), 10, "{scenario:?}: {:?}", trial.failures);
+        let errors = SoilErrors::after_30_s(&trial);
         for [error, stated, bound] in [errors.friction_angle_deg(), errors.ln_shear_modulus()] {
             assert!(error > bound && stated > bound && bound > 0.0, "{scenario:?}: {error} {stated} {bound}");
         }
