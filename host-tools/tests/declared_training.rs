@@ -11,7 +11,10 @@ const KAPVIK: Design = Design::Kapvik { instants: 1, sinkage: true };
 
 fn scenes_with(declared: &str, design: Design, count: usize) -> Vec<Scene> {
     let declared = Declared::parse(Path::new("declared.toml"), declared).unwrap();
-    scenes_in(&World::declared(&declared), design, count, 3).unwrap()
+    let scenes = scenes_in(&World::declared(&declared), design, count, 3).unwrap();
+    assert_eq!(scenes.len(), count);
+    assert!(scenes.iter().all(|scene| !scene.wheels.is_empty() && scene.read().len() == scene.wheels.len()));
+    scenes
 }
 
 fn close(value: f32, expected: f64) -> bool {
@@ -46,6 +49,7 @@ fn sensors_misread_and_the_truth_stays() {
     let text = "[declared]\neffects = [\"force-bias\", \"torque-scale\"]\n[declared.force-bias]\nload_n = 2.0\n\
                 [declared.torque-scale]\ngain = 0.1\n";
     let plain = scenes(KAPVIK, 40, 3);
+    assert_eq!(plain.len(), 40);
     for (scene, plain) in scenes_with(text, KAPVIK, 40).iter().zip(&plain) {
         assert_eq!(scene.wheels, plain.wheels);
         for (read, truth) in scene.read().iter().zip(&scene.wheels) {

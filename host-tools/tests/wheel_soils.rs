@@ -17,6 +17,10 @@ const LOOKS_S: [u64; 4] = [15, 20, 25, 30];
 /// Of the friction angles, and of those that are marked as identifiable, so many must be within two standard deviations. What is stated of
 /// the wheels of one drive errs alike: thirty drives tell a share to some four points.
 const LEAST: f64 = 0.88;
+/// Where wheels are looked at, and how many friction angles are marked as identifiable there at least: on slopes one wheel tells its soil, on
+/// the level hardly ever.
+const MARKED: [(Scenario, u32); 4] =
+    [(Scenario::Level, 0), (Scenario::Spread, 10), (Scenario::Slope, 300), (Scenario::Hills, 20)];
 
 /// How often something was so.
 #[derive(Debug, Default, Clone, Copy)]
@@ -64,7 +68,7 @@ fn within(scenario: Scenario) -> [Share; 3] {
 
 #[test]
 fn one_wheel_states_what_it_can_tell_of_the_friction_angle() {
-    for scenario in [Scenario::Level, Scenario::Spread, Scenario::Slope, Scenario::Hills] {
+    for (scenario, told) in MARKED {
         let [all, identifiable, marked] = within(scenario);
         println!("{scenario:?}: {:.3} of {} friction angles within two standard deviations", all.value(), all.of);
         println!(
@@ -75,6 +79,7 @@ fn one_wheel_states_what_it_can_tell_of_the_friction_angle() {
         );
         assert!(all.of > 500, "{scenario:?}: {all:?}");
         assert!(all.value() >= LEAST, "{scenario:?}: {all:?}");
-        assert!(identifiable.of < 30 || identifiable.value() >= LEAST, "{scenario:?}: {identifiable:?}");
+        assert!(identifiable.of >= told, "{scenario:?}: {identifiable:?}");
+        assert!(identifiable.of < 20 || identifiable.value() >= LEAST, "{scenario:?}: {identifiable:?}");
     }
 }
