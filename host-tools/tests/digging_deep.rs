@@ -9,6 +9,11 @@ use kapvik_host::trial::{Quantity, errors_over};
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8200..8220;
 
+/// What is looked at, and the most that it may err by over the raw sensors: a third above what is found. On the level, where all slips are
+/// alike, the accelerometer tells the pulls of all wheels as well as any filter.
+const MOST: [(Quantity, f64); 3] =
+    [(Quantity::ContactAngle, 1.0), (Quantity::FrontPull, 1.2), (Quantity::BogiePull, 1.4)];
+
 /// The least shares of contact angles and of pulls within two standard deviations.
 const LEAST: [(Scenario, [f64; 2]); 2] = [(Scenario::Level, [0.7, 0.8]), (Scenario::Spread, [0.8, 0.8])];
 
@@ -22,13 +27,13 @@ fn errors(scenario: Scenario) -> Errors {
 fn wheels_that_dig_deep_are_not_taken_for_terrain() {
     for (scenario, [of_angles, of_pulls]) in LEAST {
         let errors = errors(scenario);
-        for (quantity, least) in
-            [(Quantity::ContactAngle, of_angles), (Quantity::FrontPull, of_pulls), (Quantity::BogiePull, of_pulls)]
-        {
+        for (quantity, most) in MOST {
+            let least = if quantity == Quantity::ContactAngle { of_angles } else { of_pulls };
             let tally = errors.of(quantity);
             let (ratio, [one, two]) = (tally.over_naive(), tally.coverage());
             let what = format!("{scenario:?}, {quantity:?}");
             println!("{what}: {:.4}, {ratio:.3} of the raw sensors', {one:.3} {two:.3} within", tally.rmse());
+            assert!(ratio <= most, "{what}: {ratio} of the raw sensors'");
             assert!(two >= least, "{what}: {two} within two standard deviations");
             assert!(one <= 0.82, "{what}: stated too wide, {one}");
         }

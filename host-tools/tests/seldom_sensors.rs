@@ -43,15 +43,24 @@ const LEAST: f64 = 0.85;
 /// Without a sensor for good errors are what they are, but so many must be within two standard deviations.
 const LEAST_WITHOUT: f64 = 0.8;
 
-/// Prints errors with some readings and with all. So many must be within two standard deviations, and they may grow to so many times those
-/// with all.
-fn compare(what: &str, with: &Errors, without: &Errors, least: f64, times: f64) {
-    for quantity in [Quantity::Slip, Quantity::Torque, Quantity::ContactAngle, Quantity::Load, Quantity::FrontPull] {
+/// What is compared, and the most that it errs by without whichever sensor: SI units, a third above what is found.
+const MOST_WITHOUT: [(Quantity, f64); 5] = [
+    (Quantity::Slip, 0.25),
+    (Quantity::Torque, 2.0),
+    (Quantity::ContactAngle, 0.07),
+    (Quantity::Load, 1.1),
+    (Quantity::FrontPull, 7.5),
+];
+
+/// Prints errors with some readings and with all. So many must be within two standard deviations, and they may grow to what is allowed, of a
+/// quantity's [`MOST_WITHOUT`] and what it errs by with all.
+fn compare(what: &str, with: &Errors, without: &Errors, least: f64, allowed: impl Fn(f64, f64) -> f64) {
+    for (quantity, most) in MOST_WITHOUT {
         let (tally, whole) = (with.of(quantity), without.of(quantity));
         let [one, two] = tally.coverage();
         println!("{what}, {quantity:?}: {:.4}, {:.4} with all; {one:.3} {two:.3} within", tally.rmse(), whole.rmse());
         assert!(two >= least, "{what}, {quantity:?}: {two} within two standard deviations");
-        assert!(tally.rmse() <= times * whole.rmse(), "{what}, {quantity:?}: {}", tally.rmse());
+        assert!(tally.rmse() <= allowed(most, whole.rmse()), "{what}, {quantity:?}: {}", tally.rmse());
     }
 }
 
@@ -62,7 +71,7 @@ fn sensors_that_speak_in_one_frame_of_five_are_heard() {
         for columns in ["load_cell_*", "velocity_*", "motor_torque_*", "wheel_rate_*", "bogie_angle_*", "gyro_*"] {
             let faults = Fault::silent_but_one_in(5, columns, LONGEST_S).expect("faults");
             let what = format!("{scenario:?}, {columns} in one frame of five");
-            compare(&what, &errors(scenario, &faults), &whole, LEAST, TIMES);
+            compare(&what, &errors(scenario, &faults), &whole, LEAST, |_, of_all| TIMES * of_all);
         }
     }
 }
@@ -78,7 +87,7 @@ fn sensors_that_are_silent_for_good_are_missed_honestly() {
         {
             let fault = Fault::new(Failure::Dropout, columns, (0.0, LONGEST_S)).expect("a fault");
             let what = format!("{scenario:?}, never {columns}");
-            compare(&what, &errors(scenario, &[fault]), &whole, LEAST_WITHOUT, f64::INFINITY);
+            compare(&what, &errors(scenario, &[fault]), &whole, LEAST_WITHOUT, |most, _| most);
         }
     }
 }
