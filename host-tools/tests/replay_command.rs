@@ -3,6 +3,8 @@
 
 mod kapvik;
 mod refused;
+mod self_contained;
+mod told;
 
 use std::fs;
 use std::path::PathBuf;
@@ -17,6 +19,8 @@ use kapvik_host::data::sensor_channels::names;
 use kapvik_host::replay::EstimateWriter;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
 use refused::refused;
+use self_contained::{is_a_picture, is_self_contained};
+use told::told;
 
 /// A folder with a file of frames of a level drive.
 struct Case {
@@ -85,8 +89,7 @@ fn row(time_s: &str, field: &str, column: usize) -> String {
 #[test]
 fn frames_become_estimates_row_by_row() {
     let case = Case::with(None);
-    let assert = case.command("replay").args(["frames.csv", "-o", "out.csv"]).assert().success();
-    let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+    let told = told(case.command("replay").args(["frames.csv", "-o", "out.csv"]));
     assert!(told.contains("61 frames, 6.0 s") && told.contains("times real time"), "{told}");
     let mut pipeline = Pipeline::new(&Rover::assumed()).expect("the assumed rover can be");
     let mut expected = Vec::new();
@@ -117,8 +120,7 @@ fn columns_of_no_sensor_are_named_once() {
     assert!(text.starts_with("t_s,wheel_rate_fl_rad_s,"));
     fs::write(case.path("frames.csv"), text.replacen("wheel_rate_fl_rad_s", "battery_v", 1)).expect("written");
     for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
-        let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().success();
-        let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+        let told = told(case.command(subcommand).args(["frames.csv", output, "out"]));
         assert_eq!(told.matches("columns that name no sensor, and are not used: battery_v\n").count(), 1, "{told}");
     }
 }
@@ -140,8 +142,7 @@ fn load_cells_that_do_not_bear_the_mass_are_told_of() {
         fs::write(case.path("rover.toml"), format!("mass_kg = {mass}\n")).expect("written");
         for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
             let arguments = ["frames.csv", output, "out", "--rover", "rover.toml"];
-            let assert = case.command(subcommand).args(arguments).assert().success();
-            let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+            let told = told(case.command(subcommand).args(arguments));
             let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
             assert_eq!(told.contains("mass, gravity or the cells' zero is off"), is_off, "{told}");
         }
@@ -157,8 +158,7 @@ fn sensors_that_are_noisier_than_stated_are_told_of() {
         fs::write(case.path("rover.toml"), format!("[noise]\nmotor_torque_nm = {noise}\n")).expect("written");
         for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
             let arguments = ["frames.csv", output, "out", "--rover", "rover.toml"];
-            let assert = case.command(subcommand).args(arguments).assert().success();
-            let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+            let told = told(case.command(subcommand).args(arguments));
             let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
             assert_eq!(told.contains("motor_torque_nm scatters by 0.0"), is_more, "{subcommand}: {told}");
             assert_eq!(told.contains("scatters"), is_more, "{subcommand}: {told}");
@@ -184,8 +184,7 @@ fn a_sensor_in_other_units_is_told_of() {
     };
     fs::write(case.path("frames.csv"), text.lines().map(in_degrees).collect::<String>()).expect("written");
     for (subcommand, output) in [("replay", "-o"), ("run", "--report")] {
-        let assert = case.command(subcommand).args(["frames.csv", output, "out"]).assert().success();
-        let told = String::from_utf8(assert.get_output().stdout.clone()).expect("text");
+        let told = told(case.command(subcommand).args(["frames.csv", output, "out"]));
         let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
         for words in [
             "bogie_angle_l_rad says more than a rover can do in nearly all readings",
@@ -262,7 +261,7 @@ fn a_truth_that_says_nothing_of_the_frames_is_told() {
     truth("t_s\n0\n0.1\n");
     refused(&mut run(), &["frames.truth.csv:1:1: no column of a truth"]);
     truth("t_s,slip_fl\n0.05,0.1\n0.15,0.1\n");
-    let told = String::from_utf8(run().assert().success().get_output().stdout.clone()).expect("text");
+    let told = told(&mut run());
     assert!(told.contains("has no row at the time of any of them"), "{told}");
 }
 
@@ -279,7 +278,7 @@ fn errors_do_not_hang_on_the_clock() {
     let errors = || {
         let mut command = kapvik();
         command.args(["run", "--on", "host"]).arg(&drive).arg("--report").arg(folder.path().join("out.html"));
-        let told = String::from_utf8(command.assert().success().get_output().stdout.clone()).expect("text");
+        let told = told(&mut command);
         let (_, table) = told.split_once("estimates against the truth").expect("a table of errors");
         table.split("raw sensors:").next().expect("the table").to_owned()
     };
@@ -312,17 +311,13 @@ fn the_report_of_a_recording_needs_nothing_else() {
     };
     let html = report("one.html");
     assert!(html == report("two.html"), "a run repeats itself to the bit");
-    for outside in ["http://", "https://", "<script", "<link", "@import", "url("] {
-        assert!(!html.contains(outside), "{outside} reaches outside the file");
-    }
+    is_self_contained(&html);
     for words in
         ["frames.csv", "recorded sensor frames", "rover assumed (set K0)", "Drawbar pull", "What to keep in mind"]
     {
         assert!(html.contains(words), "{words} is missing");
     }
-    assert!(!html.contains("NaN") && !html.contains("inf\""));
-    let svg = fs::read_to_string(case.path("picture.svg")).expect("written");
-    assert!(svg.starts_with("<svg xmlns") && svg.matches("<svg").count() == 1);
+    is_a_picture(&fs::read_to_string(case.path("picture.svg")).expect("written"));
 }
 
 #[test]
@@ -330,8 +325,7 @@ fn the_table_that_is_frozen_in_flies_at_once_and_a_damaged_one_not_at_all() {
     let case = Case::with(None);
     let table = concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/weights/kapvik.table");
     case.command("replay").args(["frames.csv", "-o", "plain.csv"]).assert().success();
-    let flown = case.command("replay").args(["frames.csv", "-o", "out.csv", "--weights", table]).assert().success();
-    let said = String::from_utf8_lossy(&flown.get_output().stdout).into_owned();
+    let said = told(case.command("replay").args(["frames.csv", "-o", "out.csv", "--weights", table]));
     assert!(said.contains("kapvik.table, trained with none: equations 1-11"), "{said}");
     assert_eq!(
         fs::read(case.path("out.csv")).expect("estimates"),

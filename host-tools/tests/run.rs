@@ -1,15 +1,18 @@
 //! `run --measured`, on the figures that the project carries, with the flight library in this process.
 
 mod kapvik;
+mod self_contained;
+mod told;
 
 use std::path::Path;
 
-use assert_cmd::assert::OutputAssertExt;
 use kapvik::kapvik;
 use kapvik_host::data::campaign::{Campaign, Provenance};
 use kapvik_host::flight_computer::Computer;
 use kapvik_host::prior;
 use kapvik_host::report::{Findings, ModelCheck, RowKind, page, picture};
+use self_contained::{is_a_picture, is_self_contained};
+use told::told;
 
 fn carried() -> Campaign {
     Campaign::carried().expect("the project's own figures")
@@ -46,8 +49,7 @@ fn a_run_on_the_host_repeats_itself_to_the_bit() {
         let (report, picture) = (folder.path().join("report.html"), folder.path().join("picture.svg"));
         let mut command = kapvik();
         command.args(["run", "--measured", "--on", "host", "--report"]).arg(&report).arg("--picture").arg(&picture);
-        let output = command.assert().success().get_output().stdout.clone();
-        let text = String::from_utf8(output).expect("text");
+        let text = told(&mut command);
         let lines: Vec<&str> =
             text.lines().filter(|line| !line.starts_with("report:") && !line.starts_with("picture:")).collect();
         let read = |path| std::fs::read_to_string(path).expect("written");
@@ -69,17 +71,31 @@ fn the_report_needs_nothing_else_and_hides_nothing() {
     let told = alone.filter(|row| row.estimate.expect("an estimate").cohesion_pa.identifiable).count();
     assert_eq!(told, 0, "one wheel at one load cannot tell cohesion");
     let html = page(&findings);
-    for outside in ["http://", "https://", "<script", "<link", "@import", "url("] {
-        assert!(!html.contains(outside), "{outside} reaches outside the file");
-    }
+    is_self_contained(&html);
     for words in
         ["digitised", "cannot be told from these data", "direct tests", "Every state has one load", "MIT licence"]
     {
         assert!(html.contains(words), "{words} is missing");
     }
-    assert!(!html.contains("NaN") && !html.contains("inf\""));
-    let svg = picture(&findings).expect("a picture");
-    assert!(svg.starts_with("<svg xmlns") && svg.matches("<svg").count() == 1);
+    is_a_picture(&picture(&findings).expect("a picture"));
+}
+
+/// The main job without a file: the drive that the project carries, and the picture of it that the project shows.
+#[test]
+fn the_carried_drive_is_reported_as_the_project_shows_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (report, picture) = (folder.path().join("report.html"), folder.path().join("picture.svg"));
+    let mut command = kapvik();
+    command.args(["run", "--on", "host", "--report"]).arg(&report).arg("--picture").arg(&picture);
+    let told = told(&mut command);
+    for words in ["a simulated drive", "soil at the end: c", "estimates against the truth", "self-test at boot: passed"]
+    {
+        assert!(told.contains(words), "{words} in\n{told}");
+    }
+    let read = |path| std::fs::read_to_string(path).expect("written");
+    is_self_contained(&read(report));
+    let command = "cargo kapvik run --on host --picture host-tools/pictures/traverse.svg";
+    assert!(read(picture) == include_str!("../pictures/traverse.svg"), "the picture is out of date; type: {command}");
 }
 
 #[test]

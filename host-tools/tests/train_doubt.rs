@@ -1,11 +1,12 @@
 //! `kapvik train-doubt` with a drive of each kind: the source is written whole, and the same command writes the same bytes.
 
 mod kapvik;
+mod told;
 
 use std::fs;
 
-use assert_cmd::assert::OutputAssertExt;
 use kapvik::kapvik;
+use told::told;
 
 #[test]
 fn the_same_command_writes_the_same_source() {
@@ -13,8 +14,7 @@ fn the_same_command_writes_the_same_source() {
     let sources = ["one.rs", "other.rs"].map(|name| {
         let path = folder.path().join(name);
         let mut command = kapvik();
-        let command = command.args(["train-doubt", "--seed", "31", "--drives", "1", "--output"]).arg(&path);
-        let printed = String::from_utf8(command.assert().success().get_output().stdout.clone()).expect("text");
+        let printed = told(command.args(["train-doubt", "--seed", "31", "--drives", "1", "--output"]).arg(&path));
         assert!(["Dropout", "bogie's pull", "within 2σ"].iter().all(|words| printed.contains(words)), "{printed}");
         fs::read_to_string(path).expect("the source")
     });
