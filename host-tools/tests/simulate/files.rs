@@ -202,6 +202,30 @@ proptest! {
 }
 
 #[test]
+fn the_columns_of_the_truth_are_those_that_were_agreed() {
+    let mut text = Vec::new();
+    truth_file::write_header(&mut text).expect("written");
+    let text = String::from_utf8(text).expect("text");
+    let header: Vec<&str> = text.trim_end().split(',').collect();
+    for name in [
+        "t_s",
+        "slip_fl",
+        "resistive_torque_ml_nm",
+        "contact_angle_rl_rad",
+        "normal_load_fr_n",
+        "drawbar_pull_mr_n",
+        "sinkage_rr_m",
+        "cohesion_pa",
+        "friction_angle_rad",
+        "shear_modulus_m",
+    ] {
+        assert_eq!(header.iter().filter(|column| **column == name).count(), 1, "{name}");
+    }
+    // The time; of each wheel seven quantities and the five of its soil; the soil, and where the body is.
+    assert_eq!(header.len(), 1 + 6 * (7 + 5) + 5 + 4);
+}
+
+#[test]
 fn truths_come_back() {
     let rows = drive(Scenario::Traverse, 2, &Options { duration_s: Some(5.0), ..Options::default() });
     let mut text = Vec::new();
