@@ -1,7 +1,10 @@
 //! What a campaign may and may not say: each mistake is told by file, line and column.
 
+mod columns;
+
 use std::path::Path;
 
+use columns::COLUMNS;
 use kapvik_host::data::campaign::{Campaign, Channel, Knowledge, Provenance};
 
 const CSV: &str = "\
@@ -193,7 +196,7 @@ fn a_gross_error_is_told_from_other_units() {
     let row = |pull: &str| format!("a,0,0.2,80.0,{pull},4.2,0.006\n");
     let table = |pulls: &[&str]| {
         let rows: String = pulls.iter().map(|pull| row(pull)).collect();
-        format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}")
+        format!("{COLUMNS}\n{rows}")
     };
     let toml = TOML.replace("camera_c = 0.1\n", "");
     // A locked wheel feels twice its load; no wheel feels a meganewton.
@@ -241,7 +244,7 @@ fn rows_that_only_repeat_their_sensors_are_left_out() {
     let logged = |times: usize| {
         let row = |place: usize| format!("a,{place},{}\n", readings[place / times]);
         let rows: String = (0..readings.len() * times).map(row).collect();
-        parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN).expect("a campaign")
+        parse(&format!("{COLUMNS}\n{rows}"), PLAIN).expect("a campaign")
     };
     let [once, often] = [logged(1), logged(10)];
     assert!(once.remarks().is_empty());
@@ -255,7 +258,7 @@ fn rows_that_only_repeat_their_sensors_are_left_out() {
 fn a_wheel_that_repeats_itself_beside_another_is_left_out() {
     let wheels = ["0.2,80.0,11.0,4.2,0.006", "0.3,81.0,11.5,4.3,0.006"];
     let rows: String = (0..40).map(|row| format!("a,{},{}\n", row / 2, wheels[row % 2])).collect();
-    let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
+    let campaign = parse(&format!("{COLUMNS}\n{rows}"), PLAIN);
     assert_eq!(campaign.expect("a campaign").rows().len(), 2);
 }
 
@@ -265,7 +268,7 @@ fn wheels_of_one_instant_that_are_alike_stay() {
     let wheels = ["0.2,80.0,11.0,4.2,0.006", "0.3,81.0,11.5,4.3,0.006", "0.4,79.0,11.8,4.4,0.007"];
     for order in [[0, 0, 1, 1, 2, 2], [0, 1, 2, 0, 1, 2]] {
         let rows: String = order.iter().map(|wheel| format!("a,0,{}\n", wheels[*wheel])).collect();
-        let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
+        let campaign = parse(&format!("{COLUMNS}\n{rows}"), PLAIN);
         let campaign = campaign.expect("a campaign");
         assert_eq!((campaign.rows().len(), campaign.remarks()), (6, vec![]));
     }
@@ -305,7 +308,7 @@ fn a_run_that_says_what_another_says_is_its_copy() {
         (0..count).map(|row| format!("{name},{},{}\n", begins + row, readings[row])).collect()
     };
     let rows = [run("a", 0, 3), run("b", 50, 3), run("c", 0, 2), run("d", 0, 2)].concat();
-    let campaign = parse(&format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}"), PLAIN);
+    let campaign = parse(&format!("{COLUMNS}\n{rows}"), PLAIN);
     let copies = [vec![false; 3], vec![true; 3], vec![false; 4]].concat();
     let campaign = campaign.expect("a campaign");
     assert_eq!(campaign.copies(), copies, "ten numbers: chance");

@@ -1,6 +1,7 @@
 //! `kapvik diagnose` on campaigns that are broken, or that say little: one line that names the place and nothing left behind;
 //! or a diagnosis that states its limits, and finds no effect where none is.
 
+mod columns;
 mod kapvik;
 mod refused;
 
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use assert_cmd::assert::OutputAssertExt;
+use columns::COLUMNS;
 use kapvik::kapvik;
 use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
 use rand::SeedableRng;
@@ -35,8 +37,6 @@ drawbar_pull_n = 0.4
 torque_nm = 0.04
 sinkage_m = 0.0005
 ";
-
-const HEADER: &str = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n";
 
 /// One wheel state, made by the equations alone: nothing is undeclared.
 #[derive(Clone, Copy)]
@@ -67,7 +67,7 @@ fn csv(states: &[State], run: impl Fn(usize) -> String) -> String {
         let normal: f64 = StandardNormal.sample(&mut random);
         value + std * normal
     };
-    let mut csv = HEADER.to_owned();
+    let mut csv = format!("{COLUMNS}\n");
     for (row, State { slip, load_n }) in states.iter().enumerate() {
         let sinkage = sinkage_for_load(&wheel, &soil(), *slip, *load_n).expect("the soil carries it");
         let forces = wheel_forces(&wheel, &soil(), *slip, sinkage).expect("forces");
@@ -193,7 +193,7 @@ fn text_in_place_of_a_number_is_refused_where_it_stands() {
     let lines: Vec<&str> = csv.lines().collect();
     let broken = [&lines[..3], &["r99,0,0.1,sixty,1,1,0.01"], &lines[3..]].concat().join("\n");
     Case::new(&broken).is_refused(&["made.csv:4:4", "sixty"]);
-    Case::new(HEADER).is_refused(&["made.csv:1:", "no rows"]);
+    Case::new(&format!("{COLUMNS}\n")).is_refused(&["made.csv:1:", "no rows"]);
 }
 
 #[test]

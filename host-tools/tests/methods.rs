@@ -11,7 +11,7 @@ use kapvik_host::identify::{Method, identify_by};
 use kapvik_host::parameter::Parameter;
 use kapvik_host::report::identified;
 use serde_json::Value;
-use support::{Made, TOML};
+use support::{COLUMNS, Made, TOML};
 
 /// The methods that the flight computer's link does not answer for.
 fn methods() -> impl Iterator<Item = Method> {
@@ -50,12 +50,11 @@ fn every_method_answers_in_the_agreed_shape() {
 
 #[test]
 fn a_method_names_the_column_that_it_lacks() {
-    let header = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m";
     let row = ["a", "0", "0.1", "65", "1.5", "1.3", "0.018"];
     for method in methods() {
         for needed in method.needs() {
             let kept = |(name, _): &(&str, &str)| *name != needed.name();
-            let columns: Vec<_> = header.split(',').zip(row).filter(kept).collect();
+            let columns: Vec<_> = COLUMNS.split(',').zip(row).filter(kept).collect();
             let line = |cells: Vec<&str>| cells.join(",");
             let csv = format!(
                 "{}\n{}\n",
@@ -71,7 +70,7 @@ fn a_method_names_the_column_that_it_lacks() {
 
 #[test]
 fn what_cannot_be_answered_is_refused_for_a_reason() {
-    let one_wheel = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\na,0,0.2,65,2.1,1.6,0.018\n";
+    let one_wheel = &format!("{COLUMNS}\na,0,0.2,65,2.1,1.6,0.018\n");
     for (method, reason) in [
         (Method::Ding, "too few observations"),
         (Method::Iagnemma, "too few observations"),
@@ -87,8 +86,8 @@ fn what_cannot_be_answered_is_refused_for_a_reason() {
         assert!(document["runs"][0]["refused"].is_null(), "{}", method.name());
         assert_eq!(document["runs"][0]["cohesion_pa"]["identifiable"], false, "{}", method.name());
     }
-    let braking = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\na,0,-0.2,65,-9,-1.0,0.02\n\
-                   a,0,-0.3,60,-9,-1.1,0.02\na,0,-0.4,70,-10,-1.2,0.02\n";
+    let braking =
+        &format!("{COLUMNS}\na,0,-0.2,65,-9,-1.0,0.02\na,0,-0.3,60,-9,-1.1,0.02\na,0,-0.4,70,-10,-1.2,0.02\n");
     for method in [Method::Ding, Method::Iagnemma, Method::Hutangkabodee] {
         let document = document(method, braking, TOML).expect("a document");
         assert!(document["runs"][0]["refused"].is_string(), "{}: equations of a driven wheel", method.name());
@@ -112,7 +111,7 @@ fn a_value_that_the_file_states_is_believed() {
 /// Slip, load and torque that no soil has, beside their sinkage: least squares answer all the same.
 #[test]
 fn an_answer_that_is_no_soil_tells_nothing_and_says_so() {
-    let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n".to_owned();
+    let mut csv = format!("{COLUMNS}\n");
     for (slip, load, torque) in [(0.2, 40.0, 0.2), (0.3, 60.0, 1.6), (0.4, 80.0, 3.6), (0.5, 100.0, 5.5)] {
         csv += &format!("a,0,{slip},{load},2.1,{torque},0.018\n");
     }

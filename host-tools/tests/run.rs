@@ -1,11 +1,13 @@
 //! `run --measured`, on the figures that the project carries, with the flight library in this process.
 
+mod columns;
 mod kapvik;
 mod self_contained;
 mod told;
 
 use std::path::Path;
 
+use columns::COLUMNS;
 use kapvik::kapvik;
 use kapvik_host::data::campaign::{Campaign, Provenance};
 use kapvik_host::flight_computer::Computer;
@@ -32,7 +34,7 @@ fn a_gross_error_is_no_residual() {
     let toml = "name = \"T\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.075\nwidth_m = 0.07\n";
     let rows = "a,0,0.2,65,5,1.8,0.012\na,1,0.3,65,8,2.1,0.013\n";
     let parse = |rows: &str| {
-        let csv = format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n{rows}");
+        let csv = format!("{COLUMNS}\n{rows}");
         Campaign::parse(Path::new("t.csv"), &csv, toml).expect("a campaign")
     };
     let soil = prior::soil([800.0, 0.55, 0.0114, 1.0, 1.0e6, 0.3, 0.15]);

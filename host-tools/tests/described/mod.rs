@@ -1,9 +1,11 @@
 //! Simulated campaigns of Kapvik's wheel as text.
 
+#[path = "../columns/mod.rs"]
+mod columns;
+
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
 
-/// Columns that every such campaign has; those from the slip on are of [`readings`].
-pub const COLUMNS: &str = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m";
+pub use columns::COLUMNS;
 
 /// The description, with what else is known, in tables of TOML, and the noise where it is stated.
 pub fn description(name: &str, tables: &str, noise: Option<&WheelNoise<f64>>) -> String {
@@ -20,7 +22,7 @@ pub fn description(name: &str, tables: &str, noise: Option<&WheelNoise<f64>>) ->
     )
 }
 
-/// What is read of a state whose sinkage is seen.
+/// What is read of a state whose sinkage is seen: [`COLUMNS`] from the slip on.
 pub fn readings(state: &WheelState<f64>) -> String {
     let WheelState { slip, load_n, drawbar_pull_n, torque_nm, sinkage_m } = state;
     let sinkage_m = sinkage_m.expect("simulated");

@@ -1,5 +1,8 @@
 //! Campaigns made by the equations.
 
+#[path = "../columns/mod.rs"]
+mod columns;
+
 use std::fmt::Write;
 
 use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
@@ -7,6 +10,8 @@ use kapvik_host::prior::KAPVIK_WHEEL;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+
+pub use columns::COLUMNS;
 
 /// The description of a made campaign: the rover's wheel and the noise of its sensors.
 pub const TOML: &str = "\
@@ -62,7 +67,7 @@ impl Made {
             let normal: f64 = StandardNormal.sample(&mut random);
             if self.noisy { value + std * normal } else { value }
         };
-        let mut csv = "run,t_s,slip,load_n,drawbar_pull_n,torque_nm,sinkage_m\n".to_owned();
+        let mut csv = format!("{COLUMNS}\n");
         for (run, instants) in &self.runs {
             for (instant, place) in (0..*instants).flat_map(|instant| (0..6).map(move |place| (instant, place))) {
                 let (slip, load) = (0.05 + 0.11 * f64::from(place), 60.0 + 2.0 * f64::from(place));
