@@ -243,14 +243,18 @@ mod tests {
         assert_eq!(parts("latency"), [("latency", None)]);
         assert_eq!([parts("slip-sinking"), parts("slip-sinkage.n2"), parts("lateral-slip")], [const { Vec::new() }; 3]);
         for info in CATALOGUE {
-            let mut effects = RoverEffects::default();
+            let mut before = RoverEffects::default();
+            for parameter in info.parameters {
+                before.library.set(info.id, parameter.name, 0.123);
+            }
+            let mut effects = before;
             if OWN.iter().any(|own| own.id == info.id) || effects.set(info.id, 0.1).is_err() {
                 continue;
             }
-            let (none, parts) = (Effects::none(), parts(info.id));
-            let get = |effects: &Effects<f64>, name: &'static str| effects.get(info.id, name);
+            let value = |effects: &RoverEffects, name: &str| effects.library.get(info.id, name);
+            let parts = parts(info.id);
             for name in info.parameters.iter().map(|parameter| parameter.name) {
-                let is_set = get(&effects.library, name) != get(&none, name);
+                let is_set = value(&effects, name) != value(&before, name);
                 assert!(!is_set || parts.contains(&(info.id, Some(name))), "{}.{name}: {parts:?}", info.id);
             }
         }
