@@ -102,7 +102,7 @@ impl Measurements {
                 let readings = by_place[&place].readings;
                 of_run.push(found.rows.len());
                 found.places.push(place);
-                found.conditions.push(conditions(campaign, place));
+                found.conditions.push(campaign.conditions(place));
                 found.rows.push(Row { run: found.runs.len(), readings, noise: noise.map(|noise| noise.std) });
             }
             found.runs.push((*name).to_owned());
@@ -223,22 +223,6 @@ fn check_columns(campaign: &Campaign) -> Result<(), HostError> {
         );
     }
     Ok(())
-}
-
-fn conditions(campaign: &Campaign, row: usize) -> Conditions<f64> {
-    let value = |channel| campaign.value(row, channel);
-    Conditions {
-        pass: value(Channel::Pass),
-        temperature_c: value(Channel::Temperature),
-        hours_since_zero: value(Channel::HoursSinceZero),
-        speed_m_s: value(Channel::Speed),
-        wheel_rate_rad_s: value(Channel::WheelRate),
-        wheel_angle_rad: value(Channel::WheelAngle),
-        travel_m: value(Channel::Travel),
-        pitch_rad: value(Channel::Pitch),
-        slip_angle_rad: value(Channel::SlipAngle),
-        felt_slip: None,
-    }
 }
 
 #[cfg(test)]
