@@ -6,6 +6,7 @@ use kapvik_firmware::terramechanics::Soil;
 
 use crate::data::soil_file::SoilTable;
 use crate::error::HostError;
+use crate::printable::on_one_line;
 use crate::soil_catalogue::{Completion, catalogue};
 
 /// A soil by its name in the catalogue, or from a file.
@@ -16,11 +17,15 @@ pub fn soil(name: &str) -> Result<Soil<f64>, HostError> {
     let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
     match soils.iter().find(|soil| soil.id == name) {
         Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {
-            HostError::Failed(format!("{name}: its source leaves open what the equations need: {missing}"))
+            HostError::Failed(format!(
+                "{}: its source leaves open what the equations need: {missing}",
+                on_one_line(name)
+            ))
         }),
         None if name.ends_with(".toml") => SoilTable::read_complete(Path::new(name)),
         None => Err(HostError::Failed(format!(
-            "{name}: expected a file S.toml, or a soil of the catalogue: {}",
+            "{}: expected a file S.toml, or a soil of the catalogue: {}",
+            on_one_line(name),
             soils.iter().map(|soil| soil.id.as_str()).collect::<Vec<_>>().join(", ")
         ))),
     }
