@@ -46,7 +46,8 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
     let model = selected.model();
     let found = selected.found.iter();
     let ends = found.clone().flat_map(|found| at_an_end(model, found.winner.id()));
-    let first = selected.found.first().filter(|first| !first.also_near.is_empty());
+    let untold_by_verdict =
+        found.clone().enumerate().filter(|(place, found)| *place > 0 || !found.also_near.is_empty());
     let noted = campaign.notes.iter().cloned().chain(campaign.remarks());
     noted
         .chain(of_data(campaign, measurements).into_iter().flatten())
@@ -54,7 +55,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
         .chain(only_sinkage(measurements, model))
         .chain(off_by_run(measurements, selected))
         .chain(ends)
-        .chain(first.and_then(left_open))
+        .chain(untold_by_verdict.filter_map(|(_, found)| left_open(found)))
         .chain(found.filter_map(|found| form_left_open(&found.winner)))
         .chain(untold(selected))
         .chain(selected.left.iter().filter_map(says_the_same))
@@ -157,7 +158,7 @@ fn at_an_end(trial: &Trial<'_>, id: &str) -> Vec<String> {
     said.collect()
 }
 
-/// What is said of an effect that more others are not told from than the verdict names.
+/// What is said of an effect that others are not told from; of the first the verdict itself names the likeliest of them.
 fn left_open(found: &FoundStep<'_>) -> Option<String> {
     let others = found.not_told_from();
     (!others.is_empty())
