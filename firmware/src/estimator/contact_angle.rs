@@ -252,7 +252,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.roughness.restart();
     }
 
-    /// How often it was in trouble.
+    /// How often the filter was in trouble.
     pub fn troubles(&self) -> Troubles {
         Troubles { resets: self.filter.resets(), relearned: self.watch.relearned() }
     }

@@ -125,9 +125,8 @@ fn runner_up(selected: &Selected<'_>) -> Option<RunnerUp> {
     Some(RunnerUp { id: next.id().to_owned(), form, gain_per_row: next.held_out.per_row })
 }
 
-/// Dependences on columns, and of the channels that show none, what is left of them.
-/// Structure that is left beyond chance. Where nothing was found and errors are beyond noise, so that something is missing in any case, also
-/// the column that comes nearest, if chance does not do that easily.
+/// Dependences on columns, and of the channels that show none, what is left of them. Where that is nothing, no effect was found, and errors
+/// are beyond noise, so that something is missing in any case, the column that comes nearest, if chance does not do that easily.
 fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver], is_beyond_noise: bool) -> Vec<Unexplained> {
     let entry = |structure: &super::residual_search::Structure| Unexplained {
         channel: name(structure.channel),

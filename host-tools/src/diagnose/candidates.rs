@@ -2,7 +2,7 @@
 
 use kapvik_firmware::terramechanics::effects::{CATALOGUE, Column, Conditions, EffectInfo, Form};
 
-use crate::data::campaign::{Campaign, Channel};
+use crate::data::campaign::Campaign;
 use crate::statistics::ends;
 
 use super::fit::Reading;
@@ -75,27 +75,6 @@ fn has(campaign: &Campaign, measurements: &Measurements, column: Column) -> bool
         Column::Pitch => varies(|row| row.pitch_rad),
         Column::Grousers => campaign.grousers.count > 0,
     }
-}
-
-/// The channel of a campaign that a column is read from; none of what is a property of the wheel.
-pub fn read_from(column: Column) -> Option<Channel> {
-    Some(match column {
-        Column::DrawbarPull => Channel::DrawbarPull,
-        Column::Load => Channel::Load,
-        Column::Torque => Channel::Torque,
-        Column::Sinkage => Channel::Sinkage,
-        Column::SideForce => Channel::SideForce,
-        Column::SlipAngle => Channel::SlipAngle,
-        Column::WheelRate => Channel::WheelRate,
-        Column::Speed => Channel::Speed,
-        Column::WheelAngle => Channel::WheelAngle,
-        Column::Pass => Channel::Pass,
-        Column::Temperature => Channel::Temperature,
-        Column::HoursSinceZero => Channel::HoursSinceZero,
-        Column::Travel => Channel::Travel,
-        Column::Pitch => Channel::Pitch,
-        Column::Grousers => return None,
-    })
 }
 
 fn slides(conditions: &Conditions<f64>) -> bool {

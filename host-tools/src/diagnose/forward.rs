@@ -85,8 +85,10 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
             selected.found = vec![instead];
             continue;
         }
-        let tried = candidates(bench.campaign, bench.measurements, &selected.base.specification).len();
-        let is_beyond_chance = |both: &Pair<'_>| both.is_beyond_chance(&selected.base, tried);
+        let is_beyond_chance = |both: &Pair<'_>| {
+            let tried = candidates(bench.campaign, bench.measurements, &selected.base.specification).len();
+            both.is_beyond_chance(&selected.base, tried)
+        };
         if let Some(both) = together(&steps, &selected, &here, place).filter(is_beyond_chance) {
             // What was tried without any effect is what the first was found among, whichever it became.
             let step = selected.found.pop().map_or(here, |found| found.step);

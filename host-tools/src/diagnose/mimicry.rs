@@ -1,7 +1,6 @@
 //! Whether an effect only mimics a dependence that no physics stands behind.
 
 use super::bench::Bench;
-use super::candidates::read_from;
 use super::fit::Reading;
 use super::linearised::{AddedTerms, Linearised};
 use super::measurements::COLUMNS;
@@ -74,7 +73,7 @@ fn is_named_for(effect: &EffectForm, channel: Reading, columns: &[String]) -> bo
 
 /// Whether a form acts on a channel and follows a column there.
 fn follows(effect: &EffectForm, channel: Reading, column: &str) -> bool {
-    let needs = |channel: Channel| effect.form.needs.iter().any(|column| read_from(*column) == Some(channel));
+    let needs = |channel: Channel| effect.form.needs.iter().any(|column| Channel::read_from(*column) == Some(channel));
     let column = Channel::from_name(column);
     needs(COLUMNS[channel.index()]) && column.is_some_and(needs) && column != Some(Channel::WheelAngle)
 }

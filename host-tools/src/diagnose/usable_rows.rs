@@ -44,13 +44,6 @@ impl Reason {
     }
 }
 
-impl UsableRow {
-    /// Whether the wheel is braked or towed.
-    fn brakes(&self) -> bool {
-        brakes(&self.readings)
-    }
-}
-
 /// The rows that can be used, in the order of the campaign, and how many others are left out for what; those that stand alone are named.
 /// Rows that brake are used where that is asked for, and where no other is left.
 ///
@@ -62,10 +55,10 @@ pub fn usable_rows(
     lone: &[LoneRow],
 ) -> Result<(Vec<UsableRow>, Vec<LeftOut>), HostError> {
     let (mut usable, mut left_out) = sorted_out(campaign, lone);
-    let only_brake = usable.iter().all(UsableRow::brakes);
+    let only_brake = usable.iter().all(|row| brakes(&row.readings));
     if !braking && !only_brake {
         let all = usable.len();
-        usable.retain(|row| !row.brakes());
+        usable.retain(|row| !brakes(&row.readings));
         left_out.extend((usable.len() < all).then_some((Reason::Braking, all - usable.len())));
     }
     if usable.is_empty() {

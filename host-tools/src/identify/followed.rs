@@ -6,28 +6,25 @@ use crate::data::campaign::{Campaign, Channel, DeclaredEffect};
 
 /// The column that a form follows and that a wheel's state, with what is known beside it, does not have; none where it has all.
 pub fn lacking(conditions: &Conditions<f64>, form: &Form) -> Option<Channel> {
-    form.needs.iter().find_map(|column| unless_known(conditions, *column))
+    let lacked = form.needs.iter().find(|column| !is_known(conditions, **column));
+    lacked.and_then(|column| Channel::read_from(*column))
 }
 
-/// The channel of a column, where that is not known.
-fn unless_known(conditions: &Conditions<f64>, column: Column) -> Option<Channel> {
-    let rate = conditions.wheel_rate_rad_s.or(conditions.speed_m_s);
-    let (channel, value) = match column {
+fn is_known(conditions: &Conditions<f64>, column: Column) -> bool {
+    match column {
         // Every state has the forces that it is identified by, and what is not measured of it is told by these.
-        Column::DrawbarPull | Column::Load | Column::Torque | Column::Sinkage | Column::Grousers => return None,
+        Column::DrawbarPull | Column::Load | Column::Torque | Column::Sinkage | Column::Grousers => true,
         // No method of identification weighs it.
-        Column::SideForce => (Channel::SideForce, None),
-        Column::SlipAngle => (Channel::SlipAngle, conditions.slip_angle_rad),
-        Column::WheelRate => (Channel::WheelRate, rate),
-        Column::Speed => (Channel::Speed, rate),
-        Column::WheelAngle => (Channel::WheelAngle, conditions.wheel_angle_rad),
-        Column::Pass => (Channel::Pass, conditions.pass),
-        Column::Temperature => (Channel::Temperature, conditions.temperature_c),
-        Column::HoursSinceZero => (Channel::HoursSinceZero, conditions.hours_since_zero),
-        Column::Travel => (Channel::Travel, conditions.travel_m),
-        Column::Pitch => (Channel::Pitch, conditions.pitch_rad),
-    };
-    value.is_none().then_some(channel)
+        Column::SideForce => false,
+        Column::SlipAngle => conditions.slip_angle_rad.is_some(),
+        Column::WheelRate | Column::Speed => conditions.wheel_rate_rad_s.or(conditions.speed_m_s).is_some(),
+        Column::WheelAngle => conditions.wheel_angle_rad.is_some(),
+        Column::Pass => conditions.pass.is_some(),
+        Column::Temperature => conditions.temperature_c.is_some(),
+        Column::HoursSinceZero => conditions.hours_since_zero.is_some(),
+        Column::Travel => conditions.travel_m.is_some(),
+        Column::Pitch => conditions.pitch_rad.is_some(),
+    }
 }
 
 /// Means, each over those that have it. A law that bends says at the mean of what it follows not the mean of what it says; for one that is

@@ -158,23 +158,22 @@ fn set_references(effects: &mut Effects<f64>, id: &str, site: &Site, rows: &[Row
 }
 
 fn wants_of(column: Column) -> Wants {
-    let measured = |channel| Wants::columns(&[channel]);
+    let measured = Wants::columns(Channel::read_from(column).as_slice());
     match column {
-        Column::DrawbarPull => measured(Channel::DrawbarPull),
-        Column::Load => measured(Channel::Load),
-        Column::Torque => measured(Channel::Torque),
-        Column::Sinkage => measured(Channel::Sinkage),
-        Column::SideForce => measured(Channel::SideForce),
-        Column::SlipAngle => Wants { slip_angles: true, ..measured(Channel::SlipAngle) },
-        Column::WheelRate => Wants { speeds: true, ..measured(Channel::WheelRate) },
-        Column::Speed => Wants { speeds: true, ..measured(Channel::Speed) },
-        Column::WheelAngle => Wants { fast_rows: true, long_runs: true, ..measured(Channel::WheelAngle) },
-        Column::Pass => Wants { passes: true, ..measured(Channel::Pass) },
-        Column::Temperature => measured(Channel::Temperature),
-        Column::HoursSinceZero => measured(Channel::HoursSinceZero),
-        Column::Travel => Wants { long_runs: true, ..measured(Channel::Travel) },
-        Column::Pitch => Wants { pitches: true, ..measured(Channel::Pitch) },
-        Column::Grousers => Wants { grousers: true, ..Wants::default() },
+        Column::SlipAngle => Wants { slip_angles: true, ..measured },
+        Column::WheelRate | Column::Speed => Wants { speeds: true, ..measured },
+        Column::WheelAngle => Wants { fast_rows: true, long_runs: true, ..measured },
+        Column::Pass => Wants { passes: true, ..measured },
+        Column::Travel => Wants { long_runs: true, ..measured },
+        Column::Pitch => Wants { pitches: true, ..measured },
+        Column::Grousers => Wants { grousers: true, ..measured },
+        Column::DrawbarPull
+        | Column::Load
+        | Column::Torque
+        | Column::Sinkage
+        | Column::SideForce
+        | Column::Temperature
+        | Column::HoursSinceZero => measured,
     }
 }
 

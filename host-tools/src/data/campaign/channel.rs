@@ -1,5 +1,7 @@
 //! The columns that the format names.
 
+use kapvik_firmware::terramechanics::effects::Column;
+
 /// A column of a campaign that means one thing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Channel {
@@ -83,6 +85,27 @@ impl Channel {
     /// The channel of that column.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|channel| channel.name() == name)
+    }
+
+    /// The channel that a column of an effect's form is read from; none of what is a property of the wheel.
+    pub fn read_from(column: Column) -> Option<Self> {
+        Some(match column {
+            Column::DrawbarPull => Self::DrawbarPull,
+            Column::Load => Self::Load,
+            Column::Torque => Self::Torque,
+            Column::Sinkage => Self::Sinkage,
+            Column::SideForce => Self::SideForce,
+            Column::SlipAngle => Self::SlipAngle,
+            Column::WheelRate => Self::WheelRate,
+            Column::Speed => Self::Speed,
+            Column::WheelAngle => Self::WheelAngle,
+            Column::Pass => Self::Pass,
+            Column::Temperature => Self::Temperature,
+            Column::HoursSinceZero => Self::HoursSinceZero,
+            Column::Travel => Self::Travel,
+            Column::Pitch => Self::Pitch,
+            Column::Grousers => return None,
+        })
     }
 
     /// Refuses numbers that the channel cannot have; says what was expected.

@@ -30,7 +30,7 @@ pub struct Evidence {
     pub gravity_m_s2: f64,
     /// What was seen.
     pub observations: Vec<Observation<f64>>,
-    /// What else is known of each, which declared effects may follow; beyond its end nothing is.
+    /// What else is known of each, which declared effects may follow.
     pub conditions: Vec<Conditions<f64>>,
     /// What is believed of the soil.
     pub prior: SoilPrior<f64>,
@@ -74,9 +74,7 @@ impl Evidence {
 
     /// Whether any state has what a form of an effect follows.
     pub fn has(&self, form: &Form) -> bool {
-        let nothing = Conditions::default();
-        let of_states = self.conditions.iter().chain((self.conditions.is_empty()).then_some(&nothing));
-        of_states.into_iter().any(|conditions| lacking(conditions, form).is_none())
+        self.conditions.iter().any(|conditions| lacking(conditions, form).is_none())
     }
 
     /// The last states alone.
