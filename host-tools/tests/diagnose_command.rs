@@ -4,6 +4,8 @@
 mod columns;
 mod kapvik;
 mod refused;
+#[path = "columns/without.rs"]
+mod without;
 
 use std::fmt::Write;
 use std::fs;
@@ -19,6 +21,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use refused::refused;
 use serde_json::Value;
+use without::without;
 
 const TOML: &str = "\
 name = \"Made by the equations\"
@@ -128,16 +131,6 @@ impl Case {
         let text = fs::read_to_string(self.path("out.json")).expect("written");
         serde_json::from_str(&text).expect("JSON")
     }
-}
-
-/// The table without some columns.
-fn without(csv: &str, names: &[&str]) -> String {
-    let header: Vec<&str> = csv.lines().next().expect("a header").split(',').collect();
-    let kept = |line: &str| {
-        let fields = line.split(',').zip(&header).filter(|(_, name)| !names.contains(name));
-        fields.map(|(field, _)| field).collect::<Vec<_>>().join(",")
-    };
-    csv.lines().map(kept).collect::<Vec<_>>().join("\n") + "\n"
 }
 
 /// The table with one column's numbers changed.

@@ -14,7 +14,8 @@ use super::Refusal;
 pub struct Observation<S> {
     /// What was seen.
     pub state: WheelState<S>,
-    /// One standard deviation of each part of it.
+    /// One standard deviation of each part of it. That of a drawbar pull or a torque which was not measured is infinite, and the number in
+    /// the state then says nothing: [maximum a posteriori](super::map) alone does without.
     pub noise: WheelNoise<S>,
 }
 
@@ -29,6 +30,8 @@ pub(super) enum Weighed {
     AllButSinkage,
     /// The same, and that of the sinkage where there is one.
     All,
+    /// The same, but those of drawbar pull and torque where these were measured; one of both was.
+    AllMeasured,
 }
 
 /// Checks what every method needs: a wheel with a size, at least `needed` observations, finite numbers, slips of −1 … 1,
@@ -80,13 +83,30 @@ impl<S: Scalar> Observation<S> {
     fn has_noise(&self, weighed: Weighed) -> bool {
         let noise = &self.noise;
         let is_size = |std: S| std > S::zero() && std.is_finite();
-        let pull = is_size(noise.drawbar_pull_n);
-        let forces = || pull && [noise.load_n, noise.torque_nm, noise.slip].into_iter().all(is_size);
+        let (pull, torque) = (is_size(noise.drawbar_pull_n), is_size(noise.torque_nm));
+        let load_and_slip = is_size(noise.load_n) && is_size(noise.slip);
+        let sinkage = || self.state.sinkage_m.is_none_or(|_| is_size(noise.sinkage_m));
         match weighed {
             Weighed::Nothing => true,
             Weighed::DrawbarPull => pull,
-            Weighed::AllButSinkage => forces(),
-            Weighed::All => forces() && self.state.sinkage_m.is_none_or(|_| is_size(noise.sinkage_m)),
+            Weighed::AllButSinkage => pull && torque && load_and_slip,
+            Weighed::All => pull && torque && load_and_slip && sinkage(),
+            Weighed::AllMeasured => {
+                let [no_pull, no_torque] = [noise.drawbar_pull_n, noise.torque_nm].map(is_not_measured);
+                (pull || no_pull) && (torque || no_torque) && (pull || torque) && load_and_slip && sinkage()
+            }
         }
     }
+
+    /// How many of its parts were measured.
+    pub(super) fn readings(&self) -> usize {
+        let left_out =
+            [self.noise.drawbar_pull_n, self.noise.torque_nm].into_iter().filter(|std| is_not_measured(*std));
+        4 + usize::from(self.state.sinkage_m.is_some()) - left_out.count()
+    }
+}
+
+/// Whether such a standard deviation says that there was no measurement.
+fn is_not_measured<S: Scalar>(std: S) -> bool {
+    std > S::zero() && !std.is_finite()
 }

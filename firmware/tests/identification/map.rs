@@ -220,19 +220,22 @@ fn drawn(seed: u64) -> Soil<f64> {
 /// distributed as χ². Bounds are four standard errors of the share of some 700 cases.
 #[test]
 fn stated_intervals_hold_the_truth() {
-    for design in [Design::ONE_INSTANT, Design::MEAN_OF_100] {
+    let (one, mean) = (Design::ONE_INSTANT, Design::MEAN_OF_100);
+    let all: fn(&mut Observation<f64>) = |_| ();
+    for (design, lose) in [(one, all), (mean, all), (mean, lose_torque), (mean, lose_pull)] {
         let cases: Vec<_> = (0..800)
             .into_par_iter()
             .filter_map(|seed| {
                 let soil = drawn(seed);
-                let seen = design.observe(&soil, &Effects::none(), 10_000 + seed, 1.0)?;
+                let mut seen = design.observe(&soil, &Effects::none(), 10_000 + seed, 1.0)?;
+                seen.iter_mut().for_each(lose);
                 let found = identify(&WHEEL, &seen, &SoilPrior::usual()).expect("an estimate");
                 let errors = [
                     (soil.cohesion_pa.ln() - found.ln_cohesion.mean) / found.ln_cohesion.std,
                     (soil.friction_angle_rad - found.friction_angle_rad.mean) / found.friction_angle_rad.std,
                     (soil.shear_modulus_m.ln() - found.ln_shear_modulus.mean) / found.ln_shear_modulus.std,
                 ];
-                Some((errors, found.misfit / f64::from(found.degrees_of_freedom)))
+                Some((errors, found.misfit / f64::from(found.degrees_of_freedom), found.degrees_of_freedom))
             })
             .collect();
         let count = cases.len() as f64;
@@ -245,8 +248,45 @@ fn stated_intervals_hold_the_truth() {
             assert_near(share(parameter, 2.0), 0.954, 4.0 * (0.954 * 0.046 / count).sqrt());
         }
         let misfit = cases.iter().map(|case| case.1).sum::<f64>() / count;
-        assert_near(misfit, 1.0, 4.0 * (2.0 / 18.0 / count).sqrt());
+        let degrees_of_freedom = f64::from(cases[0].2);
+        assert_near(misfit, 1.0, 4.0 * (2.0 / degrees_of_freedom / count).sqrt());
     }
+}
+
+fn lose_torque(seen: &mut Observation<f64>) {
+    (seen.state.torque_nm, seen.noise.torque_nm) = (0.0, f64::INFINITY);
+}
+
+fn lose_pull(seen: &mut Observation<f64>) {
+    (seen.state.drawbar_pull_n, seen.noise.drawbar_pull_n) = (0.0, f64::INFINITY);
+}
+
+/// What was not measured has no weight, whatever number stands in its place: as if it had been measured a million times worse. Without
+/// both nothing tells the soil's strength.
+#[test]
+fn what_was_not_measured_says_nothing() {
+    let seen = Design::MEAN_OF_100.observe(&TABLE_1, &Effects::none(), 6, 1.0).expect("carried");
+    let with = |change: &dyn Fn(&mut Observation<f64>)| {
+        let mut seen = seen.clone();
+        seen.iter_mut().for_each(change);
+        identify(&WHEEL, &seen, &SoilPrior::usual())
+    };
+    let all = with(&|_| ()).expect("an estimate");
+    let hardly: [&dyn Fn(&mut Observation<f64>); 2] =
+        [&|seen| seen.noise.torque_nm *= 1e6, &|seen| seen.noise.drawbar_pull_n *= 1e6];
+    for (lose, hardly) in [lose_torque as fn(&mut Observation<f64>), lose_pull].into_iter().zip(hardly) {
+        let (lost, hardly) = (with(&lose).expect("an estimate"), with(hardly).expect("an estimate"));
+        assert_near(lost.friction_angle_rad.mean, hardly.friction_angle_rad.mean, 1e-6);
+        assert_near(lost.ln_shear_modulus.mean, hardly.ln_shear_modulus.mean, 1e-6);
+        assert_eq!(all.residuals - lost.residuals, 6);
+        assert_eq!(lost.degrees_of_freedom, 12);
+        assert!(lost.friction_angle_rad.std > 1.2 * all.friction_angle_rad.std, "{lost:?}");
+    }
+    let neither = with(&|seen| {
+        lose_pull(seen);
+        lose_torque(seen);
+    });
+    assert_eq!(neither.err(), Some(Refusal::OutOfRange));
 }
 
 /// Single precision, as in flight, is finite and beside double precision by a small part of what is not known.

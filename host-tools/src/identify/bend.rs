@@ -81,8 +81,8 @@ impl Bends {
         let straight = self.straightened(&shown);
         let mut states = states.to_vec();
         for (state, straight) in states.iter_mut().zip(straight) {
-            state.mean.drawbar_pull_n = straight.drawbar_pull_n;
-            state.mean.torque_nm = straight.torque_nm;
+            state.mean.drawbar_pull_n = Some(straight.drawbar_pull_n);
+            state.mean.torque_nm = Some(straight.torque_nm);
             state.mean.sinkage_m = straight.sinkage_m;
         }
         states

@@ -40,23 +40,24 @@ pub struct Sample {
     pub slip: f64,
     /// Load W, N.
     pub load_n: f64,
-    /// Drawbar pull DP, N.
-    pub drawbar_pull_n: f64,
-    /// Torque T, N·m.
-    pub torque_nm: f64,
-    /// Sinkage z, m.
+    /// Drawbar pull DP, N, where it was measured.
+    pub drawbar_pull_n: Option<f64>,
+    /// Torque T, N·m, where it was measured.
+    pub torque_nm: Option<f64>,
+    /// Sinkage z, m, where it was measured.
     pub sinkage_m: Option<f64>,
     /// What else is known of the instant, which declared effects may follow.
     pub conditions: Conditions<f64>,
 }
 
 impl Sample {
-    /// As the wheel state that a method sees.
+    /// As the wheel state that a method sees: a pull or a torque that was not measured is zero there, and has no weight (see
+    /// [`super::SensorNoise::of_mean`]).
     pub fn wheel_state(&self) -> WheelState<f64> {
         WheelState {
-            drawbar_pull_n: self.drawbar_pull_n,
+            drawbar_pull_n: self.drawbar_pull_n.unwrap_or(0.0),
             load_n: self.load_n,
-            torque_nm: self.torque_nm,
+            torque_nm: self.torque_nm.unwrap_or(0.0),
             slip: self.slip,
             sinkage_m: self.sinkage_m,
         }
@@ -66,16 +67,27 @@ impl Sample {
 /// The mean of a group of samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanState {
-    /// The means; the sinkage over those rows that have one.
+    /// The means; those of pull, torque and sinkage over the rows that have one.
     pub mean: Sample,
     /// Rows in the mean.
     pub rows: usize,
-    /// Rows in the mean of the sinkage.
-    pub sinkage_rows: usize,
+    /// Rows in the mean of what not every row has.
+    pub with: RowsWith,
     /// How many of the run's rows tell as much as one by itself.
     pub rows_per_reading: RowsPerReading,
     /// How their true slips and loads scatter about the mean.
     pub spread: Spread,
+}
+
+/// How many rows of a mean have what a row may lack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RowsWith {
+    /// A drawbar pull.
+    pub drawbar_pull: usize,
+    /// A torque.
+    pub torque: usize,
+    /// A sinkage.
+    pub sinkage: usize,
 }
 
 /// At most `most` mean states: the samples as they are and in their order where they are no more than that, else means by
@@ -127,7 +139,7 @@ impl MeanState {
         Self {
             mean: *sample,
             rows: 1,
-            sinkage_rows: usize::from(sample.sinkage_m.is_some()),
+            with: RowsWith::of(std::slice::from_ref(sample)),
             rows_per_reading: RowsPerReading::INDEPENDENT,
             spread: Spread::NONE,
         }
@@ -137,22 +149,32 @@ impl MeanState {
     fn of(group: &Group, all: &[Sample], noise: [f64; 2]) -> Self {
         let rows = &group.samples;
         let conditions: Vec<_> = rows.iter().map(|sample| sample.conditions).collect();
-        let sinkages: Vec<f64> = rows.iter().filter_map(|sample| sample.sinkage_m).collect();
         let errors = mean_noise(&group.bounds, all, rows.len(), noise);
         Self {
             mean: Sample {
                 t_s: mean(rows.iter().map(|sample| sample.t_s)),
                 slip: mean(rows.iter().map(|sample| sample.slip)) - errors[0],
                 load_n: mean(rows.iter().map(|sample| sample.load_n)) - errors[1],
-                drawbar_pull_n: mean(rows.iter().map(|sample| sample.drawbar_pull_n)),
-                torque_nm: mean(rows.iter().map(|sample| sample.torque_nm)),
-                sinkage_m: (!sinkages.is_empty()).then(|| mean(sinkages.iter().copied())),
+                drawbar_pull_n: mean_of_known(rows, |sample| sample.drawbar_pull_n),
+                torque_nm: mean_of_known(rows, |sample| sample.torque_nm),
+                sinkage_m: mean_of_known(rows, |sample| sample.sinkage_m),
                 conditions: mean_conditions(&conditions),
             },
             rows: rows.len(),
-            sinkage_rows: sinkages.len(),
+            with: RowsWith::of(rows),
             rows_per_reading: RowsPerReading::INDEPENDENT,
             spread: Spread::of(rows, noise),
+        }
+    }
+}
+
+impl RowsWith {
+    fn of(rows: &[Sample]) -> Self {
+        let count = |of: fn(&Sample) -> Option<f64>| rows.iter().filter_map(of).count();
+        Self {
+            drawbar_pull: count(|row| row.drawbar_pull_n),
+            torque: count(|row| row.torque_nm),
+            sinkage: count(|row| row.sinkage_m),
         }
     }
 }
@@ -224,6 +246,12 @@ fn best_cut(samples: &[Sample], axes: &[Axis; 2], place_of_axis: usize) -> Optio
     best
 }
 
+/// Over the rows that have it; none where none has.
+fn mean_of_known(rows: &[Sample], of: fn(&Sample) -> Option<f64>) -> Option<f64> {
+    let known = || rows.iter().filter_map(of);
+    known().next().map(|_| mean(known()))
+}
+
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), value| (sum + value, count + 1));
     sum / f64::from(count)
@@ -235,7 +263,15 @@ mod tests {
 
     fn sample(slip: f64, load_n: f64, drawbar_pull_n: f64) -> Sample {
         let conditions = Conditions::default();
-        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n, torque_nm: 1.0, sinkage_m: None, conditions }
+        Sample {
+            t_s: 0.0,
+            slip,
+            load_n,
+            drawbar_pull_n: Some(drawbar_pull_n),
+            torque_nm: Some(1.0),
+            sinkage_m: None,
+            conditions,
+        }
     }
 
     /// Numbers that scatter like a sensor: a fixed sequence of −1, 0 and 1 with mean zero over six.
@@ -263,7 +299,7 @@ mod tests {
         assert_eq!(states.iter().map(|state| state.rows).collect::<Vec<_>>(), [60; 6]);
         for (wheel, state) in states.iter().enumerate() {
             assert!((state.mean.slip - 0.05 - 0.1 * wheel as f64).abs() < 1e-12, "{state:?}");
-            assert!((state.mean.drawbar_pull_n - wheel as f64).abs() < 1e-12, "{state:?}");
+            assert!((state.mean.drawbar_pull_n.expect("a pull") - wheel as f64).abs() < 1e-12, "{state:?}");
         }
     }
 

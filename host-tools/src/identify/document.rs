@@ -135,8 +135,8 @@ pub struct ParameterDocument {
 pub struct WheelDocument {
     slip: f64,
     load_n: f64,
-    drawbar_pull_n: f64,
-    torque_nm: f64,
+    drawbar_pull_n: Option<f64>,
+    torque_nm: Option<f64>,
     sinkage_m: Option<f64>,
     /// Rows in the mean.
     rows: usize,
@@ -206,6 +206,7 @@ impl Document {
         if method.knows_effects() {
             warnings.extend(followed::remarks(campaign).into_iter().chain(rebound::remark(campaign)));
         }
+        warnings.extend(told_by_one_alone(method, campaign));
         Self {
             method: method.name(),
             campaign: campaign.name.clone(),
@@ -217,6 +218,14 @@ impl Document {
             runs,
         }
     }
+}
+
+/// Of channels of which the method needs one, says of a campaign that has not all which is there alone.
+fn told_by_one_alone(method: Method, campaign: &Campaign) -> Option<String> {
+    let (there, lacking): (Vec<Channel>, Vec<Channel>) =
+        method.needs_one_of().iter().partition(|channel| campaign.column(channel.name()).is_some());
+    let ([there], [lacking]) = (&there[..], &lacking[..]) else { return None };
+    Some(format!("no {}: the strength of the soil is told by {} alone", lacking.name(), there.name()))
 }
 
 fn noise_document(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> {

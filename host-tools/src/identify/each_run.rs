@@ -24,7 +24,7 @@ pub fn identify_by(method: Method, campaign: &Campaign) -> Result<Document, Host
 /// # Errors
 /// As [`identify_by`].
 pub fn identify_beside(method: Method, campaign: &Campaign, bar: &ProgressBar) -> Result<Document, HostError> {
-    check_columns(campaign, method.name(), method.needs())?;
+    check_columns(campaign, method)?;
     let noise = SensorNoise::of(campaign);
     let runs = run_states(campaign, &noise, method);
     let seen = method.sees(campaign);

@@ -49,9 +49,9 @@ impl RowsPerReading {
             autocorrelation_time(steady.iter().map(|rows| series(rows, of, follows)).collect())
         };
         Self {
-            drawbar_pull: of_channel(|row| Some(row.drawbar_pull_n), true),
+            drawbar_pull: of_channel(|row| row.drawbar_pull_n, true),
             load: of_channel(|row| Some(row.load_n), false),
-            torque: of_channel(|row| Some(row.torque_nm), true),
+            torque: of_channel(|row| row.torque_nm, true),
             slip: of_channel(|row| Some(row.slip), false),
             sinkage: of_channel(|row| row.sinkage_m, true),
         }
@@ -130,8 +130,8 @@ mod tests {
                 t_s: place as f64,
                 slip,
                 load_n,
-                drawbar_pull_n: 5.0 + noise,
-                torque_nm: 1.0,
+                drawbar_pull_n: Some(5.0 + noise),
+                torque_nm: Some(1.0),
                 sinkage_m: None,
                 conditions,
             }

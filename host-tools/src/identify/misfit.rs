@@ -53,9 +53,15 @@ pub fn misfits_of(
 
 /// Whether the noise of all that is weighed is stated.
 fn is_stated(campaign: &Campaign, noise: &SensorNoise) -> bool {
-    let sinkage = campaign.column(Channel::Sinkage.name()).is_some().then_some(noise.sinkage);
-    let always = [noise.drawbar_pull, noise.load, noise.torque, noise.slip];
-    always.into_iter().chain(sinkage).all(|channel| channel.source == NoiseSource::Campaign)
+    let channels = [
+        (Channel::DrawbarPull, noise.drawbar_pull),
+        (Channel::Load, noise.load),
+        (Channel::Torque, noise.torque),
+        (Channel::Slip, noise.slip),
+        (Channel::Sinkage, noise.sinkage),
+    ];
+    let is_there = |channel: Channel| campaign.column(channel.name()).is_some();
+    channels.into_iter().all(|(channel, noise)| !is_there(channel) || noise.source == NoiseSource::Campaign)
 }
 
 fn in_words(fit: &Fit, is_stated: bool) -> Option<String> {

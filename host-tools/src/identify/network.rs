@@ -65,7 +65,7 @@ pub struct Question {
 /// # Errors
 /// Where the campaign lacks a column that the method needs, or nobody answers.
 pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identification, HostError> {
-    check_columns(campaign, Method::Network.name(), Method::Network.needs())?;
+    check_columns(campaign, Method::Network)?;
     let noise = SensorNoise::of(campaign);
     let identified = |states: RunStates| {
         let question =

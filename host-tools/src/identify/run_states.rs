@@ -37,7 +37,7 @@ pub fn run_states(campaign: &Campaign, noise: &SensorNoise, method: Method) -> V
         let (mut samples, mut rows_left_out) = (Vec::new(), Vec::new());
         for row in rows {
             let line = campaign.rows()[row].line;
-            match sample(campaign, row, method.needs()) {
+            match sample(campaign, row, method) {
                 Ok(sample) => samples.push((line, sample)),
                 Err(reason) => rows_left_out.push((line, reason)),
             }
@@ -88,21 +88,33 @@ fn leave_out(
 ///
 /// # Errors
 /// It names the columns that are missing and those that are needed.
-pub fn check_columns(campaign: &Campaign, method: &str, needs: &[Channel]) -> Result<(), HostError> {
-    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name()).collect::<Vec<_>>().join(", ");
-    let missing: Vec<Channel> =
-        needs.iter().copied().filter(|channel| campaign.column(channel.name()).is_none()).collect();
-    if missing.is_empty() {
+pub fn check_columns(campaign: &Campaign, method: Method) -> Result<(), HostError> {
+    let is_missing = |channel: &&Channel| campaign.column(channel.name()).is_none();
+    let (needs, one_of) = (method.needs(), method.needs_one_of());
+    let missing: Vec<Channel> = needs.iter().filter(is_missing).copied().collect();
+    let has_one = one_of.is_empty() || !one_of.iter().all(|channel| is_missing(&channel));
+    if missing.is_empty() && has_one {
         return Ok(());
     }
-    Err(campaign.error(format!("no column {}: the method {method} needs {}", names(&missing), names(needs))))
+    let missing = if missing.is_empty() { names(one_of, " or ") } else { names(&missing, ", ") };
+    let either = if one_of.is_empty() { String::new() } else { format!(", and {}", names(one_of, " or ")) };
+    let needs = names(needs, ", ");
+    Err(campaign.error(format!("no column {missing}: the method {} needs {needs}{either}", method.name())))
+}
+
+fn names(channels: &[Channel], between: &str) -> String {
+    channels.iter().map(|channel| channel.name()).collect::<Vec<_>>().join(between)
 }
 
 /// The wheel state of a row, or what it lacks.
-fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, String> {
+fn sample(campaign: &Campaign, row: usize, method: Method) -> Result<Sample, String> {
     let value = |channel| campaign.value(row, channel);
-    if let Some(missing) = needs.iter().find(|channel| value(**channel).is_none()) {
+    if let Some(missing) = method.needs().iter().find(|channel| value(**channel).is_none()) {
         return Err(format!("no {}", missing.name()));
+    }
+    let one_of = method.needs_one_of();
+    if !one_of.is_empty() && one_of.iter().all(|channel| value(*channel).is_none()) {
+        return Err(format!("no {}", names(one_of, " or ")));
     }
     if let Some(reason) = campaign.gross_error(row) {
         return Err(reason);
@@ -112,8 +124,8 @@ fn sample(campaign: &Campaign, row: usize, needs: &[Channel]) -> Result<Sample, 
         t_s: campaign.rows()[row].t_s,
         slip: or_zero(Channel::Slip),
         load_n: or_zero(Channel::Load),
-        drawbar_pull_n: or_zero(Channel::DrawbarPull),
-        torque_nm: or_zero(Channel::Torque),
+        drawbar_pull_n: value(Channel::DrawbarPull),
+        torque_nm: value(Channel::Torque),
         sinkage_m: value(Channel::Sinkage),
         conditions: campaign.conditions(row),
     };

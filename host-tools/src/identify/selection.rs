@@ -64,7 +64,7 @@ mod tests {
 
     fn sample(slip: f64) -> Sample {
         let conditions = Conditions::default();
-        Sample { t_s: 0.0, slip, load_n: 65.0, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None, conditions }
+        Sample { t_s: 0.0, slip, load_n: 65.0, drawbar_pull_n: None, torque_nm: None, sinkage_m: None, conditions }
     }
 
     /// Rows with slips from 0 to 0.1, with noise, cut at 0.05: what is taken for the mean noise below and above, and the truth.

@@ -83,18 +83,21 @@ impl SensorNoise {
         }
     }
 
-    /// The noise of a mean state.
+    /// The noise of a mean state: infinite of a pull or a torque that none of its rows has.
     pub fn of_mean(&self, state: &MeanState) -> WheelNoise<f64> {
         let per_reading = &state.rows_per_reading;
         let mean_of = |one: ChannelStd, rows: usize, per_reading: f64| {
             one.std * (per_reading / rows.max(1) as f64).min(1.0).sqrt()
         };
+        let mean_of_some = |one: ChannelStd, rows: usize, per_reading: f64| {
+            if rows == 0 { f64::INFINITY } else { mean_of(one, rows, per_reading) }
+        };
         WheelNoise {
-            drawbar_pull_n: mean_of(self.drawbar_pull, state.rows, per_reading.drawbar_pull),
+            drawbar_pull_n: mean_of_some(self.drawbar_pull, state.with.drawbar_pull, per_reading.drawbar_pull),
             load_n: mean_of(self.load, state.rows, per_reading.load),
-            torque_nm: mean_of(self.torque, state.rows, per_reading.torque),
+            torque_nm: mean_of_some(self.torque, state.with.torque, per_reading.torque),
             slip: mean_of(self.slip, state.rows, per_reading.slip),
-            sinkage_m: mean_of(self.sinkage, state.sinkage_rows, per_reading.sinkage),
+            sinkage_m: mean_of(self.sinkage, state.with.sinkage, per_reading.sinkage),
         }
     }
 }

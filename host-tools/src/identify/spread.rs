@@ -73,7 +73,7 @@ mod tests {
 
     fn sample(slip: f64, load_n: f64) -> Sample {
         let conditions = Conditions::default();
-        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n: 0.0, torque_nm: 1.0, sinkage_m: None, conditions }
+        Sample { t_s: 0.0, slip, load_n, drawbar_pull_n: None, torque_nm: None, sinkage_m: None, conditions }
     }
 
     #[test]

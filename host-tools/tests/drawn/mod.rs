@@ -1,5 +1,8 @@
 //! Campaigns drawn from the prior, and how often the truth lies in what is stated of them.
 
+#[path = "../columns/without.rs"]
+mod without;
+
 use std::fmt::Write;
 use std::path::Path;
 
@@ -13,6 +16,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde_json::Value;
 
+use self::without::without;
 use crate::described::{COLUMNS, description, readings};
 
 /// Parameters in the document.
@@ -26,6 +30,8 @@ pub struct Plan {
     pub rows: usize,
     /// Share of a state's noise that its next row keeps.
     pub kept: f64,
+    /// Columns that are not measured.
+    pub lacking: &'static [&'static str],
 }
 
 /// The noise of a state in each channel, in standard deviations.
@@ -48,7 +54,7 @@ impl Plan {
     /// Each slip at each load.
     pub fn of(slips: &[f64], loads_n: &[f64], rows: usize) -> Self {
         let states = slips.iter().flat_map(|slip| loads_n.iter().map(move |load_n| (*slip, *load_n)));
-        Self { states: states.collect(), rows, kept: 0.0 }
+        Self { states: states.collect(), rows, kept: 0.0, lacking: &[] }
     }
 
     /// A run on each of `soils` soils that carry the wheel, and their soils.
@@ -74,6 +80,7 @@ impl Plan {
             }
             drawn.push(soil);
         }
+        let csv = without(&csv, self.lacking);
         let toml = description("Drawn from the prior", "", Some(&prior::KAPVIK_INSTANT_NOISE));
         (Campaign::parse(Path::new("drawn.csv"), &csv, &toml).expect("a campaign"), drawn)
     }

@@ -123,7 +123,7 @@ fn solve<const N: usize, S: Scalar>(
     observations: &[Observation<S>],
     conditions: &[Conditions<S>],
 ) -> Result<MapEstimate<S>, Refusal> {
-    check(forward.wheel, observations, 1, Weighed::All)?;
+    check(forward.wheel, observations, 1, Weighed::AllMeasured)?;
     if observations.len() > N {
         return Err(Refusal::TooMany { room: u8::try_from(N).unwrap_or(u8::MAX) });
     }

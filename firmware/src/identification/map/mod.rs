@@ -1,8 +1,8 @@
 //! Maximum a posteriori with errors in variables: every observation's true sinkage and slip are unknown too, and the
 //! integrals of the wheel–soil equations are taken as they are.
 //!
-//! Residuals, each over its standard deviation: drawbar pull, load, torque, slip, and the sinkage where it was measured; and
-//! those of the beliefs ([`crate::identification::SoilPrior`]). Their slopes come with the equations (dual numbers); the true
+//! Residuals, each over its standard deviation: load and slip, and drawbar pull, torque and sinkage where these were measured (one of the
+//! first two was); and those of the beliefs ([`crate::identification::SoilPrior`]). Their slopes come with the equations (dual numbers); the true
 //! sinkage and slip are rotated out wheel by wheel, so that the work grows in proportion to the observations. Levenberg and
 //! Marquardt's steps, from three places of the prior, lead to the mode; the noise is first taken sixteen and four times as
 //! great, because the floor of the valley is bent and the narrower it is the longer the way along it.

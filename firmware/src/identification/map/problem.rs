@@ -91,8 +91,7 @@ impl<S: Scalar> Problem<'_, S> {
 
     /// Readings that were measured.
     pub fn residuals(&self) -> u16 {
-        let sinkages = self.observations.iter().filter(|observation| observation.state.sinkage_m.is_some()).count();
-        (4 * self.observations.len() + sinkages) as u16
+        self.observations.iter().map(Observation::readings).sum::<usize>() as u16
     }
 
     /// How well a state explains what was seen; none where the equations do not hold.

@@ -56,6 +56,10 @@ pub enum Method {
     Limit,
 }
 
+/// Slip and load.
+const SLIP_AND_LOAD: [Channel; 2] = [Channel::Slip, Channel::Load];
+/// Drawbar pull and torque.
+const PULL_AND_TORQUE: [Channel; 2] = [Channel::DrawbarPull, Channel::Torque];
 /// Slip, load, drawbar pull and torque.
 const FORCES: [Channel; 4] = [Channel::Slip, Channel::Load, Channel::DrawbarPull, Channel::Torque];
 /// The same and the sinkage.
@@ -142,10 +146,19 @@ impl Method {
         matches!(self, Self::Ding | Self::DingBounded | Self::Iagnemma | Self::IagnemmaRecursive | Self::Hutangkabodee)
     }
 
+    /// Columns of which the method needs one: what it tells the soil's strength by.
+    pub const fn needs_one_of(self) -> &'static [Channel] {
+        match self {
+            Self::Map => &PULL_AND_TORQUE,
+            _ => &[],
+        }
+    }
+
     /// The columns without which the method cannot work.
     pub const fn needs(self) -> &'static [Channel] {
         match self {
-            Self::Network | Self::Ray | Self::Map | Self::Limit => &FORCES,
+            Self::Map => &SLIP_AND_LOAD,
+            Self::Network | Self::Ray | Self::Limit => &FORCES,
             Self::Ding | Self::DingBounded | Self::Cross => &FORCES_AND_SINKAGE,
             Self::Iagnemma | Self::IagnemmaRecursive => {
                 &[Channel::Slip, Channel::Load, Channel::Torque, Channel::Sinkage]

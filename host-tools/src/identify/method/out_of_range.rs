@@ -24,10 +24,12 @@ fn of_noise(method: Method, seen: &Observation<f64>) -> Option<String> {
         (Channel::Slip, noise.slip),
         (Channel::Sinkage, noise.sinkage_m),
     ];
-    let is_weighed = |channel: Channel| {
-        method.weighs().contains(&channel) && (channel != Channel::Sinkage || seen.state.sinkage_m.is_some())
+    let was_measured = |channel: Channel, std: f64| match channel {
+        Channel::Sinkage => seen.state.sinkage_m.is_some(),
+        _ => std != f64::INFINITY || method.needs().contains(&channel),
     };
-    let (channel, std) = spreads.into_iter().find(|(channel, std)| is_weighed(*channel) && !is_size(*std))?;
+    let is_weighed = |channel, std| method.weighs().contains(&channel) && was_measured(channel, std);
+    let (channel, std) = spreads.into_iter().find(|(channel, std)| is_weighed(*channel, *std) && !is_size(*std))?;
     let name = channel.name();
     Some(format!("the noise of {name} is {std}: the method weighs by it, and expects a standard deviation above 0"))
 }
