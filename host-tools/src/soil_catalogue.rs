@@ -5,6 +5,8 @@ use std::fmt;
 use kapvik_firmware::terramechanics::Soil;
 use serde::Deserialize;
 
+use crate::error::HostError;
+
 /// The catalogue as it stands in `data/soils.toml`.
 const CATALOGUE: &str = include_str!("../data/soils.toml");
 
@@ -215,10 +217,11 @@ impl CatalogueSoil {
 ///
 /// # Errors
 /// Where the data file that is built in is not what it should be; a test holds that it is.
-pub fn catalogue() -> Result<Vec<CatalogueSoil>, toml::de::Error> {
+pub fn catalogue() -> Result<Vec<CatalogueSoil>, HostError> {
     #[derive(Deserialize)]
     struct File {
         soil: Vec<CatalogueSoil>,
     }
-    toml::from_str::<File>(CATALOGUE).map(|file| file.soil)
+    let file = toml::from_str::<File>(CATALOGUE);
+    file.map(|file| file.soil).map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))
 }

@@ -74,14 +74,13 @@ fn a_wrong_sign_is_told() {
 
 #[test]
 fn a_joint_that_is_read_the_other_way_round_is_told() {
-    let begins =
-        |columns: &str| format!("the wheels of a side roll over the same ground only if {columns} turned round");
+    let begins = |columns: &str| format!("{columns} the wrong sign");
     for scenario in [Scenario::Hills, Scenario::Rock, Scenario::Traverse] {
-        is_told(scenario, &begins("rocker_angle_rad is"), |frame| turn(&mut frame.rocker_angle_rad));
+        is_told(scenario, &begins("rocker_angle_rad has"), |frame| turn(&mut frame.rocker_angle_rad));
     }
     for scenario in [Scenario::Hills, Scenario::Traverse] {
-        is_told(scenario, &begins("bogie_angle_r_rad is"), |frame| turn(&mut frame.bogie_angle_rad.right));
-        is_told(scenario, &begins("bogie_angle_l_rad, bogie_angle_r_rad are"), |frame| {
+        is_told(scenario, &begins("bogie_angle_r_rad has"), |frame| turn(&mut frame.bogie_angle_rad.right));
+        is_told(scenario, &begins("bogie_angle_l_rad, bogie_angle_r_rad have"), |frame| {
             frame.bogie_angle_rad.as_array_mut().into_iter().for_each(turn);
         });
     }

@@ -7,7 +7,7 @@
 //! the same error in many frames of the rocker's angle, which this filter would take for what the rocker does. So the
 //! contact angles come from where the hubs go, never from a quotient of noisy rates.
 
-use super::activity::STANDING;
+use super::activity::STANDING_M_S;
 use super::attitude::Attitude;
 use super::joints::Joints;
 use super::load_shift::LoadShift;
@@ -272,7 +272,7 @@ impl<S: Scalar> ContactAngleFilter<S> {
         self.model.body_rate_rad_s = rate;
         self.model.sinking_rad = *sinking_rad;
         // Where nothing rolls, nothing is learned of the contacts.
-        let stands = rim_speed_m_s.abs() < S::constant(STANDING);
+        let stands = rim_speed_m_s.abs() < S::constant(STANDING_M_S);
         self.model.rim_speed_m_s = if stands { S::zero() } else { rim_speed_m_s };
         let joints = [readings.rocker_angle_rad, readings.bogie_angle_rad];
         let [rocker, bogie] = self.joints.tick(joints, noise.angle_rad, self.travel_m(step_s), step_s);

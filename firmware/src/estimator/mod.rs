@@ -71,6 +71,7 @@ mod watch;
 mod wheel_frame;
 mod whole_balance;
 
+pub use activity::STANDING_M_S;
 pub use attitude::pitch_rate;
 pub use estimate::{Estimate, SideEstimate, WheelActivity, WheelEstimate};
 pub use health::{EstimatorHealth, PerSensor, SensorHealth};

@@ -1,6 +1,6 @@
 //! The filters of one side, and what they say together.
 
-use super::activity::{STANDING, take_up, what_it_does};
+use super::activity::{STANDING_M_S, TakenUp, take_up, what_it_does};
 use super::attitude::Attitude;
 use super::bogie_stop::AlongLinks;
 use super::compaction::{Compaction, Correction};
@@ -162,7 +162,7 @@ impl<S: Scalar> SideEstimator<S> {
 
     /// Whether its rims turn back, by more than encoders say of rims that stand.
     pub fn rolls_back(&self) -> bool {
-        self.rims.speed_m_s() < S::constant(-STANDING)
+        self.rims.speed_m_s() < S::constant(-STANDING_M_S)
     }
 
     /// What is known of its joints and of how the axis rises.
@@ -233,9 +233,9 @@ impl<S: Scalar> SideEstimator<S> {
         let noise = &self.rover.noise;
         let roughness = self.angles.roughness();
         let swung_hub = if self.swings { S::constant(SWINGS_HUB) } else { S::zero() };
-        let others_stand = self.rims.speed_m_s().abs() < S::constant(STANDING);
+        let others_stand = self.rims.speed_m_s().abs() < S::constant(STANDING_M_S);
         let others_rad_s = self.rims.speed_m_s() / self.rover.wheel.radius_m;
-        let [mut starts, mut settles, mut stands, mut swings] = [false; 4];
+        let (mut taken_up, mut swings) = (TakenUp::default(), false);
         let filters = self.wheels.as_mut().zip(self.activity.as_mut().zip(self.since_start.as_mut()));
         let told = self.told.wheels.as_mut().zip(surprises.wheels.as_mut());
         let rates = frame.wheel_rate_rad_s.zip(frame.wheel_rate_repeats);
@@ -256,17 +256,7 @@ impl<S: Scalar> SideEstimator<S> {
                 hub_speed_m_s: wheel.measured_hub_speed_m_s.filter(|_| now == WheelActivity::Rolling),
                 hub_speed_std_m_s: wheel.hub_speed_std_m_s + swung_hub * rim.abs(),
             };
-            take_up(filter, activity, now, &speeds);
-            stands |= now == WheelActivity::Standing;
-            let has_settled = since_start.follow(now == WheelActivity::Standing, step_s);
-            if since_start.starts() {
-                filter.unsettle(step_s);
-                starts = true;
-            }
-            if has_settled {
-                filter.settle();
-                settles = true;
-            }
+            taken_up |= take_up(filter, (activity, since_start), now, &speeds, step_s);
             let speed = rim.abs().max(wheel.hub_speed_m_s.abs()).max(S::constant(CREEP));
             let readings = WheelReadings {
                 speeds,
@@ -285,18 +275,23 @@ impl<S: Scalar> SideEstimator<S> {
             surprise.of_wheel(told);
             swings |= filter.swings();
         }
-        self.note(starts, settles, swings);
-        let rolled = Rolled { stands, speed_m_s: self.speed_m_s(), rim_speed_m_s: self.rims.speed_m_s(), step_s };
+        self.note(taken_up, swings);
+        let rolled = Rolled {
+            stands: taken_up.stands,
+            speed_m_s: self.speed_m_s(),
+            rim_speed_m_s: self.rims.speed_m_s(),
+            step_s,
+        };
         self.digging_in.follow(&rolled, &mut self.angles);
     }
 
     /// What wheels that start, settle or swing make of the forces.
-    fn note(&mut self, starts: bool, settles: bool, swings: bool) {
-        (self.starts, self.swings) = (starts, swings);
-        if starts || swings {
+    fn note(&mut self, taken_up: TakenUp, swings: bool) {
+        (self.starts, self.swings) = (taken_up.starts, swings);
+        if taken_up.starts || swings {
             self.forces.unsettle();
         }
-        if settles {
+        if taken_up.settles {
             self.forces.settle();
         }
     }

@@ -185,6 +185,18 @@ pub fn trend(wheels: &[WheelFeatures], loads: LoadSums, noise: TrendNoise) -> Tr
         add_product(&mut sinkage, &SINKAGE_EXPECTED.by_resistance, &resistance);
         add_product(&mut sinkage, &SINKAGE_EXPECTED.by_torque, &torque);
     }
+    normalised(resistance, torque, sinkage, precisions, mean_ln_load)
+}
+
+/// The trend of the coefficients that were fitted.
+#[inline(always)] // as above
+fn normalised(
+    resistance: [f32; 6],
+    torque: [f32; 6],
+    sinkage: [f32; 4],
+    precisions: [f32; 2],
+    mean_ln_load: f32,
+) -> Trend {
     let [load, both] = precisions.map(|precision| -0.5 * math::ln(precision));
     let [r0, resistance_level, r2, r3, r4, r5] = by_legendre(resistance);
     let [t0, torque_level, t2, t3, t4, t5] = by_legendre(torque);

@@ -85,8 +85,8 @@ fn summary(catalogue: &Catalogue) -> String {
     let beside = catalogue.outcomes.iter().filter(|(.., outcome)| is_late(outcome) && is_beside(outcome)).count();
     format!(
         "of {cases} cases: every number finite in {finite}, sensor and reason counted in {counted}, back for the \
-         first time within {ALLOWED_FRAMES} frames in {back} ({:.2} %); in {beside} more nothing was then farther off than without the fault by \
-         more than {BESIDE} standard deviations",
+         first time within {ALLOWED_FRAMES} frames in {back} ({:.2} %); {beside} of the others were then at most {BESIDE} standard deviations farther \
+         off than the same drive without the fault",
         100.0 * back as f64 / cases.max(1) as f64
     )
 }

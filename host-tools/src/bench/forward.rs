@@ -130,7 +130,12 @@ fn greatest_error(exact: &[WheelForces<f64>], found: &[WheelForces<f64>]) -> f64
         let torque = (found.torque_nm - exact.torque_nm).abs() / KAPVIK_WHEEL.radius_m;
         pull.max(load).max(torque) / exact.load_n
     };
-    exact.iter().zip(found).map(error).fold(0.0, |greatest, error| if error <= greatest { greatest } else { error })
+    exact.iter().zip(found).map(error).fold(0.0, worse)
+}
+
+/// The greater of two errors, and what is no number before any number.
+fn worse(greatest: f64, error: f64) -> f64 {
+    if greatest.is_nan() || error <= greatest { greatest } else { error }
 }
 
 /// The fastest of several repeats, per call.

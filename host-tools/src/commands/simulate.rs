@@ -36,8 +36,8 @@ pub struct Arguments {
     /// The kind of drive
     #[arg(long, value_enum, default_value = "traverse")]
     scenario: Scenario,
-    /// How long it takes, s, in place of the scenario's own length, within which it stays drawn when sensors fail or wheels are blocked; at most
-    /// 10 million
+    /// How long it takes, s, at most 10 million; without: the scenario's own length. When sensors fail or wheels are blocked does not change
+    /// with it
     #[arg(long, value_name = "S", value_parser = duration)]
     duration: Option<f64>,
     /// Frames a second, at most 1000

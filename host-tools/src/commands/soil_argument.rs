@@ -14,7 +14,7 @@ use crate::soil_catalogue::{Completion, catalogue};
 /// # Errors
 /// Where there is neither, or it leaves open what the equations need.
 pub fn soil(name: &str) -> Result<Soil<f64>, HostError> {
-    let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
+    let soils = catalogue()?;
     match soils.iter().find(|soil| soil.id == name) {
         Some(soil) => soil.complete(&Completion::SEED).map_err(|missing| {
             HostError::Failed(format!(

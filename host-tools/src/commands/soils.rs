@@ -14,7 +14,7 @@ const HEADER: [&str; 12] =
 /// # Errors
 /// Where the data that is built in cannot be read.
 pub fn execute() -> Result<(), HostError> {
-    let soils = catalogue().map_err(|error| HostError::Failed(format!("the catalogue of soils: {error}")))?;
+    let soils = catalogue()?;
     let mut sources: Vec<&str> = Vec::new();
     let mut table = plain_table();
     table.set_header(HEADER);

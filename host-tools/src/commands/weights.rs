@@ -61,9 +61,7 @@ impl Weights {
             Computer::Qemu => std::env::var_os(TABLE).is_some_and(|table| Path::new(&table) == path),
         };
         if ready {
-            let effects = file.notes.iter().find(|(key, _)| key == EFFECTS_NOTE);
-            let effects =
-                effects.map_or_else(|| "effects that it does not name".to_owned(), |(_, effects)| effects.clone());
+            let effects = file.note(EFFECTS_NOTE).unwrap_or("effects that it does not name").to_owned();
             return Ok(Self { path, effects });
         }
         if std::env::var_os(HANDED_OVER).is_some() {

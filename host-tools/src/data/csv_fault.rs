@@ -2,6 +2,7 @@
 
 use std::str::Utf8Error;
 
+use super::text::NOT_UTF_8;
 use crate::error::HostError;
 
 /// Something that no table holds, at a line and a field of a text, both from 1.
@@ -27,7 +28,7 @@ impl Fault {
     /// A byte that is not UTF-8.
     pub fn of_encoding(bytes: &[u8], error: &Utf8Error) -> Self {
         let before = String::from_utf8_lossy(bytes.get(..error.valid_up_to()).unwrap_or(bytes));
-        Self::behind(&before, "this byte is not UTF-8; expected text in UTF-8")
+        Self::behind(&before, NOT_UTF_8)
     }
 
     /// As an error of a file, where the text begins at such a line of it. `error` takes a line, a field and a message.

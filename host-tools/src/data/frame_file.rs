@@ -44,7 +44,9 @@ impl FrameReader {
         let columns: Vec<_> = names.iter().map(|name| stream.column(name)).collect();
         if columns.iter().all(Option::is_none) {
             let expected = "no sensor: expected columns such as wheel_rate_fl_rad_s, load_cell_fl_n, accel_x_m_s2";
-            return Err(stream.error(1, 1, format!("{expected} in the header (found {})", stream.header().join(", "))));
+            return Err(
+                stream.error_in_header(1, format!("{expected} in the header (found {})", stream.header().join(", ")))
+            );
         }
         refuse_misspelt(&stream, &names, "sensor")?;
         Ok(Self { stream, time, columns, is_empty: true })
@@ -74,7 +76,7 @@ impl Iterator for FrameReader {
         let is_first = std::mem::replace(&mut self.is_empty, false);
         match row {
             Some(row) => Some(row.and_then(|row| self.frame(&row))),
-            None => is_first.then(|| Err(self.stream.error(2, 1, "no frame: expected one below the header"))),
+            None => is_first.then(|| Err(self.stream.error_below_header("no frame: expected one below the header"))),
         }
     }
 }

@@ -40,7 +40,7 @@ pub fn refuse_misspelt(stream: &NumberStream, names: &[String], what: &str) -> R
     let absent = || names.iter().filter(|name| !stream.header().contains(name)).map(String::as_str);
     for (place, name) in other_columns(stream, names) {
         if let Some(meant) = column_meant(name, absent()) {
-            return Err(stream.error(1, place as u64 + 1, format!("`{name}` is no {what}: is `{meant}` meant?")));
+            return Err(stream.error_in_header(place as u64 + 1, format!("`{name}` is no {what}: is `{meant}` meant?")));
         }
     }
     Ok(())

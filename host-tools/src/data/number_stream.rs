@@ -130,6 +130,16 @@ impl NumberStream {
         self.header.error_at(row.line, column, message)
     }
 
+    /// An error at a column of the header, from 1.
+    pub fn error_in_header(&self, column: u64, message: impl Into<String>) -> HostError {
+        self.error(self.header.line(), column, message)
+    }
+
+    /// An error below the header.
+    pub fn error_below_header(&self, message: impl Into<String>) -> HostError {
+        self.error(self.header.line() + 1, 1, message)
+    }
+
     /// An error at a place of this file.
     pub fn error(&self, line: u64, column: u64, message: impl Into<String>) -> HostError {
         self.header.error(line, column, message)

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 
 use crate::error::HostError;
 
+/// What is said of a byte that is none.
+pub(super) const NOT_UTF_8: &str = "this byte is not UTF-8; expected text in UTF-8";
+
 /// A text file in UTF-8, whole.
 #[derive(Debug, Clone)]
 pub struct TextFile {
@@ -29,7 +32,7 @@ impl TextFile {
             Err(error) => {
                 let valid = String::from_utf8_lossy(&error.as_bytes()[..error.utf8_error().valid_up_to()]);
                 let file = Self { path: path.to_path_buf(), text: valid.into_owned() };
-                Err(file.error_at(file.text.len(), "this byte is not UTF-8; expected text in UTF-8"))
+                Err(file.error_at(file.text.len(), NOT_UTF_8))
             }
         }
     }

@@ -193,7 +193,7 @@ impl TruthReader {
         let columns: Vec<_> = names.iter().map(|name| stream.column(name)).collect();
         if columns.iter().all(Option::is_none) {
             let expected = format!("no column of a truth beside `t_s`: expected some of {}, …", names[..7].join(", "));
-            return Err(stream.error(1, 1, expected));
+            return Err(stream.error_in_header(1, expected));
         }
         Ok(Self { stream, time, columns })
     }

@@ -219,7 +219,7 @@ impl Journey {
     /// # Errors
     /// Where the simulation fails.
     fn sides(&self) -> Result<PerSide<SideRows>, HostError> {
-        let failed = |what: String| HostError::Failed(format!("{:?}, seed {}: {what}", self.scenario, self.seed));
+        let failed = |why: String| self.scenario.failed(self.seed, why);
         let (rover, options) = self.deviation.draw(&mut stream(self.seed, DEVIATION_STREAM)).map_err(failed)?;
         let traverse = Traverse::new(self.scenario, self.seed, &rover, &options);
         let mut pipeline = flight_pipeline(&rover).map_err(failed)?;

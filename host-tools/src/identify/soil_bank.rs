@@ -2,6 +2,7 @@
 
 use kapvik_firmware::terramechanics::Soil;
 
+use crate::error::HostError;
 use crate::soil_catalogue::{CatalogueSoil, Completion, catalogue};
 
 /// A soil of the bank.
@@ -20,7 +21,7 @@ pub struct BankSoil {
 ///
 /// # Errors
 /// As [`catalogue`].
-pub fn soil_bank() -> Result<Vec<BankSoil>, toml::de::Error> {
+pub fn soil_bank() -> Result<Vec<BankSoil>, HostError> {
     let soils = catalogue()?;
     Ok(soils.into_iter().filter_map(bank_soil).collect())
 }

@@ -23,8 +23,6 @@ pub struct LogLine {
 /// What of the log is shown on standard error while it comes in. All of it is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LogView {
-    /// Everything.
-    Everything,
     /// Information, warnings and errors.
     Information,
     /// Warnings and errors.
@@ -36,7 +34,6 @@ pub enum LogView {
 impl LogView {
     fn shows(self, level: Option<Level>) -> bool {
         match self {
-            Self::Everything => true,
             Self::Information => level.is_none_or(|level| level >= Level::Info),
             Self::Warnings => level.is_some_and(|level| level >= Level::Warn),
             Self::Nothing => false,

@@ -10,13 +10,13 @@ pub struct Admitted {
     gates: SensorGates,
     /// Which sensors are out of use; what else they count is that of the last frame alone.
     health: PerSensor<SensorHealth>,
-    ranges: PerSensor<Range>,
+    spoken: PerSensor<Spoken>,
     before_us: Option<u64>,
 }
 
 /// How often a sensor spoke, and how often farther out than a rover can be. The filters' own counts of that stop at 65535.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Range {
+pub struct Spoken {
     /// Readings.
     pub readings: u64,
     /// Those out of range.
@@ -29,14 +29,14 @@ impl Admitted {
         Self {
             gates: SensorGates::new(rover),
             health: PerSensor::default(),
-            ranges: PerSensor::default(),
+            spoken: PerSensor::default(),
             before_us: None,
         }
     }
 
-    /// What the readings of each sensor ranged over so far.
-    pub fn ranges(&self) -> &PerSensor<Range> {
-        &self.ranges
+    /// How often each sensor spoke so far.
+    pub fn spoken(&self) -> &PerSensor<Spoken> {
+        &self.spoken
     }
 
     /// A frame with the readings that can be used; none where it repeats the time of the one before, which the filters leave out.
@@ -46,13 +46,13 @@ impl Admitted {
             self.health =
                 self.health.map(|SensorHealth { dropped, .. }| SensorHealth { dropped, ..SensorHealth::default() });
             let admitted = self.gates.admit(frame.readings(), &mut self.health);
-            self.ranges = self.ranges.zip_map(self.health, Range::with);
+            self.spoken = self.spoken.zip_map(self.health, Spoken::with);
             with_readings(frame.time_us, admitted)
         })
     }
 }
 
-impl Range {
+impl Spoken {
     /// With a frame of which that was counted.
     fn with(self, SensorHealth { missing, out_of_range, .. }: SensorHealth) -> Self {
         Self { readings: self.readings + u64::from(1 - missing), beyond: self.beyond + u64::from(out_of_range) }
@@ -105,8 +105,8 @@ mod tests {
             let time_us = 10_000 * u64::from(number);
             admitted.of_frame(&SensorFrame { time_us, rocker_angle_rad: rocker, ..SensorFrame::default() });
         }
-        assert_eq!(admitted.ranges().rocker_angle, Range { readings: 75_000, beyond: 50_000 });
-        assert_eq!(admitted.ranges().accel.x, Range::default());
+        assert_eq!(admitted.spoken().rocker_angle, Spoken { readings: 75_000, beyond: 50_000 });
+        assert_eq!(admitted.spoken().accel.x, Spoken::default());
     }
 
     #[test]

@@ -66,12 +66,12 @@ impl DeadSensors {
         let believed: Vec<&str> =
             dead.iter().map(|(name, _)| name.as_str()).filter(|name| !begins(name, &DONE_WITHOUT)).collect();
         let then = match believed.len() {
-            0 => "and it is done without".to_owned(),
-            _ => format!("and what rests on {} is wrong", believed.join(", ")),
+            0 => "this one is treated as missing".to_owned(),
+            _ => format!("what rests on {} is wrong", believed.join(", ")),
         };
         (!dead.is_empty()).then(|| {
             format!(
-                "{} {} exactly 0 while the rover drives: a sensor that is not there is an empty field, {then}",
+                "{} {} exactly 0 while the rover drives: leave the field of a sensor that is not there empty; {then}",
                 all.join(", "),
                 if dead.len() == 1 { "says" } else { "say" }
             )
@@ -138,7 +138,7 @@ mod tests {
         let both = "load_cell_rr_n (in 60 of 60 frames), velocity_x_m_s (in 60 of 60 frames) say exactly 0";
         assert!(told.starts_with(both) && told.ends_with("what rests on velocity_x_m_s is wrong"), "{told}");
         let told = dead(&["load_cell_rr_n"], 60).expect("a dead cell");
-        assert!(told.ends_with("is an empty field, and it is done without"), "{told}");
+        assert!(told.ends_with("empty; this one is treated as missing"), "{told}");
     }
 
     #[test]

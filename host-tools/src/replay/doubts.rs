@@ -69,7 +69,7 @@ impl Doubts {
     /// What came of it: units, clock, rows, dead sensors, mass, gravity, signs, zeros, mounting, noise; a sentence each, without capital and stop. What may
     /// be why others are told comes first.
     pub fn told(self) -> Vec<String> {
-        let units = other_units::told(self.admitted.ranges());
+        let units = other_units::told(self.admitted.spoken());
         let of_recording = [units, self.clock.told(), self.together.told(), self.dead.told()].into_iter().flatten();
         let weighed = self.weighing.misfit().map(|misfit| misfit.to_string());
         let gravity = self.gravity.other().map(|other| other.to_string());

@@ -123,7 +123,7 @@ impl GyroFelt {
         let standing = self.while_standing();
         let pitching = if standing.iter().any(|(axis, _)| *axis == "y") { None } else { self.against_gravity() };
         let told = standing.into_iter().map(|(axis, zero)| {
-            format!("gyro_{axis} says {zero:.4} rad/s while the rover stands: it has a zero of its own, which slips, pulls and soil take in")
+            format!("gyro_{axis} says {zero:.4} rad/s while the rover stands: its zero is off, and with it slips, pulls and soil")
         });
         told.chain(pitching).collect()
     }
@@ -166,7 +166,7 @@ impl GyroFelt {
         // A rate with white noise adds up to a random walk, the slope of which scatters by 1.1 times its end over the time.
         let chance = 1.1 * self.rover.noise.gyro_rad_s * (step_s / self.time_s).sqrt();
         (zero.abs() > TOLERATED_RAD_S.max(BEYOND_CHANCE * chance)).then(|| {
-            format!("gyro_y says {zero:.4} rad/s more than gravity tells: it has a zero of its own, which slips, pulls and soil take in")
+            format!("gyro_y says {zero:.4} rad/s more than gravity tells: its zero is off, and with it slips, pulls and soil")
         })
     }
 }

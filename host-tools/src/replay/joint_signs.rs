@@ -101,10 +101,10 @@ impl JointSigns {
         let bogies = [left.1.then_some("bogie_angle_l_rad"), right.1.then_some("bogie_angle_r_rad")];
         let columns: Vec<&str> = rocker.into_iter().chain(bogies.into_iter().flatten()).collect();
         (!columns.is_empty()).then(|| {
-            let verb = if columns.len() == 1 { "is" } else { "are" };
+            let verb = if columns.len() == 1 { "has" } else { "have" };
             format!(
-                "the wheels of a side roll over the same ground only if {} {verb} turned round: nose-up is positive; contact angles, pulls \
-                 and soil are wrong by it",
+                "{} {verb} the wrong sign (nose-up is positive): only with the other do the wheels of a side roll over the same ground; contact \
+                 angles, pulls and soil are wrong by it",
                 columns.join(", ")
             )
         })

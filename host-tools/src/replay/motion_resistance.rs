@@ -67,8 +67,8 @@ impl MotionResistance {
         let differ = (front - bogies).abs() > TOLERATED;
         (self.frames >= LEAST_FRAMES && differ).then(|| {
             format!(
-                "the soil takes {front:.2} of their load from the front wheels and {bogies:.2} from those of the bogies (T/r − DP), which no soil \
-                 does: the centre of mass, the suspension's geometry or the torques are not as the rover file says, and pulls and soil are wrong by it"
+                "of its load the soil takes (T/r − DP)/W = {front:.2} from the front wheels and {bogies:.2} from those of the bogies, which no soil does: \
+                 the centre of mass, the suspension's geometry or the torques are not as the rover file says, and pulls and soil are wrong by it"
             )
         })
     }

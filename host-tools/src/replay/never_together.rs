@@ -30,7 +30,7 @@ impl NeverTogether {
         (seldomer >= LEAST_READINGS && is_seldom).then(|| {
             format!(
                 "velocimeter and encoders speak in the same frame {both} of {seldomer} times: slip is what they say of one instant, and \
-                 neither it nor the soil is known well without; rows of one instant need times that are closer together"
+                 without it slip and soil are poorly known; give rows of one instant times that are closer together"
             )
         })
     }

@@ -2,15 +2,15 @@
 
 use kapvik_firmware::estimator::{PerSensor, Sensor};
 
-use super::admitted::Range;
+use super::admitted::Spoken;
 use super::raw_sensors::{LEAST_READINGS, NEARLY_ALL};
 use crate::data::sensor_channels::sensor_name;
 
-/// What the ranges of the sensors tell of them, without capital and stop.
-pub fn told(ranges: &PerSensor<Range>) -> Option<String> {
-    let named = ranges.zip_map(Sensor::all(), |range, sensor| (sensor, range));
+/// What comes of how often sensors spoke, without capital and stop.
+pub fn told(spoken: &PerSensor<Spoken>) -> Option<String> {
+    let named = spoken.zip_map(Sensor::all(), |spoken, sensor| (sensor, spoken));
     let beyond: Vec<String> =
-        named.iter().filter(|(_, range)| range.is_beyond()).map(|(sensor, _)| sensor_name(*sensor)).collect();
+        named.iter().filter(|(_, spoken)| spoken.is_beyond()).map(|(sensor, _)| sensor_name(*sensor)).collect();
     let [says, then] = match beyond.len() {
         1 => ["says", "it speaks in other units than its name says, or is broken, and is"],
         _ => ["say", "they speak in other units than their names say, or are broken, and are"],
@@ -20,7 +20,7 @@ pub fn told(ranges: &PerSensor<Range>) -> Option<String> {
         .then(|| format!("{columns} {says} more than a rover can do in nearly all readings: {then} done without"))
 }
 
-impl Range {
+impl Spoken {
     fn is_beyond(&self) -> bool {
         self.beyond >= LEAST_READINGS.into() && self.beyond as f64 >= NEARLY_ALL * self.readings as f64
     }
@@ -31,9 +31,9 @@ mod tests {
     use super::*;
 
     fn of(readings: u64, beyond: u64) -> Option<String> {
-        let mut ranges = PerSensor::default();
-        ranges.bogie_angle.left = Range { readings, beyond };
-        told(&ranges)
+        let mut spoken = PerSensor::default();
+        spoken.bogie_angle.left = Spoken { readings, beyond };
+        told(&spoken)
     }
 
     #[test]

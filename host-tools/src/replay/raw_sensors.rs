@@ -11,7 +11,7 @@ pub const LEAST_READINGS: u32 = 50;
 pub const NEARLY_ALL: f64 = 0.9;
 
 /// The fewest of six wheels that turn where a rover drives.
-const MOST_WHEELS: usize = 4;
+const LEAST_TURNING_WHEELS: usize = 4;
 
 /// Longer than this no frame lasts, s.
 pub const LONGEST_FRAME_S: f64 = 1.0;
@@ -53,7 +53,7 @@ pub fn drives(frame: &SensorFrame, radius_m: f64) -> bool {
     let moves = |speed_m_s: f64| speed_m_s.abs() > DRIVING_M_S;
     let turns = |rate_rad_s: f64| moves(radius_m * rate_rad_s);
     let turning = frame.wheels.iter_wheels().filter(|wheel| wide(wheel.rate_rad_s).is_some_and(turns)).count();
-    turning >= MOST_WHEELS || wide(frame.velocity_m_s.x).is_some_and(moves)
+    turning >= LEAST_TURNING_WHEELS || wide(frame.velocity_m_s.x).is_some_and(moves)
 }
 
 /// Angles of the rockers against the body, rad: what one goes up, the other goes down.

@@ -48,7 +48,7 @@ impl Remarks {
         let joined = (rows > 0).then(|| {
             let apart_ms = latest_us.max(APART_US).div_ceil(1000);
             format!(
-                "rows that say what others within {apart_ms} ms do not, and are taken as one frame with them: {rows}"
+                "rows merged into the frame before, up to {apart_ms} ms earlier, of which they repeat no sensor: {rows}"
             )
         });
         unknown.into_iter().chain(joined).chain(held_in_words(&self.held.borrow())).collect()
@@ -87,7 +87,7 @@ fn held_in_words(Held { sensors, rows }: &Held) -> Option<String> {
     };
     (!held.is_empty()).then(|| {
         format!(
-            "sensors whose readings are repeated row by row until there is a new one, and count once: {}{no_frames}",
+            "sensors whose reading each row repeats until there is a new one, which counts once: {}{no_frames}",
             held.join(", ")
         )
     })

@@ -76,7 +76,7 @@ pub fn filter_lines(outcome: &Outcome) -> impl Iterator<Item = String> {
         ("frames out of time", health.backward_frames),
         ("gaps, or clocks set back, after which the filters started anew", health.gaps),
         ("filters reset to their floor", health.filter_resets),
-        ("filters that gave up what they believed", health.relearned),
+        ("filters that started anew, as readings contradicted them for long", health.relearned),
     ];
     counters.into_iter().filter(|(_, count)| *count > 0).map(|(what, count)| format!("{what}: {count}"))
 }

@@ -1,5 +1,7 @@
 //! The drives that can be asked for by name. Each draws its details from the seed.
 
+use std::fmt::Display;
+
 use clap::ValueEnum;
 use kapvik_firmware::rover::{Axle, PerSide, PerWheel, Rover, Side};
 use kapvik_firmware::terramechanics::Soil;
@@ -16,6 +18,7 @@ use super::programme::Command;
 use super::terrain::{Shape, Terrain};
 use super::varied_ground::draw_varied_ground;
 use crate::data::sensor_channels::WHEEL_NAMES;
+use crate::error::HostError;
 use crate::prior::Range;
 
 /// A kind of drive.
@@ -62,6 +65,11 @@ pub struct Draw<'a> {
 }
 
 impl Scenario {
+    /// A drive of this kind, from such a seed, that fails, and why.
+    pub fn failed(self, seed: u64, why: impl Display) -> HostError {
+        HostError::Failed(format!("{self:?}, seed {seed}: {why}"))
+    }
+
     /// A drive of this kind; `None` where the prior has no soil on which this rover could do it.
     pub fn draw(self, draw: &mut Draw<'_>) -> Option<Course> {
         match self {

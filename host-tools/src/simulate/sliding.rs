@@ -2,7 +2,7 @@
 
 use kapvik_firmware::rover::PerWheel;
 
-use super::wheel_soil::STANDING_M_S;
+use super::wheel_soil::STANDSTILL_M_S;
 
 /// How far a rover may give way, m: it does so by some millimetres where it starts on a slope or a wheel is held.
 const GIVES_WAY_M: f64 = 0.02;
@@ -20,7 +20,7 @@ impl Sliding {
     /// Whether it slides back, by the rim speeds and the place at the next instant.
     pub fn is_seen(&mut self, rim_speed_m_s: &PerWheel<f64>, x_m: f64) -> bool {
         let mean_m_s = rim_speed_m_s.iter_wheels().sum::<f64>() / 6.0;
-        let direction = if mean_m_s.abs() > STANDING_M_S { mean_m_s.signum() } else { 0.0 };
+        let direction = if mean_m_s.abs() > STANDSTILL_M_S { mean_m_s.signum() } else { 0.0 };
         let come_m = direction * x_m;
         if direction != self.direction {
             *self = Self { direction, furthest_m: come_m };

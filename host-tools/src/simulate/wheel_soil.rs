@@ -7,7 +7,7 @@ use kapvik_firmware::terramechanics::{ForceError, WheelForces, WheelOnSoil, Whee
 ///
 /// Equations 1–11 know only the ratio of two speeds, and only one direction of travel. Around standstill slip is measured
 /// against this speed, and the forces of both directions are blended; forty times as fast both are exact to the last bit.
-pub const STANDING_M_S: f64 = 1.0e-4;
+pub const STANDSTILL_M_S: f64 = 1.0e-4;
 
 /// By how much the load grows with the slope at which a wheel moves into the soil: ż over the faster of rim and hub.
 ///
@@ -44,7 +44,7 @@ impl WheelMotion {
     pub fn slip(&self) -> Option<f64> {
         let fastest = self.rim_speed_m_s.abs().max(self.hub_speed_m_s.abs());
         let backs_up = self.rim_speed_m_s <= 0.0 && self.hub_speed_m_s <= 0.0;
-        (fastest > STANDING_M_S).then(|| if backs_up { -self.forward_slip() } else { self.forward_slip() })
+        (fastest > STANDSTILL_M_S).then(|| if backs_up { -self.forward_slip() } else { self.forward_slip() })
     }
 
     /// (rω − v) over the faster of both; at most 1, where rim and hub move oppositely.
@@ -52,10 +52,10 @@ impl WheelMotion {
         ((self.rim_speed_m_s - self.hub_speed_m_s) / self.fastest_m_s()).clamp(-1.0, 1.0)
     }
 
-    /// The faster of rim and hub, which goes over into [`STANDING_M_S`] at standstill.
+    /// The faster of rim and hub, which goes over into [`STANDSTILL_M_S`] at standstill.
     fn fastest_m_s(&self) -> f64 {
         let fastest = self.rim_speed_m_s.abs().max(self.hub_speed_m_s.abs());
-        fastest + STANDING_M_S * libm::exp(-fastest / STANDING_M_S)
+        fastest + STANDSTILL_M_S * libm::exp(-fastest / STANDSTILL_M_S)
     }
 
     /// The forces of the soil; none of a wheel in the air. The load contains the damping of the sinking motion.
@@ -76,7 +76,7 @@ impl WheelMotion {
             return Err(ForceError::Sinkage);
         }
         let slip = self.forward_slip();
-        let share = 0.5 + 0.5 * libm::tanh((self.rim_speed_m_s + self.hub_speed_m_s) / STANDING_M_S);
+        let share = 0.5 + 0.5 * libm::tanh((self.rim_speed_m_s + self.hub_speed_m_s) / STANDSTILL_M_S);
         let mut sum = WheelForces { drawbar_pull_n: 0.0, load_n: 0.0, torque_nm: 0.0 };
         for (share, sign) in [(share, 1.0), (1.0 - share, -1.0)] {
             if share > 0.0 {

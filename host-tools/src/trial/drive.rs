@@ -102,7 +102,7 @@ impl Drive {
     /// # Errors
     /// Where the simulation fails.
     pub fn run(scenario: Scenario, seed: u64, rover: &Rover<f64>, options: &Options) -> Result<Self, HostError> {
-        let failed = |what: String| HostError::Failed(format!("{scenario:?}, seed {seed}: {what}"));
+        let failed = |why: String| scenario.failed(seed, why);
         let mut traverse = Traverse::new(scenario, seed, rover, options).map_err(|error| failed(error.to_string()))?;
         let mut pipeline = flight_pipeline(rover).map_err(failed)?;
         let (mut drive, mut trailing) = (Self::default(), TrailingMean::default());

@@ -15,6 +15,3 @@ pub mod whiteness;
 pub use drive::{Drive, Quantity, SOIL_LOOK_S, SoilPoint, WARM_UP_S};
 pub use flight_pipeline::flight_pipeline;
 pub use report::{Trial, errors_over, trial};
-
-/// A rover slower than this stands, m/s, and tells nothing of its contacts nor of the soil.
-const STANDING_M_S: f64 = 1.5e-3;

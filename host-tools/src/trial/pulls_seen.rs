@@ -5,13 +5,12 @@
 //! from the direction in which the velocimeter sees the axis go; forces from cells, moments on bogies and rockers, and
 //! the accelerometer, which feels the sum of all. No estimator that has to find out whether the ground is plane comes near it.
 
-use kapvik_firmware::estimator::WheelEstimate;
 use kapvik_firmware::estimator::hub_force::{self, HubForceModel};
+use kapvik_firmware::estimator::{STANDING_M_S, WheelEstimate};
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::{PerWheel, Rover};
 use nalgebra::{Cholesky, SMatrix, SVector};
 
-use super::STANDING_M_S;
 use crate::data::truth_file::{Truth, WheelTruth};
 
 /// Forces of one side; of both.

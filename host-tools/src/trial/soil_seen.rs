@@ -7,10 +7,10 @@
 //! its own faults: the bound knows the shape of the ground and how the links stand, no sensor ever drops out, and it takes
 //! each side to carry half of the rover. So none can beat it, and on rough ground none comes near it.
 
+use kapvik_firmware::estimator::STANDING_M_S;
 use kapvik_firmware::rover::{Rover, SensorNoise, Side, SideLayout};
 use kapvik_firmware::terramechanics::Soil;
 
-use super::STANDING_M_S;
 use crate::data::truth_file::{Truth, WheelTruth};
 use crate::identifiability::beforehand::{Beforehand, Knowledge};
 use crate::identifiability::bound::Bound;

@@ -81,7 +81,9 @@ impl Campaign {
                 Channel::Load => format!("more than {:.3} {unit} and ", self.plausible.least_load_n()),
                 _ => String::new(),
             };
-            Some(format!("{name} of {value} {unit} is a gross error: {least}at most {limit:.3} {unit} can be"))
+            Some(format!(
+                "{name} of {value} {unit} cannot be: it is {least}at most {limit:.3} {unit}, or a gross error"
+            ))
         })
     }
 
@@ -109,7 +111,7 @@ impl Campaign {
                     row,
                     channel,
                     format!(
-                        "{name} of {value} {unit}, and in {bad} of {all} rows what cannot be (a load is above 0; here at most {limit:.3} {unit}{by_radius}): \
+                        "{name} of {value} {unit}, and {bad} of {all} values of it impossible (a load is above 0; here at most {limit:.3} {unit}{by_radius}): \
                          expected newtons, newton-metres and metres{or_load}",
                     ),
                 ));

@@ -41,12 +41,14 @@ pub fn caveats(findings: &TraverseFindings) -> Vec<String> {
 /// Said where there is something assumed.
 fn assumed_in_words(assumed: &AssumedKeys) -> String {
     match assumed.are_all() {
-        true => "The rover's dimensions and the noise of its sensors are the set K0, which is assumed: Kapvik's were not published, \
-                 beside mass and envelope. With another rover the numbers are other numbers; give yours with --rover."
-            .to_owned(),
+        true => {
+            "The rover's dimensions and the noise of its sensors are the set K0, which is assumed: of Kapvik only mass \
+                 and envelope were published. For another rover the results differ; give yours with --rover."
+                .to_owned()
+        }
         false => format!(
-            "The rover file leaves out {assumed}: this is assumed (set K0), as Kapvik's was not published, beside mass and envelope. With \
-             another rover the numbers are other numbers."
+            "The rover file leaves out {assumed}: this is assumed (set K0): of Kapvik only mass and envelope were published. For another \
+             rover the results differ."
         ),
     }
 }

@@ -50,7 +50,7 @@ impl Source {
     /// Where the simulation does not start.
     pub fn carried() -> Result<Self, HostError> {
         let (scenario, seed) = CARRIED;
-        let failed = move |error| HostError::Failed(format!("{scenario:?}, seed {seed}: {error}"));
+        let failed = move |error| scenario.failed(seed, error);
         let RoverFile { rover, assumed, .. } = RoverFile::assumed();
         let traverse = Traverse::new(scenario, seed, &rover, &Options::default()).map_err(failed)?;
         let bar = ProgressBar::new(traverse.frames()).with_finish(ProgressFinish::AndClear);

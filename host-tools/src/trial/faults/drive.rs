@@ -60,7 +60,7 @@ impl FaultDrive {
     /// # Errors
     /// Where the simulation fails or ends too early.
     pub fn simulate(scenario: Scenario, seed: u64, rover: &Rover<f64>) -> Result<Self, HostError> {
-        let failed = |what: String| HostError::Failed(format!("{scenario:?}, seed {seed}: {what}"));
+        let failed = |why: String| scenario.failed(seed, why);
         let after_s = WATCHED_FRAMES as f64 / RATE_HZ;
         let options = Options { duration_s: Some(FAULT_S.1 + after_s), ..Options::default() };
         let traverse = Traverse::new(scenario, seed, rover, &options).map_err(|error| failed(error.to_string()))?;
