@@ -1,4 +1,4 @@
-//! What the soil takes from front wheels and from bogies, on drives of the simulator: silent where the rover file is right, and not where it
+//! What of its load the soil takes from front wheels and from bogies, on drives of the simulator: silent where the rover file is right, and not where it
 //! states another centre of mass.
 
 use clap::ValueEnum;
@@ -54,7 +54,7 @@ fn another_centre_of_mass_is_told() {
             [Scenario::Level, Scenario::Spread, Scenario::Hills, Scenario::Slope].into_iter().zip(8595..)
         {
             let told = told(scenario, seed, &truly, &Options::default()).expect("a drive");
-            let begins = told.as_ref().is_some_and(|said| said.starts_with("the soil takes"));
+            let begins = told.as_ref().is_some_and(|said| said.starts_with("of its load the soil takes"));
             assert!(begins, "{ahead_m} m, {scenario:?}, seed {seed}: {told:?}");
         }
     }

@@ -2,19 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use kapvik_firmware::soil::{QueryAnswer, SoilEstimate};
+use kapvik_firmware::soil::QueryAnswer;
 use serde::Serialize;
 
 use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::digits::counted;
-use crate::prior::{self, Range};
 
+use super::beside_map::beside;
 use super::followed;
-use super::method::{Finding, Fit, Method, Statement, network_refusal, rebound};
-use super::misfit::{misfits, misfits_of};
-use super::network::{Identification, IdentifiedRun, Question, at_edge};
+use super::method::{Finding, Fit, Method, network_refusal, rebound};
+use super::misfit::{by_map, misfits_of};
+use super::network::{Identification, IdentifiedRun, Question};
 use super::run_states::{RunStates, reasons_in_words};
 use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
+use super::soil_document::SoilDocument;
 
 /// A campaign, identified.
 #[derive(Debug, Clone, Serialize)]
@@ -58,6 +59,9 @@ pub struct RunDocument {
     /// Why no soil explains the run, where its residuals are no noise; then nothing in the estimate is called identifiable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub misfit: Option<String>,
+    /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`; then nothing in the estimate is called identifiable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond_training: Option<String>,
     /// Which channels' noise is not independent from row to row, and how much less rows tell for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remembers: Option<String>,
@@ -99,37 +103,6 @@ pub struct FitDocument {
     p_value: f64,
 }
 
-/// A soil; null in everything where there is no estimate.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct SoilDocument {
-    /// c, Pa.
-    pub cohesion_pa: Option<ParameterDocument>,
-    /// φ, rad.
-    pub friction_angle_rad: Option<ParameterDocument>,
-    /// K, m.
-    pub shear_modulus_m: Option<ParameterDocument>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    outside_training_range: Option<bool>,
-}
-
-/// One parameter.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct ParameterDocument {
-    /// The value.
-    pub value: f64,
-    /// One standard deviation; null where neither the method nor the bootstrap gives one.
-    pub std: Option<f64>,
-    /// Whether the data tell it.
-    pub identifiable: bool,
-    /// Whether the method takes it as given.
-    pub assumed: bool,
-    /// At the end of what the networks were trained for, beyond which they cannot go: to be doubted, however narrow.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at_edge_of_training: Option<bool>,
-    interval_68: [f64; 2],
-    interval_95: [f64; 2],
-}
-
 /// One wheel, identified by itself.
 #[derive(Debug, Clone, Serialize)]
 pub struct WheelDocument {
@@ -164,11 +137,21 @@ impl Document {
         let fit = |(states, found): &(RunStates, Result<Finding, String>)| {
             Some((states.run.clone(), found.as_ref().ok()?.fit?))
         };
-        let misfits = match method {
-            Method::Map => misfits_of(campaign, noise, runs.iter().filter_map(fit)),
-            _ => misfits(&method.sees(campaign), noise),
+        if method == Method::Map {
+            let misfits = misfits_of(campaign, noise, runs.iter().filter_map(fit));
+            let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();
+            return Self::new(method, campaign, noise, misfits, runs);
+        }
+        let by_map = by_map(&method.sees(campaign), noise);
+        let of_run = |(states, found): &(RunStates, Result<Finding, String>)| {
+            let mut document = RunDocument::of_finding(states, found);
+            if let Some((found, by_map)) = found.as_ref().ok().zip(by_map.get(&states.run)) {
+                document.hold_against(found, &by_map.found);
+            }
+            document
         };
-        let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();
+        let runs = runs.iter().map(of_run).collect();
+        let misfits = by_map.iter().filter_map(|(run, by_map)| Some((run.clone(), by_map.misfit.clone()?))).collect();
         Self::new(method, campaign, noise, misfits, runs)
     }
 
@@ -251,6 +234,16 @@ impl RunDocument {
     }
 
     fn of(run: &IdentifiedRun) -> Self {
+        let mut document = Self::as_stated(run);
+        if run.unlearned.is_some() {
+            document.beyond_training.clone_from(&run.unlearned);
+            document.tell_nothing();
+        }
+        document
+    }
+
+    /// As the networks state it.
+    fn as_stated(run: &IdentifiedRun) -> Self {
         let question = run.question.as_ref();
         let estimate = |answer: &QueryAnswer| answer.rover.as_ref().map(SoilDocument::of_network).unwrap_or_default();
         Self {
@@ -283,6 +276,19 @@ impl RunDocument {
 
     fn doubt(&mut self, why: String) {
         self.misfit = Some(why);
+        self.tell_nothing();
+    }
+
+    /// Calls nothing identifiable where `map` says another soil.
+    fn hold_against(&mut self, found: &Finding, by_map: &Finding) {
+        if let Some(why) = beside(found, by_map) {
+            self.remarks.push(why);
+            self.tell_nothing();
+        }
+    }
+
+    /// Calls nothing identifiable.
+    fn tell_nothing(&mut self) {
         let without_sinkage = self.networks.as_mut().and_then(|networks| networks.without_sinkage.as_mut());
         std::iter::once(&mut self.soil).chain(without_sinkage).for_each(SoilDocument::doubt);
     }
@@ -299,6 +305,7 @@ impl RunDocument {
             rows_left_out: states.rows_left_out.iter().map(left_out).collect(),
             no_soil: None,
             misfit: None,
+            beyond_training: None,
             remembers: states.states.first().and_then(|state| state.rows_per_reading.in_words()),
             widened: None,
             remarks: Vec::new(),
@@ -329,49 +336,5 @@ impl WheelDocument {
                 soil: answer.as_ref().map(SoilDocument::of_network).unwrap_or_default(),
             })
             .collect()
-    }
-}
-
-impl SoilDocument {
-    fn doubt(&mut self) {
-        let parameters = [&mut self.cohesion_pa, &mut self.friction_angle_rad, &mut self.shear_modulus_m];
-        parameters.into_iter().flatten().for_each(|parameter| parameter.identifiable = false);
-    }
-
-    fn of_method(found: &Finding) -> Self {
-        let [cohesion, friction, shear] = found.statements().map(|statement| Some(ParameterDocument::of(statement)));
-        Self {
-            cohesion_pa: cohesion,
-            friction_angle_rad: friction,
-            shear_modulus_m: shear,
-            outside_training_range: None,
-        }
-    }
-
-    fn of_network(estimate: &SoilEstimate) -> Self {
-        let mut soil = Self::of_method(&Finding::from(estimate));
-        let at_edge_of = |parameter: &mut Option<ParameterDocument>, trained: Range| {
-            if let Some(parameter) = parameter {
-                parameter.at_edge_of_training = Some(at_edge(trained, parameter.value));
-            }
-        };
-        at_edge_of(&mut soil.cohesion_pa, prior::COHESION_PA);
-        at_edge_of(&mut soil.friction_angle_rad, prior::FRICTION_ANGLE_RAD);
-        at_edge_of(&mut soil.shear_modulus_m, prior::SHEAR_MODULUS_M);
-        Self { outside_training_range: Some(estimate.outside_training_range), ..soil }
-    }
-}
-
-impl ParameterDocument {
-    fn of(statement: &Statement) -> Self {
-        Self {
-            value: statement.value,
-            std: Some(statement.std).filter(|std| std.is_finite()),
-            identifiable: statement.identifiable,
-            assumed: statement.assumed,
-            at_edge_of_training: None,
-            interval_68: statement.interval_68,
-            interval_95: statement.interval_95,
-        }
     }
 }

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::data::campaign::{Campaign, Channel, Knowledge};
 use crate::digits::significant;
 
-use super::method::{FARTHEST, Fit, Method, NEAR_NOTHING, answer};
+use super::method::{FARTHEST, Finding, Fit, Method, NEAR_NOTHING, answer};
 use super::on_curve::evidence;
 use super::run_states::run_states;
 use super::sensor_noise::{NoiseSource, SensorNoise};
@@ -29,18 +29,29 @@ const BESIDE: f64 = 4.0;
 /// The same of what may be nothing at all: such a number is weighed by a wide logarithm, up to an end that only data push it to.
 const BESIDE_NOTHING: f64 = FARTHEST - 1.0;
 
-/// Why runs are explained by no soil, by their names.
-pub fn misfits(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, String> {
-    let is_stated = is_stated(campaign, noise);
-    let runs = run_states(campaign, noise, Method::Map);
-    let fit = |run: super::RunStates| {
-        let found = answer(Method::Map, &evidence(Method::Map, campaign, noise, &run.states)).ok()?;
-        Some((run.run, in_words(&found.fit?, is_stated)?))
-    };
-    runs.into_par_iter().filter_map(fit).collect()
+/// What `map` says of a run.
+#[derive(Debug, Clone)]
+pub struct ByMap {
+    /// Why no soil explains the run; none where one does.
+    pub misfit: Option<String>,
+    /// The soil.
+    pub found: Finding,
 }
 
-/// The same of fits that are there already, of a method that weighs what is known of the soil: and why they are beside that.
+/// What `map` says of runs, by their names; of those that it does not refuse.
+pub fn by_map(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, ByMap> {
+    let is_stated = is_stated(campaign, noise);
+    let runs = run_states(campaign, noise, Method::Map);
+    let asked = |run: super::RunStates| {
+        let found = answer(Method::Map, &evidence(Method::Map, campaign, noise, &run.states)).ok()?;
+        let misfit = found.fit.and_then(|fit| in_words(&fit, is_stated));
+        Some((run.run, ByMap { misfit, found }))
+    };
+    runs.into_par_iter().filter_map(asked).collect()
+}
+
+/// Why runs are explained by no soil, by their names, of fits that are there already, of a method that weighs what is known of the soil: and
+/// why they are beside that.
 pub fn misfits_of(
     campaign: &Campaign,
     noise: &SensorNoise,

@@ -10,12 +10,14 @@ use crate::error::HostError;
 use crate::prior::Range;
 
 use super::bend::Bends;
+use super::beside_map::beside;
+use super::beyond_training::{at_an_end, beyond};
 use super::combine::MeanState;
 use super::condition::condition_number;
 use super::layout::Layout;
 use super::logarithmic::{targets, widened};
-use super::method::{Evidence, Method, network_refusal, networks};
-use super::misfit::misfits;
+use super::method::{Evidence, Finding, Method, network_refusal, networks};
+use super::misfit::by_map;
 use super::rehearsal::{Missing, OfTraining, missing};
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Answer, SensorNoise};
@@ -38,6 +40,8 @@ pub struct IdentifiedRun {
     pub question: Option<Question>,
     /// Why no soil explains the run by equations that the networks know, where that was tried and its residuals are no noise.
     pub misfit: Option<String>,
+    /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`, where that was looked at.
+    pub unlearned: Option<String>,
 }
 
 /// What the networks were asked about a run, and what they said.
@@ -70,7 +74,7 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
     let identified = |states: RunStates| {
         let question =
             if states.states.is_empty() { None } else { Some(ask(campaign, &states.states, &noise, answer)?) };
-        Ok(IdentifiedRun { states, question, misfit: None })
+        Ok(IdentifiedRun { states, question, misfit: None, unlearned: None })
     };
     let runs = run_states(campaign, &noise, Method::Network).into_iter().map(identified);
     Ok(Identification { runs: runs.collect::<Result<_, HostError>>()?, noise })
@@ -79,7 +83,7 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
 /// As [`identify`], `answer` being what the flight networks say, which were trained with what the campaign declares (`know_effects`) or with
 /// equations 1–11 alone. The intervals of all wheels together are widened where the networks are too sure of runs that are laid out as these:
 /// see `rehearsal.rs`; not those of networks that know effects, for the soils that are drawn know none. And runs are noted that no soil
-/// explains.
+/// explains, or one that the networks have not learned.
 ///
 /// # Errors
 /// As [`identify`].
@@ -93,8 +97,15 @@ pub fn identify_rehearsed(
     if seen.declared.effects.is_empty() {
         identification.runs.iter_mut().filter_map(|run| run.question.as_mut()).for_each(Question::rehearse);
     }
-    let mut misfits = misfits(&seen, &identification.noise);
-    identification.runs.iter_mut().for_each(|run| run.misfit = misfits.remove(&run.states.run));
+    let mut by_map = by_map(&seen, &identification.noise);
+    for run in &mut identification.runs {
+        let by_map = by_map.remove(&run.states.run);
+        let estimate = run.question.as_ref().and_then(|question| question.answer.rover.as_ref().ok());
+        let found = by_map.as_ref().map(|by_map| &by_map.found);
+        let beside = || beside(&Finding::from(estimate?), found?);
+        run.unlearned = found.and_then(beyond).or_else(|| at_an_end(estimate?)).or_else(beside);
+        run.misfit = by_map.and_then(|by_map| by_map.misfit);
+    }
     Ok(identification)
 }
 

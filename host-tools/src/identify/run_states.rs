@@ -14,7 +14,6 @@ use super::method::Method;
 const UNKNOWN_SLIP: &str = "the networks have learned no wheel that slips so little";
 /// Why a row is left out at which a wheel has not sunk.
 const NO_CONTACT: &str = "sinkage_m is not above 0, and at no sinkage the method has no contact";
-
 /// A run as a method sees it.
 #[derive(Debug, Clone)]
 pub struct RunStates {

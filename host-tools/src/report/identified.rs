@@ -33,7 +33,11 @@ pub fn identified(document: &Document) -> String {
 /// Why there is no estimate, or none that can be relied on as the method states it.
 pub fn remark(run: &RunDocument) -> String {
     let no_soil = run.no_soil.as_ref().map(|why| format!("no soil: {why}"));
-    let said = [&run.misfit, &run.widened].into_iter().flatten().chain(&run.remarks).chain(&run.remembers);
+    let said = [&run.misfit, &run.beyond_training, &run.widened]
+        .into_iter()
+        .flatten()
+        .chain(&run.remarks)
+        .chain(&run.remembers);
     let said: Vec<&str> = said.map(String::as_str).collect();
     run.refused.clone().or(no_soil).unwrap_or_else(|| said.join("; "))
 }

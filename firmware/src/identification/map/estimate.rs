@@ -12,7 +12,7 @@ use super::by_seed::BySeed;
 use super::condition::condition_number;
 use super::descent::Descent;
 use super::mixture::{Moments, moments};
-use super::mode::{best_mode, mode_nearby};
+use super::mode::{best_mode, is_beyond_chance, mode_nearby};
 use super::prediction::{Forward, Model};
 use super::problem::{Fit, Problem};
 use super::unknowns::{C1, C2, COHESION, EFFECT_PARAMETERS, EXPONENT, FRICTION, MODULUS, STIFFNESS, Unknowns};
@@ -129,7 +129,7 @@ fn solve<const N: usize, S: Scalar>(
     }
     let problem = Problem { forward, observations, conditions, blur: S::one() };
     let mode = best_mode::<N, S>(&problem)?;
-    let degrees_of_freedom = problem.residuals().saturating_sub(2 * observations.len() as u16);
+    let degrees_of_freedom = problem.degrees_of_freedom();
     let misfit = Misfit { degrees_of_freedom, widened: birge_ratio(mode.fit.cost, degrees_of_freedom) };
     let moments = if misfit.widened > S::one() {
         let doubtful = Problem { blur: misfit.widened, ..problem };
@@ -177,11 +177,10 @@ fn estimate<S: Scalar, const N: usize>(
     }
 }
 
-/// 1 where a misfit could be chance: up to four of its standard deviations above its mean.
+/// 1 where a misfit could be chance.
 fn birge_ratio<S: Scalar>(misfit: S, degrees_of_freedom: u16) -> S {
     let mean = S::constant(f64::from(degrees_of_freedom));
-    let by_chance = mean + S::constant(4.0) * (mean + mean).sqrt();
-    if mean > S::zero() && misfit > by_chance { (misfit / mean).sqrt() } else { S::one() }
+    if is_beyond_chance(misfit, degrees_of_freedom) { (misfit / mean).sqrt() } else { S::one() }
 }
 
 fn identified<S: Scalar, const N: usize>(

@@ -54,8 +54,8 @@ pub(super) struct Step<S, const N: usize> {
 pub(super) type Held = [bool; UNKNOWNS];
 
 impl<S: Scalar> Problem<'_, S> {
-    /// Where the latents are looked for first: as measured; a sinkage that was not measured is the one at which the soil
-    /// of the point carries the load.
+    /// Where the latents are looked for first: as measured; a sinkage that was not measured, or that is not told from none, is the one at
+    /// which the soil of the point carries the load.
     pub fn start<const N: usize>(&self, point: &Point<S>) -> State<S, N> {
         let soil = self.forward.unknowns.soil_at(point);
         let wheel = self.forward.wheel;
@@ -63,7 +63,8 @@ impl<S: Scalar> Problem<'_, S> {
         for observation in self.observations.iter().take(N) {
             let state = &observation.state;
             let slip = state.slip;
-            let measured = state.sinkage_m.filter(|sinkage_m| *sinkage_m > S::constant(0.02) * wheel.radius_m);
+            let noise_m = observation.noise.sinkage_m;
+            let measured = state.sinkage_m.filter(|sinkage_m| *sinkage_m > noise_m + noise_m);
             let sinkage_m = measured
                 .or_else(|| sinkage_for_load(wheel, &soil, slip, state.load_n).ok())
                 .unwrap_or(S::constant(0.2) * wheel.radius_m);
@@ -92,6 +93,11 @@ impl<S: Scalar> Problem<'_, S> {
     /// Readings that were measured.
     pub fn residuals(&self) -> u16 {
         self.observations.iter().map(Observation::readings).sum::<usize>() as u16
+    }
+
+    /// Residuals of observations and beliefs less unknowns.
+    pub fn degrees_of_freedom(&self) -> u16 {
+        self.residuals().saturating_sub(2 * self.observations.len() as u16)
     }
 
     /// How well a state explains what was seen; none where the equations do not hold.

@@ -1,7 +1,7 @@
 //! The maximum a posteriori, with the effects that are declared.
 
-use kapvik_firmware::identification::Belief;
 use kapvik_firmware::identification::map::{DeclaredEffects, Fitted, FreeParameter, MapEstimate, identify_declared};
+use kapvik_firmware::identification::{Belief, SoilPrior};
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::terramechanics::effects::{Effects, Form};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -16,12 +16,17 @@ const BETTER: f64 = 6.0;
 /// Standard deviations by which a parameter is another.
 const ANOTHER: f64 = 2.0;
 
+/// Pa: no force tells such a cohesion from none.
+const NO_COHESION_PA: f64 = 1.0;
+/// χ² by which a soil without cohesion has to explain the wheels worse: two standard deviations.
+const SHOWN: f64 = 4.0;
+
 /// The posterior's mean and intervals.
 ///
 /// # Errors
 /// The refusal, in words; where too many parameters of effects are free.
 pub fn map(evidence: &Evidence) -> Result<Finding, String> {
-    let estimate = in_the_best_forms(evidence)?;
+    let Fits { best: estimate, rivals } = in_all_forms(evidence)?;
     let mut finding = Finding::from(&estimate.identified);
     finding.cohesion_pa = of_logarithm(finding.cohesion_pa, estimate.ln_cohesion);
     finding.shear_modulus_m = of_logarithm(finding.shear_modulus_m, estimate.ln_shear_modulus);
@@ -31,9 +36,26 @@ pub fn map(evidence: &Evidence) -> Result<Finding, String> {
         statement.assumed = belief.is_known();
     }
     for (id, without) in without_what_is_not_shown(evidence, &estimate) {
-        doubt(&mut finding, id, &without);
+        doubt(&mut finding, &without, |other| {
+            format!("{id} is declared and not shown by these data: {other} without it")
+        });
+    }
+    for (form, rival) in rivals {
+        doubt(&mut finding, &rival, |other| format!("{form} explains these data as well: {other} with it"));
+    }
+    if finding.cohesion_pa.identifiable && may_have_no_cohesion(evidence, &estimate) {
+        finding.cohesion_pa.identifiable = false;
+        let [_, most] = finding.cohesion_pa.interval_95;
+        finding.remarks.push(format!("c may be nothing: these data say that it is at most {most:.0} Pa"));
     }
     Ok(finding)
+}
+
+/// Whether a soil without cohesion explains the wheels as well.
+fn may_have_no_cohesion(evidence: &Evidence, estimate: &MapEstimate<f64>) -> bool {
+    let prior = SoilPrior { ln_cohesion: Belief::known(NO_COHESION_PA.ln()), ..evidence.prior };
+    let without = in_all_forms(&Evidence { prior, ..evidence.clone() });
+    without.is_ok_and(|without| without.best.misfit - estimate.misfit < SHOWN * estimate.widened.powi(2))
 }
 
 /// Estimates without one of the declared effects each that explain the wheels as well as with it.
@@ -43,35 +65,43 @@ fn without_what_is_not_shown(
 ) -> Vec<(&'static str, MapEstimate<f64>)> {
     let without = |left_out: &DeclaredEffect| {
         let others = evidence.declared.iter().filter(|effect| effect.info.id != left_out.info.id);
-        let found = in_the_best_forms(&Evidence { declared: others.cloned().collect(), ..evidence.clone() }).ok()?;
+        let found = in_all_forms(&Evidence { declared: others.cloned().collect(), ..evidence.clone() }).ok()?.best;
         (found.misfit <= estimate.misfit + BETTER).then_some((left_out.info.id, found))
     };
     evidence.declared.iter().filter_map(without).collect()
 }
 
-/// Says of parameters that they are not told where they are others without an effect which the data do not show.
-fn doubt(finding: &mut Finding, id: &str, without: &MapEstimate<f64>) {
-    let other = Finding::from(&without.identified);
+/// Says of parameters that they are not told where they are others by an estimate that explains the data as well; `in_words` says by which,
+/// of how they are then.
+fn doubt(finding: &mut Finding, rival: &MapEstimate<f64>, in_words: impl Fn(&str) -> String) {
+    let other = Finding::from(&rival.identified);
     let mut names = Vec::new();
     let statements = finding.statements_mut().into_iter().zip(other.statements()).zip(["c", "φ", "K"]);
     for ((statement, other), name) in statements {
         if statement.identifiable && (statement.value - other.value).abs() > ANOTHER * statement.std {
             statement.identifiable = false;
-            names.push(format!("{name} is {:.3e} without it", other.value));
+            names.push(format!("{name} is {:.3e}", other.value));
         }
     }
     if !names.is_empty() {
-        finding.remarks.push(format!("{id} is declared and not shown by these data: {}", names.join(", ")));
+        finding.remarks.push(in_words(&names.join(", ")));
     }
 }
 
 /// The soil of the greatest posterior probability; none where the method refuses.
 pub fn most_probable_soil(evidence: &Evidence) -> Option<Soil<f64>> {
-    in_the_best_forms(evidence).ok().map(|estimate| estimate.mode)
+    in_all_forms(evidence).ok().map(|fits| fits.best.mode)
 }
 
-/// With the declared effects in the first forms that they may have, or in those that explain the wheels better by more than chance does.
-fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
+/// Estimates with the declared effects in the forms that they may have.
+struct Fits {
+    /// In the first forms, or in those that explain the wheels better by more than chance does.
+    best: MapEstimate<f64>,
+    /// In which other form of an effect chance may make them explained as well, in words, and what the estimate is then.
+    rivals: Vec<(String, MapEstimate<f64>)>,
+}
+
+fn in_all_forms(evidence: &Evidence) -> Result<Fits, String> {
     let fitted = |effects: &[DeclaredEffect]| {
         let mut declared = declared(evidence, effects)?;
         let Evidence { wheel, observations, conditions, prior, .. } = evidence;
@@ -83,17 +113,26 @@ fn in_the_best_forms(evidence: &Evidence) -> Result<MapEstimate<f64>, String> {
         if rebound.is_some() {
             put_back(&mut estimate);
         }
-        Ok::<_, String>((estimate, declared.free.len()))
+        let cost = estimate.misfit + 2.0 * declared.free.len() as f64;
+        Ok::<_, String>((cost, estimate))
     };
-    let cost = |(estimate, free): &(MapEstimate<f64>, usize)| estimate.misfit + 2.0 * *free as f64;
     let first = fitted(&evidence.declared);
-    let others = in_other_forms(evidence);
-    let best = others.iter().filter_map(|effects| fitted(effects).ok()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
-    match (first, best) {
-        (Ok(first), Some(best)) if cost(&best) < cost(&first) - BETTER => Ok(best.0),
-        (Err(_), Some(best)) => Ok(best.0),
-        (first, _) => first.map(|(estimate, _)| estimate),
-    }
+    let others = in_other_forms(evidence).into_iter();
+    let mut others: Vec<(String, f64, MapEstimate<f64>)> = others
+        .filter_map(|(form, effects)| fitted(&effects).ok().map(|(cost, estimate)| (form, cost, estimate)))
+        .collect();
+    others.sort_by(|one, other| one.1.total_cmp(&other.1));
+    let takes_its_place = |least: f64| first.as_ref().map_or(true, |(cost, _)| least < cost - BETTER);
+    let (cost, best) = match others.first() {
+        Some((_, least, _)) if takes_its_place(*least) => {
+            let (_, cost, estimate) = others.remove(0);
+            (cost, estimate)
+        }
+        _ => first?,
+    };
+    let is_rival = |other: &(String, f64, MapEstimate<f64>)| other.1 < cost + BETTER;
+    let rivals = others.into_iter().filter(is_rival).map(|(form, _, estimate)| (form, estimate)).collect();
+    Ok(Fits { best, rivals })
 }
 
 /// The form that is stated, else the first that an effect may have of those whose columns are known.
@@ -101,8 +140,8 @@ fn first_form(evidence: &Evidence, effect: &DeclaredEffect) -> Option<&'static F
     effect.form.or_else(|| effect.open_forms().find(|form| evidence.has(form))).or_else(|| effect.first_form())
 }
 
-/// The declared effects, one of them in another form that it may have, of those whose columns are known.
-fn in_other_forms(evidence: &Evidence) -> Vec<Vec<DeclaredEffect>> {
+/// The declared effects, one of them in another form that it may have, of those whose columns are known; and which, in words.
+fn in_other_forms(evidence: &Evidence) -> Vec<(String, Vec<DeclaredEffect>)> {
     let effects = evidence.declared.as_slice();
     let other = |place: usize| {
         let effect = &effects[place];
@@ -110,7 +149,7 @@ fn in_other_forms(evidence: &Evidence) -> Vec<Vec<DeclaredEffect>> {
         effect.open_forms().filter(move |form| evidence.has(form) && Some(form.name) != first).map(move |form| {
             let mut effects = effects.to_vec();
             effects[place] = effects[place].in_form(form);
-            effects
+            (format!("{} in the form {}", effect.info.id, form.name), effects)
         })
     };
     (0..effects.len()).flat_map(other).collect()

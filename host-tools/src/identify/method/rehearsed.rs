@@ -38,6 +38,7 @@ pub fn rehearse(method: Method, evidence: &Evidence, states: &[MeanState], noise
     });
     let Some(mut missing) = found else {
         finding.remarks.push("not held against simulated soils: too few about this answer carry the wheel".to_owned());
+        finding.statements_mut().into_iter().for_each(|statement| statement.identifiable = false);
         return;
     };
     let given = finding.statements().map(|statement| statement.assumed);
