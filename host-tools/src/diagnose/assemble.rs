@@ -17,6 +17,7 @@ use super::forward::{FoundStep, Selected};
 use super::held_out_errors::HeldOutErrors;
 use super::left_over::{LeftOver, left_over};
 use super::measurements::{Measurements, column_name};
+use super::nearest::nearest;
 use super::noise::Noise;
 use super::selection::Judged;
 use super::sentence::Open;
@@ -73,7 +74,7 @@ pub fn assemble(
     let open = Open {
         beyond_noise,
         off_by_run: off_by_run.map(|(reading, _)| column_name(reading)).collect(),
-        nearest: selected.guilty.as_ref(),
+        nearest: nearest(selected),
     };
     super::sentence::tell(&mut document, campaign, &open);
     document

@@ -7,7 +7,7 @@ use super::chance::{beside_noise, over_all, squares_gained};
 use super::fit::{Fit, Reading, Row};
 use super::linearised::{AddedTerms, Linearised, Slopes, Term};
 use super::regressors::{Regressor, columns, products};
-use super::selection::{PARAMETER_COST, TELLS_APART};
+use super::selection::{NOT_SURELY_BETTER, PARAMETER_COST, TELLS_APART};
 use super::term_screen::Screen;
 use super::trial::Trial;
 use super::unseen_runs::HeldOutGain;
@@ -47,6 +47,11 @@ impl Structure {
     pub fn is_significant(&self) -> bool {
         let is_held = self.held_out.is_some_and(|gain| gain.chance() < BY_RUNS && gain.is_shared());
         self.p_value < SIGNIFICANT_STRUCTURE && is_held
+    }
+
+    /// Why it is none, where that is not that chance does as much.
+    pub fn why_not(&self) -> Option<&'static str> {
+        (self.p_value < SIGNIFICANT_STRUCTURE && !self.is_significant()).then_some(NOT_SURELY_BETTER)
     }
 
     /// Whether it is a single column that is no part of the contact, and likely what a misfit beyond doubt follows.

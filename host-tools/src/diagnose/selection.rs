@@ -35,6 +35,8 @@ pub const BEYOND_DOUBT: f64 = 1e-4;
 /// The chance below which an effect must be of a size that is beyond doubt, too; and the standard deviations that are.
 const BY_FAR: f64 = 1e-6;
 const NEUTRAL_ERRORS: f64 = 2.5;
+/// Said of what gains on the runs that it sees, and not surely on others.
+pub const NOT_SURELY_BETTER: &str = "it is not surely better on runs that its fit did not know";
 /// Standard errors by which the gain on runs that were not seen must exceed nothing.
 const HELD_OUT_ERRORS: f64 = 1.0;
 /// The same where noise does not explain what is left in any case, so that chances are guesses.
@@ -70,12 +72,26 @@ impl Judged<'_> {
 
     /// Whether chance does not explain it.
     pub fn is_significant(&self) -> bool {
+        self.is_beyond_chance() && self.refusal().is_none()
+    }
+
+    /// What speaks against it beside chance.
+    fn refusal(&self) -> Option<&'static str> {
         let errors = if self.p_value < BEYOND_DOUBT { 0.0 } else { self.errors_wanted };
-        let is_held = self.held_out.exceeds(errors) && self.held_out.is_shared();
+        if !(self.held_out.exceeds(errors) && self.held_out.is_shared()) {
+            return Some(NOT_SURELY_BETTER);
+        }
         // Where a gain is beyond chance by far and the effect's size is not, the two do not speak of the same noise: estimated beside offsets
         // of whole runs, it may come out far too small.
-        let is_contradicted = self.p_value < BY_FAR && self.trial.may_be_neutral(NEUTRAL_ERRORS);
-        self.p_value < SIGNIFICANT && is_held && !is_contradicted && !self.trial.is_out_of_bounds()
+        if self.p_value < BY_FAR && self.trial.may_be_neutral(NEUTRAL_ERRORS) {
+            return Some("its size may be nothing");
+        }
+        self.trial.is_out_of_bounds().then_some("its size would lie out of its range")
+    }
+
+    /// Why it is no effect, where that is not that chance does as much.
+    pub fn why_not(&self) -> Option<&'static str> {
+        self.is_beyond_chance().then(|| self.refusal().unwrap_or("a bare column does what it does"))
     }
 
     /// Whether the data do not tell another from it. Both must leave it open: the likelihood of the runs that were seen, and the density of

@@ -5,25 +5,22 @@ use kapvik_firmware::terramechanics::effects::effect_info;
 use crate::data::campaign::Campaign;
 
 use super::document::{Diagnosis, FoundEffect, Verdict};
-use super::measurements::column_name;
-use super::residual_search::Structure;
-
-/// The chance from which what comes nearest says nothing.
-const ANYHOW: f64 = 0.3;
+use super::effect_in_words::effect_in_words;
+use super::nearest::{Nearest, in_words, no_explanation};
 
 /// What a diagnosis leaves open beside its verdict.
 #[derive(Debug, Clone, Default)]
-pub struct Open<'a> {
+pub struct Open {
     /// The channel that is missed by more than noise allows, and by how many times as much.
     pub beyond_noise: Option<(&'static str, f64)>,
     /// The channels that are off by another amount in each run.
     pub off_by_run: Vec<&'static str>,
-    /// The column that the declared model's residuals follow most, beyond chance or not.
-    pub nearest: Option<&'a Structure>,
+    /// The candidate and the column that come nearest to explaining something.
+    pub nearest: Vec<Nearest>,
 }
 
 /// Puts the sentence, and for an ambiguous verdict the deciding measurement, into a document.
-pub fn tell(document: &mut Diagnosis, campaign: &Campaign, open: &Open<'_>) {
+pub fn tell(document: &mut Diagnosis, campaign: &Campaign, open: &Open) {
     document.sentence = sentence(document, campaign, open);
     if document.verdict == Verdict::Ambiguous {
         let ids = document.effects.iter().take(1).map(|effect| &effect.id).chain(&document.ambiguous_with);
@@ -32,7 +29,7 @@ pub fn tell(document: &mut Diagnosis, campaign: &Campaign, open: &Open<'_>) {
     }
 }
 
-fn sentence(document: &Diagnosis, campaign: &Campaign, open: &Open<'_>) -> String {
+fn sentence(document: &Diagnosis, campaign: &Campaign, open: &Open) -> String {
     let model = if document.declared.is_empty() {
         "the seed's equations".to_owned()
     } else {
@@ -48,13 +45,14 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, open: &Open<'_>) -> Strin
             format!("{of}: these data cannot judge {model}: nothing could be predicted that no fit knew.")
         }
         Verdict::None if let Some((channel, times)) = open.beyond_noise => format!(
-            "{of}: {model} miss {channel} by {times:.1} times its stated noise and that of slip and load, and no candidate and no column \
-             explains that beyond chance: the noise is larger, or a law is missing.{}",
-            nearest(document, open)
+            "{of}: {model} miss {channel} by {times:.1} times its stated noise and that of slip and load, and {}: the noise is larger, or a \
+             law is missing.{}",
+            no_explanation(&open.nearest),
+            in_words(&open.nearest)
         ),
         Verdict::None if let Some(differs) = from_run_to_run(&open.off_by_run) => format!(
             "{of}: within each run {model} explain the data as well as their noise allows, and no candidate earns a place; but {differs}.{}",
-            nearest(document, open)
+            in_words(&open.nearest)
         ),
         Verdict::None => {
             format!("{of}: {model} explain the data as well as their noise allows; no candidate earns a place.")
@@ -77,28 +75,11 @@ fn found(document: &Diagnosis) -> String {
     let one = |(place, effect): (usize, &FoundEffect)| {
         let others = if place == 0 { &document.ambiguous_with } else { &effect.ambiguous_with };
         match others.as_slice() {
-            [] => what(&effect.id),
-            others => format!("{} (these data do not tell it from {})", what(&effect.id), others.join(" or ")),
+            [] => what(effect),
+            others => format!("{} (these data do not tell it from {})", what(effect), others.join(" or ")),
         }
     };
     document.effects.iter().enumerate().map(one).collect::<Vec<_>>().join("; then ")
-}
-
-/// What is said of the candidate and the column that come nearest to explaining something, where chance does not do as much anyhow.
-fn nearest(document: &Diagnosis, open: &Open<'_>) -> String {
-    let candidates =
-        document.candidates.iter().filter_map(|candidate| Some((candidate.id.clone(), candidate.p_value?)));
-    let candidate = candidates.min_by(|a, b| a.1.total_cmp(&b.1));
-    let of_column = |nearest: &Structure| {
-        (format!("{} against {}", column_name(nearest.channel), nearest.regressor()), nearest.p_value)
-    };
-    let both = candidate.into_iter().chain(open.nearest.map(of_column)).filter(|(_, chance)| *chance < ANYHOW);
-    let both: Vec<_> =
-        both.map(|(what, chance)| format!("{what} (by chance in {:.1} % of searches)", 100.0 * chance)).collect();
-    match both.as_slice() {
-        [] => String::new(),
-        both => format!(" Nearest comes {}.", both.join(", and ")),
-    }
 }
 
 /// What is said of channels that are off by another amount in each run; none where none is.
@@ -112,8 +93,9 @@ fn from_run_to_run(off_by_run: &[&str]) -> Option<String> {
     })
 }
 
-fn what(id: &str) -> String {
-    effect_info(id).map_or_else(|| id.to_owned(), |info| format!("{id} ({})", info.summary))
+fn what(effect: &FoundEffect) -> String {
+    let id = &effect.id;
+    effect_info(id).map_or_else(|| id.clone(), |info| format!("{id} ({})", effect_in_words(info, &effect.parameters)))
 }
 
 #[cfg(test)]

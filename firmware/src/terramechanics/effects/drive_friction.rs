@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 
 use super::info::effect_parameters;
-use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
+use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth, Words};
 
 effect_parameters! {
     /// The torque read at the drive contains friction that is not the soil's: T_c sgn ω + B ω + μ |T| sgn ω.
@@ -35,6 +35,18 @@ impl<S: Scalar> DriveFriction<S> {
 impl<S: Scalar> Effect<S> for DriveFriction<S> {
     const ID: &'static str = "drive-friction";
     const SUMMARY: &'static str = "the drive has friction of its own";
+    const WORDS: &'static [Words] = &[
+        Words {
+            parameter: "coulomb_nm",
+            above: "the drive has friction of its own",
+            below: "the torque read lacks a constant part, as where too much friction of the drive was taken off",
+        },
+        Words {
+            parameter: "viscous_nm_s",
+            above: "the drive has friction of its own that grows with its rate",
+            below: "the torque read is the less the faster the wheel turns",
+        },
+    ];
     const TEST: &'static str = "the torque of the wheel lifted off the ground, at several rates";
     const FORMS: &'static [Form] = &[
         Form { name: "Coulomb", free: &["coulomb_nm"], set: &[], needs: &[Column::Torque] },

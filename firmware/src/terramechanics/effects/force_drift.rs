@@ -32,7 +32,7 @@ effect_parameters! {
 
 impl<S: Scalar> Effect<S> for ForceDrift<S> {
     const ID: &'static str = "force-drift";
-    const SUMMARY: &'static str = "the offset of a force channel grows with time or temperature";
+    const SUMMARY: &'static str = "the offset of a force channel changes with time or temperature";
     const TEST: &'static str = "the force sensors with the wheel in the air, at the beginning and the end";
     const FORMS: &'static [Form] = &[
         Form {

@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 
 use super::info::effect_parameters;
-use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
+use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth, Words};
 
 effect_parameters! {
     /// W read = W − μ |DP|: a vertical guide under a horizontal force holds back load in proportion to its size. With a
@@ -16,7 +16,12 @@ effect_parameters! {
 
 impl<S: Scalar> Effect<S> for GuideFriction<S> {
     const ID: &'static str = "guide-friction";
-    const SUMMARY: &'static str = "load is lost in a guide as the horizontal force grows";
+    const SUMMARY: &'static str = "the load read depends on the horizontal force";
+    const WORDS: &'static [Words] = &[Words {
+        parameter: "mu",
+        above: "load is lost in a guide as the horizontal force grows",
+        below: "the load read grows with the horizontal force, which no friction does",
+    }];
     const TEST: &'static str = "a horizontal force on the standing wheel, to both sides";
     const FORMS: &'static [Form] =
         &[Form { name: "load", free: &["mu"], set: &[], needs: &[Column::Load, Column::DrawbarPull] }];

@@ -83,13 +83,26 @@ pub enum Column {
     Grousers,
 }
 
+/// What an effect does by one of its parameters, in a few words: another thing where that is below neutral than where it is above.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Words {
+    /// The parameter, by name.
+    pub parameter: &'static str,
+    /// Above neutral.
+    pub above: &'static str,
+    /// Below neutral.
+    pub below: &'static str,
+}
+
 /// An effect: its id, its parameters and its forms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EffectInfo {
     /// The id by which files and reports name it.
     pub id: &'static str,
-    /// What it does, in a few words.
+    /// What it does, in a few words that hold whatever its parameters are where there are no others.
     pub summary: &'static str,
+    /// What it does by each parameter of which that depends.
+    pub words: &'static [Words],
     /// A measurement that shows it apart from others.
     pub test: &'static str,
     /// Its parameters.

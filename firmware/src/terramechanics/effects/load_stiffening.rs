@@ -4,7 +4,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::Soil;
 
 use super::info::effect_parameters;
-use super::{Circumstances, Effect, Form};
+use super::{Circumstances, Effect, Form, Words};
 
 effect_parameters! {
     /// Under another load than W₀ the stiffness is k (W/W₀)^λ, or the exponent n + μ ln(W/W₀) (a power and a logarithm of
@@ -21,7 +21,19 @@ effect_parameters! {
 
 impl<S: Scalar> Effect<S> for LoadStiffening<S> {
     const ID: &'static str = "load-stiffening";
-    const SUMMARY: &'static str = "the soil is stiffer under more load";
+    const SUMMARY: &'static str = "the stiffness of the soil depends on the load";
+    const WORDS: &'static [Words] = &[
+        Words {
+            parameter: "stiffness",
+            above: "the soil is stiffer under more load",
+            below: "the soil is softer under more load",
+        },
+        Words {
+            parameter: "exponent",
+            above: "the soil is softer under more load",
+            below: "the soil is stiffer under more load",
+        },
+    ];
     const TEST: &'static str = "runs at another load";
     const FORMS: &'static [Form] = &[
         Form { name: "stiffness", free: &["stiffness"], set: &[], needs: &[super::Column::Load] },

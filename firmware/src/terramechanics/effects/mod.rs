@@ -47,7 +47,7 @@ pub use force_drift::ForceDrift;
 pub use grouser_ripple::GrouserRipple;
 pub use grouser_thrust::GrouserThrust;
 pub use guide_friction::GuideFriction;
-pub use info::{Column, EffectInfo, Form, ParameterInfo, Role};
+pub use info::{Column, EffectInfo, Form, ParameterInfo, Role, Words};
 pub use interface_friction::InterfaceFriction;
 pub use lateral_slip::LateralSlip;
 pub use load_stiffening::LoadStiffening;
@@ -79,8 +79,10 @@ pub trait Parameters<S>: Sized {
 pub trait Effect<S: Scalar>: Parameters<S> {
     /// The id by which files and reports name it.
     const ID: &'static str;
-    /// What it does, in a few words.
+    /// What it does, in a few words that hold whatever its parameters are where there are no others.
     const SUMMARY: &'static str;
+    /// What it does by each parameter of which that depends.
+    const WORDS: &'static [Words] = &[];
     /// A measurement that shows it apart from others.
     const TEST: &'static str;
     /// The forms in which it may come.
@@ -123,6 +125,7 @@ macro_rules! effects {
             $( EffectInfo {
                 id: <$effect<f64> as Effect<f64>>::ID,
                 summary: <$effect<f64> as Effect<f64>>::SUMMARY,
+                words: <$effect<f64> as Effect<f64>>::WORDS,
                 test: <$effect<f64> as Effect<f64>>::TEST,
                 parameters: <$effect<f64> as Parameters<f64>>::PARAMETERS,
                 forms: <$effect<f64> as Effect<f64>>::FORMS,

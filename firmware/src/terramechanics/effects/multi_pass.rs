@@ -4,7 +4,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::Soil;
 
 use super::info::effect_parameters;
-use super::{Circumstances, Column, Effect, Form};
+use super::{Circumstances, Column, Effect, Form, Words};
 
 effect_parameters! {
     /// Stiffness of the j-th pass: k⁽ʲ⁾ = k [1 + m₁ (1 − e^(−m₂ (j − 1)))] (form after Senatore and Sandu 2014, who let cohesion
@@ -21,7 +21,19 @@ effect_parameters! {
 
 impl<S: Scalar> Effect<S> for MultiPass<S> {
     const ID: &'static str = "multi-pass";
-    const SUMMARY: &'static str = "the soil is stiffer or stronger where a wheel has been";
+    const SUMMARY: &'static str = "the soil differs where a wheel has been";
+    const WORDS: &'static [Words] = &[
+        Words {
+            parameter: "m1",
+            above: "the soil is stiffer where a wheel has been",
+            below: "the soil is softer where a wheel has been",
+        },
+        Words {
+            parameter: "strength",
+            above: "the soil is stronger where a wheel has been",
+            below: "the soil is weaker where a wheel has been",
+        },
+    ];
     const TEST: &'static str = "a run beside the rut";
     const FORMS: &'static [Form] = &[
         Form { name: "stiffness", free: &["m1"], set: &[], needs: &[Column::Pass] },

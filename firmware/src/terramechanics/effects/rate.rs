@@ -4,7 +4,7 @@ use crate::scalar::Scalar;
 use crate::terramechanics::{Contact, Soil};
 
 use super::info::effect_parameters;
-use super::{Circumstances, Column, Effect, Form, WheelTruth};
+use super::{Circumstances, Column, Effect, Form, WheelTruth, Words};
 
 effect_parameters! {
     /// Stiffness and strength are powers of the speed: k (v/v₀)^m (after Bekker's plate tests at several rates), and
@@ -24,7 +24,16 @@ effect_parameters! {
 
 impl<S: Scalar> Effect<S> for Rate<S> {
     const ID: &'static str = "rate";
-    const SUMMARY: &'static str = "the soil is stiffer or stronger at speed";
+    const SUMMARY: &'static str = "the soil answers to speed";
+    const WORDS: &'static [Words] = &[
+        Words { parameter: "stiffness", above: "the soil is stiffer at speed", below: "the soil is softer at speed" },
+        Words { parameter: "strength", above: "the soil is stronger at speed", below: "the soil is weaker at speed" },
+        Words {
+            parameter: "excavation",
+            above: "soil that is thrown aside takes pull off the wheel, the more the faster it is",
+            below: "soil that is thrown aside takes pull off the wheel, the more the faster it is",
+        },
+    ];
     const TEST: &'static str = "the same slip at another speed";
     const FORMS: &'static [Form] = &[
         Form { name: "stiffness", free: &["stiffness"], set: &[], needs: &[Column::Speed] },

@@ -5,7 +5,7 @@ use crate::terramechanics::Soil;
 
 use super::info::effect_parameters;
 use super::saturation::saturated;
-use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth};
+use super::{Circumstances, Column, Effect, Form, Memory, Readings, WheelTruth, Words};
 
 effect_parameters! {
     /// Sinkage exponent or stiffness follow the slip. With S = (1 − e^(−a |i|))/a, which is |i| for a = 0:
@@ -30,7 +30,24 @@ effect_parameters! {
 
 impl<S: Scalar> Effect<S> for SlipSinkage<S> {
     const ID: &'static str = "slip-sinkage";
-    const SUMMARY: &'static str = "the wheel sinks deeper the more it slips";
+    const SUMMARY: &'static str = "the sinkage depends on the slip";
+    const WORDS: &'static [Words] = &[
+        Words {
+            parameter: "n1",
+            above: "the wheel sinks deeper the more it slips",
+            below: "the wheel sinks less the more it slips",
+        },
+        Words {
+            parameter: "stretch",
+            above: "the wheel sinks deeper the more it slips",
+            below: "the wheel sinks less the more it slips",
+        },
+        Words {
+            parameter: "apparent",
+            above: "the wheel sinks deeper the more it slips",
+            below: "the wheel sinks less the more it slips",
+        },
+    ];
     const TEST: &'static str = "sinkage at the same load and several slips, standing wheel included";
     const FORMS: &'static [Form] = &[
         Form { name: "exponent", free: &["n1"], set: &[], needs: &[] },

@@ -9,6 +9,7 @@ use super::figures::{probability, significant, with_std};
 use super::findings::DiagnosisFindings;
 use super::quantity::Quantity;
 use crate::diagnose::document::{DeclaredFit, Diagnosis, Estimate, FoundEffect, Unexplained};
+use crate::diagnose::effect_in_words;
 use crate::digits::spaced_unit;
 
 /// Below the verdict: each effect found, rivals, a law without a name.
@@ -35,7 +36,7 @@ fn effect_card(effect: &FoundEffect) -> Markup {
         div class="answer told" {
             h3 { "Effect" @if !effect.form.is_empty() && effect.form != effect.id { ", form " (effect.form) } }
             div class="value" { (effect.id) }
-            @if let Some(info) = effect_info(&effect.id) { p { (info.summary) } }
+            @if let Some(info) = effect_info(&effect.id) { p { (effect_in_words(info, &effect.parameters)) } }
             p class="verdict" { (parameters(effect)) }
             p { "gains " (significant(effect.gain_per_row, 2)) " nats a row on held-out runs, p = " (probability(effect.p_value)) }
         }
