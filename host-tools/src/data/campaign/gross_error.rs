@@ -15,6 +15,12 @@ const GREATEST_LOAD: f64 = 20.0;
 const ABOUT_NOTHING: f64 = 3.0;
 const LIGHTEST: f64 = 0.25;
 
+/// The same of the middle of the rows that drive: one row may feel twice its load, half of them do not. And the fewest rows that have one.
+const GREATEST_MEDIAN_FORCE: f64 = 2.5;
+const FEWEST: usize = 5;
+/// Slip from which a row drives.
+const DRIVES: f64 = 0.05;
+
 /// What a campaign's numbers are held against.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plausible {
@@ -117,6 +123,32 @@ impl Campaign {
                 ));
             }
         }
+        self.check_medians()
+    }
+
+    /// The same of forces that a wheel may feel at times and never most of the time.
+    fn check_medians(&self) -> Result<(), HostError> {
+        for (channel, radius_m) in [(Channel::Torque, self.wheel.radius_m), (Channel::DrawbarPull, 1.0)] {
+            let share = |row: usize| {
+                let (slip, load_n) = (self.value(row, Channel::Slip)?, self.value(row, Channel::Load)?);
+                let of_load = self.value(row, channel)?.abs() / (radius_m * load_n.abs());
+                (slip > DRIVES && load_n != 0.0).then_some((row, of_load))
+            };
+            let shares: Vec<(usize, f64)> = (0..self.rows().len()).filter_map(share).collect();
+            let middle = median(shares.iter().map(|(_, share)| *share));
+            let beyond = shares.iter().find(|(_, share)| *share > GREATEST_MEDIAN_FORCE);
+            let Some((row, _)) = beyond.filter(|_| shares.len() >= FEWEST && middle > GREATEST_MEDIAN_FORCE) else {
+                continue;
+            };
+            let name = channel.name();
+            let times = if channel == Channel::Torque { "load_n times radius_m" } else { "load_n" };
+            let message = format!(
+                "{name} is {middle:.1} times {times} in the middle of {} rows that drive, which no soil holds against (at most \
+                 {GREATEST_MEDIAN_FORCE}): expected newtons, newton-metres and metres, or load_n in newtons",
+                shares.len()
+            );
+            return Err(self.error_at_row(*row, channel, message));
+        }
         Ok(())
     }
 }
@@ -142,5 +174,25 @@ mod tests {
         let csv = "run,t_s,slip,load_n,sinkage_m\na,0,0.3,50,0.01\na,1,0.4,51,0.01\n";
         let said = Campaign::parse(Path::new("small.csv"), csv, toml).expect_err("no such wheel").to_string();
         assert!(said.contains("at most 0.000 m where radius_m is 0.000000001 m"), "{said}");
+    }
+    /// A load in kilograms, and a force at the rim in the torque's column: no single row is beyond what can be.
+    #[test]
+    fn forces_beyond_most_of_what_a_wheel_feels_are_in_other_units() {
+        let toml = "name = \"small\"\nkind = \"measured\"\nsource = \"\"\n[wheel]\nradius_m = 0.1\nwidth_m = 0.1\n";
+        let read = |load_n: f64, torque_nm: f64| {
+            let row = |k: usize| format!("a,{k},0.3,{},{},{torque_nm}\n", load_n + 1e-3 * k as f64, 20.0 + k as f64);
+            let rows: String = (0..6).map(row).collect();
+            let csv = format!("run,t_s,slip,load_n,drawbar_pull_n,torque_nm\n{rows}");
+            Campaign::parse(Path::new("small.csv"), &csv, toml).map_err(|error| error.to_string())
+        };
+        read(65.0, 2.0).expect("newtons");
+        let said = read(6.63, 0.6).expect_err("kilograms");
+        assert!(
+            said.starts_with("small.csv:2:5: drawbar_pull_n is 3.4 times load_n in the middle of 6 rows"),
+            "{said}"
+        );
+        let said = read(65.0, 20.0).expect_err("newtons at the rim");
+        assert!(said.starts_with("small.csv:2:6: torque_nm is 3.1 times load_n times radius_m"), "{said}");
+        assert!(said.ends_with("expected newtons, newton-metres and metres, or load_n in newtons"), "{said}");
     }
 }

@@ -14,6 +14,7 @@ mod ground;
 pub mod like_rows;
 mod noise;
 mod repeats;
+mod wrong_sign;
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -153,14 +154,16 @@ impl Campaign {
         campaign.plausible = Plausible::of(&campaign);
         campaign.copies = campaign.find_copies();
         campaign.check_units()?;
+        campaign.check_signs()?;
         unused.tell();
         Ok(campaign)
     }
 
     /// What a reader of any result should know of how the file was read, sentence by sentence.
     pub fn remarks(&self) -> Vec<String> {
-        let of_rows = self.of_repeats().into_iter().chain(self.ground.of_unused());
-        of_rows.chain(further_columns::misspelt(&self.header)).collect()
+        let of_rows = self.of_repeats().into_iter();
+        let of_numbers = of_rows.chain(self.of_falling_pull()).chain(self.ground.of_unused());
+        of_numbers.chain(further_columns::misspelt(&self.header)).collect()
     }
 
     /// What is said where rows of the file were taken out that only repeat what the sensors had said before.
