@@ -14,6 +14,7 @@ mod ground;
 pub mod like_rows;
 mod noise;
 mod repeats;
+mod saturated;
 mod wrong_sign;
 
 use std::borrow::Cow;
@@ -70,6 +71,7 @@ pub struct Campaign {
     rows: Vec<RowId>,
     columns: Vec<Measured>,
     repeats: usize,
+    saturated: Vec<saturated::End>,
     copies: Vec<bool>,
     plausible: Plausible,
 }
@@ -127,6 +129,7 @@ impl Campaign {
         let mut rows = row_ids(table)?;
         let mut columns = numeric_columns(table)?;
         let repeats = repeats::take_out(&mut rows, &mut columns);
+        let saturated = saturated::take_out(&rows, &mut columns);
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let mut campaign = Self {
             path: path.to_path_buf(),
@@ -145,6 +148,7 @@ impl Campaign {
             rows,
             columns,
             repeats,
+            saturated,
             copies: Vec::new(),
             plausible: Plausible::unknown(),
         };
@@ -161,7 +165,7 @@ impl Campaign {
 
     /// What a reader of any result should know of how the file was read, sentence by sentence.
     pub fn remarks(&self) -> Vec<String> {
-        let of_rows = self.of_repeats().into_iter();
+        let of_rows = self.of_repeats().into_iter().chain(self.saturated.iter().map(saturated::End::in_words));
         let of_numbers = of_rows.chain(self.of_falling_pull()).chain(self.ground.of_unused());
         of_numbers.chain(further_columns::misspelt(&self.header)).collect()
     }
