@@ -52,6 +52,14 @@ fn says(document: &Diagnosis, words: &str) -> bool {
     document.caveats.iter().any(|caveat| caveat.contains(words))
 }
 
+/// A clock tells where a sweep is better than slips do that scatter about it.
+#[test]
+fn slips_that_scatter_about_a_sweep_make_nothing_follow_the_clock() {
+    let document = diagnosed([6, 40], &WheelNoise { slip: 0.02, ..NOISE }, |seen| seen, "");
+    assert_eq!(document.verdict, Verdict::None, "{}", document.sentence);
+    assert!(says(&document, "state [noise] slip"));
+}
+
 /// What a sensor reads at the end of its range is not what the wheel felt, and no law is lacking.
 #[test]
 fn a_torque_that_stays_at_its_greatest_is_no_effect() {

@@ -10,6 +10,7 @@ use super::candidates::{is_by_load, loads_differ};
 use super::fit::{Model, Reading};
 use super::force_channels::ForceChannels;
 use super::forward::{FoundStep, Selected};
+use super::loose_slip;
 use super::measurements::{Measurements, column_name};
 use super::residual_search::Structure;
 use super::selection::{Judged, MISFIT};
@@ -57,13 +58,14 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
         .chain(ends)
         .chain(untold_by_verdict.filter_map(|(_, found)| left_open(found)))
         .chain(found.filter_map(|found| form_left_open(&found.winner)))
+        .chain(slip_taken_as_known(campaign, measurements, selected))
         .chain(untold(selected))
         .chain(selected.left.iter().filter_map(says_the_same))
         .collect()
 }
 
 /// What these data cannot tell, whatever the model.
-fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>; 9] {
+fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>; 10] {
     let runs = measurements.runs.len();
     let has = |reading| measurements.has(reading);
     let slips = spread(measurements, Reading::Slip);
@@ -91,6 +93,7 @@ fn of_data(campaign: &Campaign, measurements: &Measurements) -> [Option<String>;
         (!has(Reading::Sinkage))
             .then(|| "No sinkage: the stiffness of the soil is known only through the forces.".to_owned()),
         guessed_noise(measurements),
+        measurements.loose_slip.map(loose_slip::in_words),
     ]
 }
 
@@ -170,6 +173,20 @@ fn form_left_open(winner: &Judged<'_>) -> Option<String> {
     let form = winner.effect()?.form.name;
     (!winner.other_forms.is_empty()).then(|| {
         format!("{}: these data do not tell its form, {form}, from {}.", winner.id(), winner.other_forms.join(" or "))
+    })
+}
+
+/// What is said of a slip that is found wrong by a scale where nothing tells how well each reading of it is known.
+fn slip_taken_as_known(campaign: &Campaign, measurements: &Measurements, selected: &Selected<'_>) -> Option<String> {
+    const ID: &str = "rolling-radius";
+    let is_stated = campaign.noise.of(Channel::Slip).is_some_and(|std| std > 0.0);
+    let is_found = selected.found.iter().any(|found| found.winner.id() == ID || found.not_told_from().contains(&ID));
+    (is_found && !is_stated).then(|| {
+        format!(
+            "{ID}: how well slip is known is not stated, and it is taken as {:.4}. Slips that are read less well bend what follows them, which \
+             looks like a slip of another scale; state [noise] slip.",
+            measurements.noise[Reading::Slip.index()].std
+        )
     })
 }
 

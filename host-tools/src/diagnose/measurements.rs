@@ -12,6 +12,7 @@ use super::chance::of_known_noise;
 use super::document::LeftOut;
 use super::fit::{CHANNELS, Reading, Row};
 use super::lone_rows::LoneRow;
+use super::loose_slip::loose_slip;
 use super::noise::{Noise, channel_noise};
 use super::rates::wheel_rates;
 use super::settings::{Settled, settle};
@@ -48,6 +49,8 @@ pub struct Measurements {
     pub rows_of_run: Vec<Vec<usize>>,
     /// The noise of each reading.
     pub noise: [Noise; CHANNELS],
+    /// What slips scatter by about a sweep, where that is more than is taken for their noise.
+    pub loose_slip: Option<f64>,
     /// Rows that were left out.
     pub left_out: Vec<LeftOut>,
     /// Which rows were held at one slip or load.
@@ -87,6 +90,7 @@ impl Measurements {
             runs: Vec::new(),
             rows_of_run: Vec::new(),
             noise,
+            loose_slip: loose_slip(campaign, usable),
             left_out,
             settled: Settled::default(),
             is_load_set: loads().next().is_some() && !varies(loads()),

@@ -36,6 +36,7 @@ mod left_over;
 mod levels;
 mod linearised;
 mod lone_rows;
+mod loose_slip;
 pub mod measurements;
 mod mimicry;
 mod nearest;

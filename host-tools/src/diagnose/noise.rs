@@ -19,8 +19,8 @@ pub struct Noise {
     pub of_repeats: Option<f64>,
 }
 
-/// Slip of a campaign that does not say how well it is known.
-const SLIP_STD: f64 = 0.002;
+/// Slip of a campaign that does not say how well it is known, at most.
+pub const SLIP_STD: f64 = 0.002;
 /// Load over its middle value, likewise.
 const LOAD_SHARE: f64 = 0.005;
 /// Fewest rows with one before and one after from which scatter is known.
@@ -68,7 +68,7 @@ fn spread(values: Vec<f64>) -> f64 {
 
 /// From the middle size of how far a reading is from the mean of those before and after it in its run: white noise, and how it bends. None
 /// where there are few, or most are the same number: it was set, and nothing read it.
-fn within_runs(campaign: &Campaign, reading: Reading, rows: &[UsableRow]) -> Option<f64> {
+pub fn within_runs(campaign: &Campaign, reading: Reading, rows: &[UsableRow]) -> Option<f64> {
     let bend = |three: &[UsableRow]| {
         let three: &[UsableRow; 3] = three.try_into().ok()?;
         let runs = three.map(|row| &campaign.rows()[row.place].run_in_file);

@@ -11,6 +11,7 @@ use super::candidates::{loads_differ, rates_differ};
 use super::contact_again::{is_second_sensor, says_no_more};
 use super::fit::{Latent, Reading};
 use super::linearised::{Linearised, Slopes, Term};
+use super::loose_slip::is_clock;
 use super::measurements::{KNOWN_SHARE, Measurements, column_name};
 use super::rates::speed_ratio_by_slip;
 use crate::statistics::sorted;
@@ -97,6 +98,10 @@ pub fn columns(bench: &Bench<'_>, linearised: &Linearised<'_>) -> Vec<Regressor>
     let mut found: Vec<Regressor> = Vec::new();
     for name in names {
         let column = column(bench, linearised, name);
+        let is_contact = CONTACT.iter().any(|reading| name == column_name(*reading));
+        if bench.measurements.loose_slip.is_some() && !is_contact && is_clock(bench.measurements, &column.values) {
+            continue;
+        }
         let part = Part::of(name, &column.values, bench.measurements, linearised.latents());
         let Some(regressor) = standardised(vec![part], &column, &at) else { continue };
         let says_the_same =
