@@ -60,6 +60,21 @@ fn slips_that_scatter_about_a_sweep_make_nothing_follow_the_clock() {
     assert!(says(&document, "state [noise] slip"));
 }
 
+#[test]
+fn a_modulus_that_is_stated_wrong_is_named_beside_the_effect_that_it_looks_like() {
+    let stated = |modulus_m: f64| {
+        format!(
+            "[soil]\nn = 1.0\nk_eff = 2e6\nc = 400.0\nphi = 0.55\nK = {modulus_m}\nc1 = 0.3\nc2 = 0.15\n[noise]\n\
+             drawbar_pull_n = 0.5\nload_n = 0.3\ntorque_nm = 0.04\nslip = 0.002\nsinkage_m = 0.0004\n"
+        )
+    };
+    let wrong = diagnosed([6, 12], &NOISE, |seen| seen, &stated(0.015));
+    assert!(!wrong.effects.is_empty(), "{}", wrong.sentence);
+    assert!(says(&wrong, "K in [soil] may be wrong instead: the data alone say 0.01"), "{:?}", wrong.caveats);
+    let right = diagnosed([6, 12], &NOISE, |seen| seen, &stated(0.012));
+    assert!(right.effects.is_empty() && !says(&right, "in [soil]"), "{}", right.sentence);
+}
+
 /// What a sensor reads at the end of its range is not what the wheel felt, and no law is lacking.
 #[test]
 fn a_torque_that_stays_at_its_greatest_is_no_effect() {

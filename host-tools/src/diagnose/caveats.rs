@@ -15,6 +15,7 @@ use super::measurements::{Measurements, column_name};
 use super::residual_search::Structure;
 use super::selection::{Judged, MISFIT};
 use super::soil_coordinates::SoilParameter;
+use super::stated_soil::{far_from_stated, is_far_from_stated};
 use super::trial::Trial;
 use super::usable_rows::brakes;
 
@@ -59,7 +60,8 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
         .chain(untold_by_verdict.filter_map(|(_, found)| left_open(found)))
         .chain(found.filter_map(|found| form_left_open(&found.winner)))
         .chain(slip_taken_as_known(campaign, measurements, selected))
-        .chain(untold(selected))
+        .chain(untold(campaign, selected))
+        .chain(far_from_stated(campaign, model))
         .chain(selected.left.iter().filter_map(says_the_same))
         .collect()
 }
@@ -191,10 +193,14 @@ fn slip_taken_as_known(campaign: &Campaign, measurements: &Measurements, selecte
 }
 
 /// The soil's parameters about which the data say next to nothing.
-fn untold(selected: &Selected<'_>) -> Option<String> {
+fn untold(campaign: &Campaign, selected: &Selected<'_>) -> Option<String> {
     let trial = selected.model();
     let coordinates = super::fit::Model::coordinates(&trial.model);
-    let is_untold = |(place, _): &(usize, &SoilParameter)| {
+    let is_untold = |(place, parameter): &(usize, &SoilParameter)| {
+        // Of what the data move far from where it is stated to be, with effects or without, they do speak.
+        if [trial, &selected.base].into_iter().any(|trial| is_far_from_stated(campaign, trial, **parameter)) {
+            return false;
+        }
         let coordinate = &coordinates[*place];
         let width = coordinate.prior.map_or((coordinate.high - coordinate.low) / f64::sqrt(12.0), |(_, std)| std);
         trial.std(*place) > TOLD * width || trial.fit.on_bound.get(*place).copied().unwrap_or(false)

@@ -56,6 +56,7 @@ mod site;
 mod sizes;
 mod soil_coordinates;
 pub mod specification;
+mod stated_soil;
 mod steps;
 mod term_screen;
 mod thinning;

@@ -16,6 +16,7 @@ use super::measurements::Measurements;
 use super::other_forms::in_other_forms;
 use super::residual_search::Structure;
 use super::specification::Specification;
+use super::stated_soil::in_place_of_effects;
 use super::trial::Trial;
 use crate::data::campaign::{Campaign, Fingerprint};
 use crate::error::HostError;
@@ -170,6 +171,7 @@ impl Whole<'_> {
         let (declared, not_shown) = declared_effects(bench, selected);
         document.declared_effects = declared;
         document.caveats.extend(not_shown);
+        document.caveats.extend(in_place_of_effects(bench, selected));
         document.caveats.splice(0..0, in_words(self.as_given, set_aside));
         if self.is_single {
             document.caveats.insert(0, ONE_RUN.to_owned());

@@ -3,7 +3,7 @@
 use kapvik_firmware::scalar::Scalar;
 use kapvik_firmware::terramechanics::Soil;
 
-use crate::data::campaign::{Campaign, Knowledge};
+use crate::data::campaign::{Campaign, Ground, Knowledge};
 
 use super::fit::Coordinate;
 
@@ -74,7 +74,7 @@ impl SoilParameter {
     }
 
     /// To the fit's unit.
-    fn coordinate(self, value: f64) -> f64 {
+    pub fn coordinate(self, value: f64) -> f64 {
         if self.is_logarithmic() { value.max(1e-300).ln() } else { value }
     }
 
@@ -93,6 +93,13 @@ impl SoilParameter {
     }
 
     fn known(self, campaign: &Campaign) -> Option<Knowledge> {
+        // A rear contact that nobody speaks of is an effect, not a part of the soil.
+        let unsaid = (self == Self::ReboundRatio).then_some(Knowledge::Value { value: 0.0, std: 0.0 });
+        self.stated(campaign).or(unsaid)
+    }
+
+    /// What a campaign states of it.
+    pub fn stated(self, campaign: &Campaign) -> Option<Knowledge> {
         let ground = &campaign.ground;
         match self {
             Self::SinkageExponent => ground.sinkage_exponent,
@@ -102,8 +109,24 @@ impl SoilParameter {
             Self::ShearModulus => ground.shear_modulus_m,
             Self::PeakStressC1 => ground.peak_stress_c1,
             Self::PeakStressC2 => ground.peak_stress_c2,
-            // A rear contact that nobody speaks of is an effect, not a part of the soil.
-            Self::ReboundRatio => ground.rebound_ratio.or(Some(Knowledge::Value { value: 0.0, std: 0.0 })),
+            Self::ReboundRatio => ground.rebound_ratio,
+        }
+    }
+
+    /// Makes what is known of a soil say as little of it as may be.
+    pub fn forget(self, ground: &mut Ground) {
+        match self {
+            Self::SinkageExponent => ground.sinkage_exponent = None,
+            Self::Stiffness => {
+                (ground.stiffness, ground.cohesive_modulus, ground.frictional_modulus) = (None, None, None);
+            }
+            Self::Cohesion => ground.cohesion_pa = None,
+            Self::FrictionAngle => ground.friction_angle_rad = None,
+            Self::ShearModulus => ground.shear_modulus_m = None,
+            Self::PeakStressC1 => ground.peak_stress_c1 = None,
+            Self::PeakStressC2 => ground.peak_stress_c2 = None,
+            // Of which nothing said would be none.
+            Self::ReboundRatio => ground.rebound_ratio = Some(Knowledge::Between { min: 0.0, max: 1.0 }),
         }
     }
 
