@@ -197,8 +197,8 @@ fn untold(campaign: &Campaign, selected: &Selected<'_>) -> Option<String> {
     let trial = selected.model();
     let coordinates = super::fit::Model::coordinates(&trial.model);
     let is_untold = |(place, parameter): &(usize, &SoilParameter)| {
-        // Of what the data move far from where it is stated to be, with effects or without, they do speak.
-        if [trial, &selected.base].into_iter().any(|trial| is_far_from_stated(campaign, trial, **parameter)) {
+        // Of what the data move far from where it is stated to be they do speak.
+        if is_far_from_stated(campaign, trial, **parameter) {
             return false;
         }
         let coordinate = &coordinates[*place];
@@ -208,7 +208,11 @@ fn untold(campaign: &Campaign, selected: &Selected<'_>) -> Option<String> {
     let free = trial.model.soil_parameters().iter().enumerate();
     let names: Vec<_> = free.filter(is_untold).map(|(_, parameter)| parameter.key()).collect();
     (!names.is_empty()).then(|| {
-        format!("These data say little or nothing of {}: what stands there is the prior or a bound.", names.join(", "))
+        let with = if selected.found.is_empty() { "" } else { ", with what was found in the model" };
+        format!(
+            "These data say little or nothing of {}{with}: what stands there is the prior or a bound.",
+            names.join(", ")
+        )
     })
 }
 

@@ -29,20 +29,9 @@ mod tests {
 
     /// φ as told, c and K not.
     fn found(degrees: f64, std_degrees: f64) -> Finding {
-        let untold = Statement { identifiable: false, ..Statement::normal(1.0, 1.0) };
-        Finding {
-            cohesion_pa: untold,
-            friction_angle_rad: Statement {
-                identifiable: true,
-                ..Statement::normal(degrees.to_radians(), std_degrees.to_radians())
-            },
-            shear_modulus_m: untold,
-            condition_number: None,
-            fit: None,
-            no_soil: None,
-            widened: None,
-            remarks: Vec::new(),
-        }
+        let untold = Statement::normal(1.0, 1.0);
+        let told = Statement::normal(degrees.to_radians(), std_degrees.to_radians());
+        Finding::of([untold, Statement { identifiable: true, ..told }, untold])
     }
 
     #[test]

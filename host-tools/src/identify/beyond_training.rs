@@ -54,17 +54,8 @@ mod tests {
     use crate::identify::method::Statement;
 
     fn found(friction_angle: Statement) -> Finding {
-        let untold = Statement { identifiable: false, ..Statement::normal(1.0, 1.0) };
-        Finding {
-            cohesion_pa: untold,
-            friction_angle_rad: friction_angle,
-            shear_modulus_m: untold,
-            condition_number: None,
-            fit: None,
-            no_soil: None,
-            widened: None,
-            remarks: Vec::new(),
-        }
+        let untold = Statement::normal(1.0, 1.0);
+        Finding::of([untold, friction_angle, untold])
     }
 
     #[test]

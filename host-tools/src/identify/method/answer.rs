@@ -56,6 +56,20 @@ pub struct Fit {
 }
 
 impl Finding {
+    /// An answer of which nothing else is said.
+    pub fn of([cohesion_pa, friction_angle_rad, shear_modulus_m]: [Statement; 3]) -> Self {
+        Self {
+            cohesion_pa,
+            friction_angle_rad,
+            shear_modulus_m,
+            condition_number: None,
+            fit: None,
+            no_soil: None,
+            widened: None,
+            remarks: Vec::new(),
+        }
+    }
+
     /// The three statements: c, φ, K.
     pub fn statements(&self) -> [&Statement; 3] {
         [&self.cohesion_pa, &self.friction_angle_rad, &self.shear_modulus_m]
@@ -69,31 +83,18 @@ impl Finding {
 
 impl From<&Identified<f64>> for Finding {
     fn from(identified: &Identified<f64>) -> Self {
+        let Identified { cohesion_pa, friction_angle_rad, shear_modulus_m, condition_number } = identified;
         Self {
-            cohesion_pa: Statement::from(&identified.cohesion_pa),
-            friction_angle_rad: Statement::from(&identified.friction_angle_rad),
-            shear_modulus_m: Statement::from(&identified.shear_modulus_m),
-            condition_number: Some(identified.condition_number).filter(|number| number.is_finite()),
-            fit: None,
-            no_soil: None,
-            widened: None,
-            remarks: Vec::new(),
+            condition_number: Some(*condition_number).filter(|number| number.is_finite()),
+            ..Self::of([cohesion_pa, friction_angle_rad, shear_modulus_m].map(Statement::from))
         }
     }
 }
 
 impl From<&SoilEstimate> for Finding {
     fn from(estimate: &SoilEstimate) -> Self {
-        Self {
-            cohesion_pa: Statement::from(&estimate.cohesion_pa),
-            friction_angle_rad: Statement::from(&estimate.friction_angle_rad),
-            shear_modulus_m: Statement::from(&estimate.shear_modulus_m),
-            condition_number: None,
-            fit: None,
-            no_soil: None,
-            widened: None,
-            remarks: Vec::new(),
-        }
+        let SoilEstimate { cohesion_pa, friction_angle_rad, shear_modulus_m, .. } = estimate;
+        Self::of([cohesion_pa, friction_angle_rad, shear_modulus_m].map(Statement::from))
     }
 }
 

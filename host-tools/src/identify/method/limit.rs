@@ -23,17 +23,8 @@ pub fn posterior_mean(evidence: &Evidence) -> Result<Finding, String> {
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let found = draws(&query(evidence), LoadPrior::Flat, effort, &mut random).map_err(|error| error.to_string())?;
     let summary = Summary::new(&found);
-    let [cohesion_pa, friction_angle_rad, shear_modulus_m] = [0, 1, 2].map(|target| statement(&summary, target));
-    Ok(Finding {
-        cohesion_pa,
-        friction_angle_rad,
-        shear_modulus_m,
-        condition_number: None,
-        fit: None,
-        no_soil: None,
-        widened: None,
-        remarks: unconverged(&summary).into_iter().collect(),
-    })
+    let statements = [0, 1, 2].map(|target| statement(&summary, target));
+    Ok(Finding { remarks: unconverged(&summary).into_iter().collect(), ..Finding::of(statements) })
 }
 
 /// What is said where the chains have not come together within the effort.

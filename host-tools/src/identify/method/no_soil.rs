@@ -44,16 +44,7 @@ mod tests {
     /// 500 ± 300 Pa, 30 ± 2°, 12 ± 3 mm, all told; changed.
     fn doubted(change: impl Fn(&mut Finding)) -> Finding {
         let told = |value, std| Statement { identifiable: true, ..Statement::normal(value, std) };
-        let mut finding = Finding {
-            cohesion_pa: told(500.0, 300.0),
-            friction_angle_rad: told(0.52, 0.035),
-            shear_modulus_m: told(0.012, 0.003),
-            condition_number: None,
-            fit: None,
-            no_soil: None,
-            widened: None,
-            remarks: Vec::new(),
-        };
+        let mut finding = Finding::of([told(500.0, 300.0), told(0.52, 0.035), told(0.012, 0.003)]);
         change(&mut finding);
         doubt(&mut finding);
         finding
