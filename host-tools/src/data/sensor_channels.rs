@@ -7,13 +7,31 @@ use kapvik_firmware::sensor_frame::{SensorFrame, WheelSensors};
 /// The wheels as the files name them, in the order of the flight library.
 pub const WHEEL_NAMES: [&str; 6] = ["fl", "ml", "rl", "fr", "mr", "rr"];
 
-/// The names of the columns, in the order of [`values`].
-pub fn names() -> Vec<String> {
+/// The sensors, in the order of [`values`].
+pub fn sensors() -> Vec<Sensor> {
     let of_wheel = [Sensor::WheelRate, Sensor::MotorTorque, Sensor::LoadCell];
     let wheels = Side::ALL.map(|side| Axle::ALL.map(|axle| of_wheel.map(|sensor| sensor(side, axle))));
     let joints = [Sensor::BogieAngle(Side::Left), Sensor::BogieAngle(Side::Right), Sensor::RockerAngle];
     let body = [Sensor::Accel, Sensor::Gyro, Sensor::Velocity].map(|sensor| [Axis::X, Axis::Y, Axis::Z].map(sensor));
-    wheels.iter_wheels().flatten().chain(&joints).chain(body.as_flattened()).copied().map(sensor_name).collect()
+    wheels.iter_wheels().flatten().chain(&joints).chain(body.as_flattened()).copied().collect()
+}
+
+/// The names of the columns, in the same order.
+pub fn names() -> Vec<String> {
+    sensors().into_iter().map(sensor_name).collect()
+}
+
+/// The key of a sensor's noise in a rover file's `[noise]`.
+pub fn noise_key(sensor: Sensor) -> &'static str {
+    match sensor {
+        Sensor::WheelRate(..) => "wheel_rate_rad_s",
+        Sensor::MotorTorque(..) => "motor_torque_nm",
+        Sensor::LoadCell(..) => "load_cell_n",
+        Sensor::BogieAngle(_) | Sensor::RockerAngle => "angle_rad",
+        Sensor::Accel(_) => "accel_m_s2",
+        Sensor::Gyro(_) => "gyro_rad_s",
+        Sensor::Velocity(_) => "velocity_m_s",
+    }
 }
 
 /// The name of a sensor's column.

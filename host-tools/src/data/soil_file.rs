@@ -13,7 +13,7 @@ use crate::error::HostError;
 /// What a file says of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(untagged, expecting = "expected a number, { value = …, std = … } or { min = …, max = … }")]
-pub enum Parameter {
+pub enum StatedNumber {
     /// A number, held to be exact.
     Exact(f64),
     /// Known to one standard deviation.
@@ -48,26 +48,26 @@ pub struct Bounds {
 #[serde(deny_unknown_fields)]
 pub struct SoilTable {
     /// Sinkage exponent n.
-    pub n: Option<Spanned<Parameter>>,
+    pub n: Option<Spanned<StatedNumber>>,
     /// Cohesive modulus, Pa/m^(n−1).
-    pub k_c: Option<Spanned<Parameter>>,
+    pub k_c: Option<Spanned<StatedNumber>>,
     /// Frictional modulus, Pa/m^n.
-    pub k_phi: Option<Spanned<Parameter>>,
+    pub k_phi: Option<Spanned<StatedNumber>>,
     /// Both moduli in one, k_c / width + k_phi, Pa/m^n; in place of `k_c` and `k_phi`.
-    pub k_eff: Option<Spanned<Parameter>>,
+    pub k_eff: Option<Spanned<StatedNumber>>,
     /// Cohesion, Pa.
-    pub c: Option<Spanned<Parameter>>,
+    pub c: Option<Spanned<StatedNumber>>,
     /// Friction angle, rad.
-    pub phi: Option<Spanned<Parameter>>,
+    pub phi: Option<Spanned<StatedNumber>>,
     /// Shear deformation modulus, m.
     #[serde(rename = "K")]
-    pub shear_modulus: Option<Spanned<Parameter>>,
+    pub shear_modulus: Option<Spanned<StatedNumber>>,
     /// Position of the peak stress at zero slip.
-    pub c1: Option<Spanned<Parameter>>,
+    pub c1: Option<Spanned<StatedNumber>>,
     /// Shift of the peak stress with slip.
-    pub c2: Option<Spanned<Parameter>>,
+    pub c2: Option<Spanned<StatedNumber>>,
     /// Rebound ratio η; absent = 0.
-    pub eta: Option<Spanned<Parameter>>,
+    pub eta: Option<Spanned<StatedNumber>>,
 }
 
 impl SoilTable {
@@ -165,24 +165,25 @@ impl SoilRange {
     }
 }
 
-fn required(file: &TomlFile, name: &str, parameter: &Option<Spanned<Parameter>>) -> Result<f64, HostError> {
+fn required(file: &TomlFile, name: &str, parameter: &Option<Spanned<StatedNumber>>) -> Result<f64, HostError> {
     optional(file, name, parameter)?
         .ok_or_else(|| file.error_at_start(format!("{name} is missing: the equations need it")))
 }
 
-fn optional(file: &TomlFile, name: &str, parameter: &Option<Spanned<Parameter>>) -> Result<Option<f64>, HostError> {
+fn optional(file: &TomlFile, name: &str, parameter: &Option<Spanned<StatedNumber>>) -> Result<Option<f64>, HostError> {
     let Some(parameter) = parameter else { return Ok(None) };
     let refuse =
         |found: String, expected: &str| Err(file.error_at(parameter, format!("{name} = {found}: expected {expected}")));
     match *parameter.get_ref() {
-        Parameter::Exact(value) | Parameter::Known(Known { value, .. }) if !value.is_finite() => {
+        StatedNumber::Exact(value) | StatedNumber::Known(Known { value, .. }) if !value.is_finite() => {
             refuse(value.to_string(), "a finite number")
         }
-        Parameter::Exact(value) | Parameter::Known(Known { value, .. }) => match SoilRange::of(name).check(value) {
+        StatedNumber::Exact(value) | StatedNumber::Known(Known { value, .. }) => match SoilRange::of(name).check(value)
+        {
             Ok(()) => Ok(Some(value)),
             Err(expected) => refuse(value.to_string(), &expected),
         },
-        Parameter::Free(Bounds { min, max }) => {
+        StatedNumber::Free(Bounds { min, max }) => {
             refuse(format!("{min} … {max}"), "one value, as the equations need one")
         }
     }

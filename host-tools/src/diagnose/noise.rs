@@ -1,7 +1,7 @@
 //! How noisy the readings of a campaign are.
 
 use crate::data::campaign::Campaign;
-use crate::data::campaign::like_rows::{Pairing, WheelState, like_pairs};
+use crate::data::campaign::like_rows::{Pairing, SlipAndLoad, like_pairs};
 
 use super::fit::{CHANNELS, Reading};
 use super::measurements::{COLUMNS, median};
@@ -107,7 +107,7 @@ fn differences(
     let state = |row: &UsableRow| {
         let at = |reading: Reading| row.readings[reading.index()];
         at(reading)?;
-        Some(WheelState { place: row.place, slip: at(Reading::Slip)?, load_n: at(Reading::Load).unwrap_or(0.0) })
+        Some(SlipAndLoad { place: row.place, slip: at(Reading::Slip)?, load_n: at(Reading::Load).unwrap_or(0.0) })
     };
     let states = rows.iter().filter_map(state).collect();
     let value = |place: usize| campaign.value(place, COLUMNS[reading.index()]);

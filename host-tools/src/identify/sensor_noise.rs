@@ -3,7 +3,7 @@
 use kapvik_firmware::wheel_state::WheelNoise;
 use serde::Serialize;
 
-use crate::data::campaign::like_rows::{Pairing, WheelState, like_pairs};
+use crate::data::campaign::like_rows::{Pairing, SlipAndLoad, like_pairs};
 use crate::data::campaign::{Campaign, Channel};
 use crate::prior::{AVERAGING, INSTANT_NOISE};
 use crate::statistics::{robust_std, root_mean_square};
@@ -130,7 +130,7 @@ fn mean_load(campaign: &Campaign) -> f64 {
 fn of_each_run(campaign: &Campaign) -> Vec<[usize; 2]> {
     let state = |place| {
         let (slip, load_n) = (campaign.value(place, Channel::Slip)?, campaign.value(place, Channel::Load)?);
-        Some(WheelState { place, slip, load_n })
+        Some(SlipAndLoad { place, slip, load_n })
     };
     let pairs = |(_, mut rows): (&str, Vec<usize>)| {
         rows.retain(|row| campaign.gross_error(*row).is_none());

@@ -1,27 +1,42 @@
 //! Whether sensors say exactly zero while the rover drives: a logger's way of writing one that is not there.
 
+use kapvik_firmware::estimator::{Axis, Sensor};
 use kapvik_firmware::rover::{PerSide, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::raw_sensors::{LEAST_READINGS, NEARLY_ALL, drives};
-use crate::data::sensor_channels::{names, values};
+use crate::data::sensor_channels::{sensor_name, sensors, values};
 
-/// How columns begin that may say exact zeros: encoders of wheels that are blocked, and what goes sideways where that is left out.
-const MAY_BE_ZERO: [&str; 5] = ["wheel_rate_", "gyro_x", "gyro_z", "velocity_y", "accel_y"];
-/// Those which say something else wherever sensors have noise, on a plane, too.
-const NOISY: [&str; 7] = ["gyro_x", "gyro_z", "velocity_y", "bogie_angle_", "rocker_angle_", "gyro_y", "velocity_z"];
-/// How the column begins of what stands level where both sides do the same.
-const ROCKER: &str = "rocker_angle_";
-/// How columns begin that are done without where they say zero.
-const DONE_WITHOUT: [&str; 2] = ["load_cell_", "motor_torque_"];
-/// How columns begin that are exactly zero on a plane, where there is no noise.
-const ZERO_ON_A_PLANE: [&str; 5] = ["bogie_angle_", "rocker_angle_", "gyro_y", "accel_x", "velocity_z"];
+/// Whether a sensor may say exact zeros: encoders of wheels that are blocked, and what goes sideways where that is left out.
+fn may_be_zero(sensor: Sensor) -> bool {
+    matches!(sensor, Sensor::WheelRate(..) | Sensor::Gyro(Axis::X | Axis::Z))
+        || matches!(sensor, Sensor::Velocity(Axis::Y) | Sensor::Accel(Axis::Y))
+}
+
+/// Whether it says something else wherever sensors have noise, on a plane, too.
+fn is_noisy(sensor: Sensor) -> bool {
+    is_joint(sensor) || matches!(sensor, Sensor::Gyro(_) | Sensor::Velocity(Axis::Y | Axis::Z))
+}
+
+/// Whether it is exactly zero on a plane, where there is no noise.
+fn is_zero_on_a_plane(sensor: Sensor) -> bool {
+    is_joint(sensor) || matches!(sensor, Sensor::Gyro(Axis::Y) | Sensor::Accel(Axis::X) | Sensor::Velocity(Axis::Z))
+}
+
+fn is_joint(sensor: Sensor) -> bool {
+    matches!(sensor, Sensor::BogieAngle(_) | Sensor::RockerAngle)
+}
+
+/// Whether it is done without where it says zero.
+fn is_done_without(sensor: Sensor) -> bool {
+    matches!(sensor, Sensor::LoadCell(..) | Sensor::MotorTorque(..))
+}
 
 /// What every sensor said while the rover drove.
 #[derive(Debug, Clone)]
 pub struct DeadSensors {
     radius_m: f64,
-    /// In the order of [`names`].
+    /// In the order of [`sensors`].
     sensors: Vec<Said>,
     /// Frames in which the rockers are level as they are where both sides do the same.
     mirrored: u32,
@@ -37,7 +52,7 @@ struct Said {
 impl DeadSensors {
     /// Of a rover, before its first frame.
     pub fn of(rover: &Rover<f32>) -> Self {
-        Self { radius_m: rover.wheel.radius_m.into(), sensors: vec![Said::default(); names().len()], mirrored: 0 }
+        Self { radius_m: rover.wheel.radius_m.into(), sensors: vec![Said::default(); sensors().len()], mirrored: 0 }
     }
 
     /// Takes a frame: one in which the rover drives.
@@ -54,25 +69,29 @@ impl DeadSensors {
 
     /// What came of it, without capital and stop.
     pub fn told(&self) -> Option<String> {
-        let named = || names().into_iter().zip(&self.sensors);
-        let has_noise = named().any(|(name, said)| begins(&name, &NOISY) && said.zeros < said.readings);
-        let may_be_zero = |name: &str| begins(name, &MAY_BE_ZERO) || !has_noise && begins(name, &ZERO_ON_A_PLANE);
-        let may_be_level = |name: &str, said: &Said| name.starts_with(ROCKER) && self.mirrored >= said.zeros;
-        let dead: Vec<_> =
-            named().filter(|(name, said)| said.is_dead() && !may_be_zero(name) && !may_be_level(name, said)).collect();
-        let in_words =
-            |(name, said): &(String, &Said)| format!("{name} (in {} of {} frames)", said.zeros, said.readings);
-        let all: Vec<String> = dead.iter().map(in_words).collect();
-        let believed: Vec<&str> =
-            dead.iter().map(|(name, _)| name.as_str()).filter(|name| !begins(name, &DONE_WITHOUT)).collect();
-        let then = match believed.len() {
-            0 => "this one is treated as missing".to_owned(),
+        let all = || sensors().into_iter().zip(&self.sensors);
+        let has_noise = all().any(|(sensor, said)| is_noisy(sensor) && said.zeros < said.readings);
+        let may_be_zero = |sensor| may_be_zero(sensor) || !has_noise && is_zero_on_a_plane(sensor);
+        // It stands level where both sides do the same.
+        let may_be_level = |sensor, said: &Said| sensor == Sensor::RockerAngle && self.mirrored >= said.zeros;
+        let dead: Vec<(Sensor, &Said)> = all()
+            .filter(|(sensor, said)| said.is_dead() && !may_be_zero(*sensor) && !may_be_level(*sensor, said))
+            .collect();
+        let in_words = |(sensor, said): &(Sensor, &Said)| {
+            format!("{} (in {} of {} frames)", sensor_name(*sensor), said.zeros, said.readings)
+        };
+        let named: Vec<String> = dead.iter().map(in_words).collect();
+        let believed = dead.iter().map(|(sensor, _)| *sensor).filter(|sensor| !is_done_without(*sensor));
+        let believed: Vec<String> = believed.map(sensor_name).collect();
+        let then = match (believed.len(), dead.len()) {
+            (0, 1) => "this one is treated as missing".to_owned(),
+            (0, _) => "these are treated as missing".to_owned(),
             _ => format!("what rests on {} is wrong", believed.join(", ")),
         };
         (!dead.is_empty()).then(|| {
             format!(
                 "{} {} exactly 0 while the rover drives: leave the field of a sensor that is not there empty; {then}",
-                all.join(", "),
+                named.join(", "),
                 if dead.len() == 1 { "says" } else { "say" }
             )
         })
@@ -91,14 +110,14 @@ fn is_mirrored(frame: &SensorFrame) -> bool {
     left == right && frame.bogie_angle_rad.left == frame.bogie_angle_rad.right
 }
 
-fn begins(name: &str, with: &[&str]) -> bool {
-    with.iter().any(|start| name.starts_with(start))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::sensor_channels::values_mut;
+    use crate::data::sensor_channels::{names, values_mut};
+
+    fn begins(name: &str, with: &[&str]) -> bool {
+        with.iter().any(|start| name.starts_with(start))
+    }
 
     /// What is said of so many frames, in which each sensor reads this by its name, those of the left wheels a little more.
     fn said(frames: u32, reading: impl Fn(&str, u32) -> f32) -> Option<String> {

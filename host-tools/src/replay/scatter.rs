@@ -2,11 +2,12 @@
 
 use std::fmt;
 
+use kapvik_firmware::estimator::Sensor;
 use kapvik_firmware::rover::Rover;
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::running_median::RunningMedian;
-use crate::data::sensor_channels::{names, standard_deviations, values};
+use crate::data::sensor_channels::{noise_key, sensor_name, sensors, standard_deviations, values};
 use crate::digits::significant;
 use crate::statistics::PER_MEDIAN;
 
@@ -20,17 +21,6 @@ const FARTHEST: f64 = 10_000.0;
 const UNEVEN: f64 = 0.25;
 /// The standard deviation of x₀ − 3x₁ + 3x₂ − x₃ over that of white noise in x: √(1 + 9 + 9 + 1).
 const OF_DIFFERENCE: f64 = 4.472_135_954_999_58;
-
-/// The keys of a rover file's `[noise]`, with the sensors that each is for: how their columns begin.
-const KEYS: [(&str, &[&str]); 7] = [
-    ("wheel_rate_rad_s", &["wheel_rate"]),
-    ("motor_torque_nm", &["motor_torque"]),
-    ("load_cell_n", &["load_cell"]),
-    ("angle_rad", &["bogie_angle", "rocker_angle"]),
-    ("accel_m_s2", &["accel"]),
-    ("gyro_rad_s", &["gyro"]),
-    ("velocity_m_s", &["velocity"]),
-];
 
 /// The scatter of every sensor over a drive.
 #[derive(Debug, Clone)]
@@ -93,18 +83,25 @@ impl Scatter {
 
     /// The sensors that scatter more than stated.
     pub fn noisier(&self) -> Vec<Noisier> {
-        KEYS.into_iter().flat_map(|(key, begins)| self.noisier_of(key, begins)).collect()
+        let mut keys: Vec<&str> = Vec::new();
+        for key in sensors().into_iter().map(noise_key) {
+            if !keys.contains(&key) {
+                keys.push(key);
+            }
+        }
+        keys.into_iter().flat_map(|key| self.noisier_of(key)).collect()
     }
 
     /// Those of a key: the key itself, where all that can be told of do.
-    fn noisier_of(&self, key: &str, begins: &[&str]) -> Vec<Noisier> {
-        let told = |(place, name): (usize, String)| {
+    fn noisier_of(&self, key: &str) -> Vec<Noisier> {
+        let told = |(place, sensor): (usize, Sensor)| {
             let stated = self.stated[place];
             let sizes = Some(&self.sizes[place]).filter(|sizes| sizes.count() >= LEAST_DIFFERENCES)?;
             let shown = stated * PER_MEDIAN * sizes.median()?;
-            begins.iter().any(|begin| name.starts_with(begin)).then_some(Noisier { name, shown, stated })
+            Some(Noisier { name: sensor_name(sensor), shown, stated })
         };
-        let of_key: Vec<Noisier> = names().into_iter().enumerate().filter_map(told).collect();
+        let of_key = sensors().into_iter().enumerate().filter(|(_, sensor)| noise_key(*sensor) == key);
+        let of_key: Vec<Noisier> = of_key.filter_map(told).collect();
         let count = of_key.len();
         let noisier: Vec<Noisier> =
             of_key.into_iter().filter(|sensor| sensor.shown > TOLERATED * sensor.stated).collect();

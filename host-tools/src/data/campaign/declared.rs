@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use crate::error::HostError;
 
-use super::super::soil_file::{Parameter, SoilRange};
+use super::super::soil_file::{SoilRange, StatedNumber};
 use super::super::text::TextFile;
 use super::super::toml_file::TomlFile;
 use super::ground::{Knowledge, knowledge};
@@ -40,7 +40,7 @@ type Entries = BTreeMap<Spanned<String>, Spanned<Entry>>;
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged, expecting = "expected a number, { value = …, std = … }, { min = …, max = … } or the name of a form")]
 enum Entry {
-    Parameter(Parameter),
+    Parameter(StatedNumber),
     Form(String),
 }
 
@@ -199,7 +199,7 @@ fn find_form(
 fn parameter(
     info: &'static EffectInfo,
     name: &Spanned<String>,
-    known: Parameter,
+    known: StatedNumber,
     entry: &Spanned<Entry>,
     file: &TomlFile,
 ) -> Result<(&'static str, Knowledge), HostError> {

@@ -8,7 +8,7 @@ use toml::Spanned;
 use crate::error::HostError;
 use crate::prior::{self, Range};
 
-use super::super::soil_file::{Bounds, Known, Parameter, SoilRange, SoilTable};
+use super::super::soil_file::{Bounds, Known, SoilRange, SoilTable, StatedNumber};
 use super::super::toml_file::TomlFile;
 
 /// What is known of one parameter.
@@ -116,7 +116,7 @@ impl Ground {
     /// # Errors
     /// At the parameter that is outside its range or given twice.
     pub(super) fn read(table: &SoilTable, file: &TomlFile) -> Result<Self, HostError> {
-        let read = |name, place: &Option<Spanned<Parameter>>| {
+        let read = |name, place: &Option<Spanned<StatedNumber>>| {
             place.as_ref().map(|parameter| knowledge(file, name, parameter, SoilRange::of(name))).transpose()
         };
         table.check_stiffness(file)?;
@@ -176,19 +176,19 @@ impl Ground {
 pub(super) fn knowledge(
     file: &TomlFile,
     name: &str,
-    parameter: &Spanned<Parameter>,
+    parameter: &Spanned<StatedNumber>,
     range: SoilRange,
 ) -> Result<Knowledge, HostError> {
     let refuse = |what: String| Err(file.error_at(parameter, format!("{name}: {what}")));
     let (known, low, high) = match *parameter.get_ref() {
-        Parameter::Exact(value) => (Knowledge::Value { value, std: 0.0 }, value, value),
-        Parameter::Known(Known { value, std }) => {
+        StatedNumber::Exact(value) => (Knowledge::Value { value, std: 0.0 }, value, value),
+        StatedNumber::Known(Known { value, std }) => {
             if !(std >= 0.0 && std.is_finite()) {
                 return refuse(format!("std = {std}: expected a standard deviation of 0 or more"));
             }
             (Knowledge::Value { value, std }, value, value)
         }
-        Parameter::Free(Bounds { min, max }) => {
+        StatedNumber::Free(Bounds { min, max }) => {
             // Also where one of them is not a number.
             if min.partial_cmp(&max) != Some(Ordering::Less) {
                 return refuse(format!("min = {min}, max = {max}: expected min below max"));

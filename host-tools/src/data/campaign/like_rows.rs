@@ -2,7 +2,7 @@
 
 /// A row by its place in the campaign, and the state of its wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WheelState {
+pub struct SlipAndLoad {
     /// Its place.
     pub place: usize,
     /// Slip.
@@ -26,17 +26,17 @@ pub enum Pairing {
 /// Pairs of rows that are alike in slip, and in load to a share of it, by their places. Of several mates the one of the nearest slip is taken,
 /// whatever its load: the nearest load would make that seem better known than it is. Rows of one slip stay in the order in which they come.
 pub fn like_pairs(
-    mut states: Vec<WheelState>,
+    mut states: Vec<SlipAndLoad>,
     like_load: f64,
     pairing: Pairing,
     may_be_mates: impl Fn(usize, usize) -> bool,
 ) -> Vec<[usize; 2]> {
     states.sort_by(|a, b| a.slip.total_cmp(&b.slip));
     let mut pairs = Vec::new();
-    let mut single: Vec<WheelState> = Vec::new();
+    let mut single: Vec<SlipAndLoad> = Vec::new();
     for state in states {
         single.retain(|earlier| state.slip - earlier.slip <= LIKE_SLIP);
-        let is_mate = |earlier: &WheelState| {
+        let is_mate = |earlier: &SlipAndLoad| {
             let is_like = (state.load_n - earlier.load_n).abs() <= like_load * earlier.load_n.abs();
             is_like && may_be_mates(earlier.place, state.place)
         };
@@ -56,7 +56,7 @@ mod tests {
     /// Three slips at two loads, swept twice: no row is beside its like by slip alone.
     #[test]
     fn a_grid_that_is_swept_twice_repeats_each_of_its_states() {
-        let at = |place: usize| WheelState {
+        let at = |place: usize| SlipAndLoad {
             place,
             slip: 0.1 * (place / 2 % 3) as f64,
             load_n: if place.is_multiple_of(2) { 40.0 } else { 80.0 },
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn of_three_like_rows_two_pairs_are_made_in_a_chain_and_one_apart() {
-        let states: Vec<_> = (0..3).map(|place| WheelState { place, slip: 0.2, load_n: 50.0 }).collect();
+        let states: Vec<_> = (0..3).map(|place| SlipAndLoad { place, slip: 0.2, load_n: 50.0 }).collect();
         let pairs = |pairing| like_pairs(states.clone(), 0.05, pairing, |_, _| true);
         assert_eq!((pairs(Pairing::Chained), pairs(Pairing::Apart)), (vec![[0, 1], [1, 2]], vec![[0, 1]]));
     }

@@ -7,6 +7,8 @@ use kapvik_firmware::terramechanics::effects::{Effects, Form};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::data::campaign::{DeclaredEffect, Knowledge};
+use crate::digits::significant;
+use crate::parameter::Parameter;
 
 use super::rebound::{free_rebound, put_back, without_rebound};
 use super::{Evidence, Finding, Fit, Statement, method_refusal};
@@ -76,11 +78,12 @@ fn without_what_is_not_shown(
 fn doubt(finding: &mut Finding, rival: &MapEstimate<f64>, in_words: impl Fn(&str) -> String) {
     let other = Finding::from(&rival.identified);
     let mut names = Vec::new();
-    let statements = finding.statements_mut().into_iter().zip(other.statements()).zip(["c", "φ", "K"]);
-    for ((statement, other), name) in statements {
+    let statements = finding.statements_mut().into_iter().zip(other.statements()).zip(Parameter::ALL);
+    for ((statement, other), parameter) in statements {
         if statement.identifiable && (statement.value - other.value).abs() > ANOTHER * statement.std {
             statement.identifiable = false;
-            names.push(format!("{name} is {:.3e}", other.value));
+            let value = significant(parameter.shown(other.value), 3);
+            names.push(format!("{} is {value} {}", parameter.symbol(), parameter.unit()));
         }
     }
     if !names.is_empty() {
