@@ -13,6 +13,8 @@ mod kapvik;
 mod made;
 mod map;
 mod map_design;
+mod map_firm_ground;
+mod map_unmeasured;
 #[path = "../support/mostly.rs"]
 mod mostly;
 mod non_uniqueness;

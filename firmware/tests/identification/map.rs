@@ -10,13 +10,10 @@ use kapvik_firmware::scalar::Scalar;
 use kapvik_firmware::terramechanics::Soil;
 use kapvik_firmware::terramechanics::effects::Effects;
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
 use super::made::{NOISE, SIX_SLIPS};
-use super::map_design::{Design, TABLE_1, WHEEL};
+use super::map_design::{Design, TABLE_1, WHEEL, assert_near, drawn, lose_pull, lose_torque};
 use super::worse::worse;
 
 fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
@@ -35,11 +32,6 @@ fn friction_deg(estimate: &MapEstimate<f64>) -> f64 {
 
 fn modulus_mm(estimate: &MapEstimate<f64>) -> f64 {
     1e3 * estimate.identified.shear_modulus_m.value
-}
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} against {expected} ± {tolerance}");
 }
 
 /// Medians of an independent implementation. A degree of φ and half a millimetre of K is
@@ -191,31 +183,6 @@ fn condition_number_of_one_wheel_as_published() {
     assert!((1.6e4..3.5e4 / 0.557).contains(&found), "{found}");
 }
 
-/// A truth from the usual beliefs.
-fn drawn(seed: u64) -> Soil<f64> {
-    let (mut random, prior) = (ChaCha8Rng::seed_from_u64(seed), SoilPrior::<f64>::usual());
-    let mut draw = |belief: &Belief<f64>| loop {
-        let normal: f64 = StandardNormal.sample(&mut random);
-        let value = belief.mean + belief.spread() * normal;
-        if value > belief.low && value < belief.high {
-            return value;
-        }
-    };
-    let exponent = draw(&prior.sinkage_exponent);
-    let away = exponent - prior.sinkage_exponent.mean;
-    Soil {
-        sinkage_exponent: exponent,
-        cohesive_modulus: 0.0,
-        frictional_modulus: (draw(&prior.ln_stiffness) - away * prior.known_depth_m.ln()).exp(),
-        cohesion_pa: draw(&prior.ln_cohesion).exp(),
-        friction_angle_rad: draw(&prior.friction_angle_rad),
-        shear_modulus_m: draw(&prior.ln_shear_modulus).exp(),
-        peak_stress_c1: draw(&prior.peak_stress_c1),
-        peak_stress_c2: draw(&prior.peak_stress_c2),
-        rebound_ratio: 0.0,
-    }
-}
-
 /// Where model, noise and beliefs hold, the stated intervals hold the truth as often as they say, and the misfit is
 /// distributed as χ². Bounds are four standard errors of the share of some 700 cases.
 #[test]
@@ -251,91 +218,6 @@ fn stated_intervals_hold_the_truth() {
         let degrees_of_freedom = f64::from(cases[0].2);
         assert_near(misfit, 1.0, 4.0 * (2.0 / degrees_of_freedom / count).sqrt());
     }
-}
-
-fn lose_torque(seen: &mut Observation<f64>) {
-    (seen.state.torque_nm, seen.noise.torque_nm) = (0.0, f64::INFINITY);
-}
-
-fn lose_pull(seen: &mut Observation<f64>) {
-    (seen.state.drawbar_pull_n, seen.noise.drawbar_pull_n) = (0.0, f64::INFINITY);
-}
-
-/// What was not measured has no weight, whatever number stands in its place: as if it had been measured a million times worse. Without
-/// both nothing tells the soil's strength.
-#[test]
-fn what_was_not_measured_says_nothing() {
-    let seen = Design::MEAN_OF_100.observe(&TABLE_1, &Effects::none(), 6, 1.0).expect("carried");
-    let with = |change: &dyn Fn(&mut Observation<f64>)| {
-        let mut seen = seen.clone();
-        seen.iter_mut().for_each(change);
-        identify(&WHEEL, &seen, &SoilPrior::usual())
-    };
-    let all = with(&|_| ()).expect("an estimate");
-    let hardly = |lose: fn(&mut Observation<f64>)| {
-        let mut without = seen[0];
-        lose(&mut without);
-        with(&move |seen| {
-            for (std, lost) in [
-                (&mut seen.noise.drawbar_pull_n, without.noise.drawbar_pull_n),
-                (&mut seen.noise.torque_nm, without.noise.torque_nm),
-            ] {
-                *std *= if lost.is_finite() { 1.0 } else { 1e6 };
-            }
-        })
-    };
-    for lose in [lose_torque as fn(&mut Observation<f64>), lose_pull] {
-        let (lost, hardly) = (with(&lose).expect("an estimate"), hardly(lose).expect("an estimate"));
-        assert_near(lost.friction_angle_rad.mean, hardly.friction_angle_rad.mean, 1e-6);
-        assert_near(lost.ln_shear_modulus.mean, hardly.ln_shear_modulus.mean, 1e-6);
-        assert_eq!(all.residuals - lost.residuals, 6);
-        assert_eq!(lost.degrees_of_freedom, 12);
-        assert!(lost.friction_angle_rad.std > 1.2 * all.friction_angle_rad.std, "{lost:?}");
-    }
-    let neither = with(&|seen| {
-        lose_pull(seen);
-        lose_torque(seen);
-    });
-    assert_eq!(neither.err(), Some(Refusal::OutOfRange));
-}
-
-/// On soil so firm that wheels sink by a hundredth of their radius, far beyond what is believed of the stiffness, the way from the middle of
-/// the beliefs to the mode is long: where it is lost, exact data seem to be of no soil. Without noise the truth leaves nothing but its
-/// distance from what is believed, and a mode hardly ever more: without sinkage there is now and then another minimum that is as good as
-/// chance would have it.
-#[test]
-fn firm_ground_is_found() {
-    let prior = SoilPrior::usual();
-    let beyond: Vec<f64> = (0..240_u64)
-        .into_par_iter()
-        .filter_map(|seed| {
-            let mut soil = drawn(seed);
-            soil.frictional_modulus *= 10.0 + (seed % 20) as f64;
-            let design = Design { spread: 0.3, sinkage_seen: seed % 2 == 0, ..Design::MEAN_OF_100 };
-            let seen = design.observe(&soil, &Effects::none(), 30_000 + seed, 0.0)?;
-            let found = identify(&WHEEL, &seen, &prior).expect("an estimate");
-            Some(found.misfit - distance(&soil, &prior))
-        })
-        .collect();
-    let beside = beyond.iter().filter(|beyond| **beyond > 0.1).count();
-    let farthest = quantile(beyond.iter().copied(), 1.0);
-    println!("firm ground: {beside} of {} are in another minimum, by up to {farthest:.1}", beyond.len());
-    assert!(beyond.len() > 200 && beside <= 5 && farthest < 16.0);
-}
-
-/// Sum of the squared distances of a soil's numbers from what is believed of them, in standard deviations.
-fn distance(soil: &Soil<f64>, prior: &SoilPrior<f64>) -> f64 {
-    let away = soil.sinkage_exponent - prior.sinkage_exponent.mean;
-    let numbers = [
-        (soil.sinkage_exponent, prior.sinkage_exponent),
-        (soil.frictional_modulus.ln() + away * prior.known_depth_m.ln(), prior.ln_stiffness),
-        (soil.peak_stress_c1, prior.peak_stress_c1),
-        (soil.peak_stress_c2, prior.peak_stress_c2),
-        (soil.shear_modulus_m.ln(), prior.ln_shear_modulus),
-        (soil.friction_angle_rad, prior.friction_angle_rad),
-        (soil.cohesion_pa.ln(), prior.ln_cohesion),
-    ];
-    numbers.into_iter().map(|(number, belief)| ((number - belief.mean) / belief.spread()).powi(2)).sum()
 }
 
 /// Single precision, as in flight, is finite and beside double precision by a small part of what is not known.

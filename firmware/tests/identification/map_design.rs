@@ -1,7 +1,7 @@
 //! Ways to look at a soil, for the maximum a posteriori.
 
 use kapvik_firmware::identification::map::{MapEstimate, identify};
-use kapvik_firmware::identification::{Observation, SoilPrior};
+use kapvik_firmware::identification::{Belief, Observation, SoilPrior};
 use kapvik_firmware::terramechanics::effects::{Conditions, Effects, Grousers};
 use kapvik_firmware::terramechanics::{Quadrature, Soil, Wheel, WheelOnSoil};
 use kapvik_firmware::wheel_state::{WheelNoise, WheelState};
@@ -72,4 +72,44 @@ impl Design<'_> {
         };
         (0..count).into_par_iter().map(estimate).collect()
     }
+}
+
+/// A truth from the usual beliefs.
+pub fn drawn(seed: u64) -> Soil<f64> {
+    let (mut random, prior) = (ChaCha8Rng::seed_from_u64(seed), SoilPrior::<f64>::usual());
+    let mut draw = |belief: &Belief<f64>| loop {
+        let normal: f64 = StandardNormal.sample(&mut random);
+        let value = belief.mean + belief.spread() * normal;
+        if value > belief.low && value < belief.high {
+            return value;
+        }
+    };
+    let exponent = draw(&prior.sinkage_exponent);
+    let away = exponent - prior.sinkage_exponent.mean;
+    Soil {
+        sinkage_exponent: exponent,
+        cohesive_modulus: 0.0,
+        frictional_modulus: (draw(&prior.ln_stiffness) - away * prior.known_depth_m.ln()).exp(),
+        cohesion_pa: draw(&prior.ln_cohesion).exp(),
+        friction_angle_rad: draw(&prior.friction_angle_rad),
+        shear_modulus_m: draw(&prior.ln_shear_modulus).exp(),
+        peak_stress_c1: draw(&prior.peak_stress_c1),
+        peak_stress_c2: draw(&prior.peak_stress_c2),
+        rebound_ratio: 0.0,
+    }
+}
+
+/// As if the torque had not been measured.
+pub fn lose_torque(seen: &mut Observation<f64>) {
+    (seen.state.torque_nm, seen.noise.torque_nm) = (0.0, f64::INFINITY);
+}
+
+/// As if the drawbar pull had not been measured.
+pub fn lose_pull(seen: &mut Observation<f64>) {
+    (seen.state.drawbar_pull_n, seen.noise.drawbar_pull_n) = (0.0, f64::INFINITY);
+}
+
+#[track_caller]
+pub fn assert_near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value} against {expected} ± {tolerance}");
 }
