@@ -19,16 +19,20 @@ const BEYOND_CHANCE: f64 = 3.0;
 impl Campaign {
     /// Checks that torque and sinkage have the format's sign.
     pub(super) fn check_signs(&self) -> Result<(), HostError> {
-        if let Some((row, below, all)) = self.nearly_all_below_zero(Channel::Torque, |slip| slip > DRIVES) {
-            let message = format!(
-                "torque_nm below 0 in {below} of {all} rows with a slip above {DRIVES}: expected positive where the soil resists \
-                 forward rotation: is its sign turned?"
-            );
-            return Err(self.error_at_row(row, Channel::Torque, message));
+        // What reads below zero by another zero, as a torque does of which too much was taken off for the drive's friction, or a gauge that was
+        // zeroed on a wheel that had sunk, reads less below zero under more load or slip.
+        match self.nearly_all_below_zero(Channel::Torque, |slip| slip > DRIVES) {
+            Some((row, below, all)) if self.grows_below_zero(Channel::Torque) => {
+                let message = format!(
+                    "torque_nm below 0 in {below} of {all} rows with a slip above {DRIVES}, and the more so the more load or slip: expected \
+                     positive where the soil resists forward rotation: is its sign turned?"
+                );
+                return Err(self.error_at_row(row, Channel::Torque, message));
+            }
+            _ => {}
         }
         match self.nearly_all_below_zero(Channel::Sinkage, |_| true) {
-            // A gauge that was zeroed on a wheel that had sunk reads less below zero the deeper the wheel sinks.
-            Some((row, below, all)) if self.sinks_below_zero() => Err(self.error_at_row(
+            Some((row, below, all)) if self.grows_below_zero(Channel::Sinkage) => Err(self.error_at_row(
                 row,
                 Channel::Sinkage,
                 format!(
@@ -69,9 +73,9 @@ impl Campaign {
         is_nearly_all.then(|| (below[0], below.len(), readings.len()))
     }
 
-    /// Whether the sinkage goes further below zero under more load or slip, whichever it follows more.
-    fn sinks_below_zero(&self) -> bool {
-        let of = |cause| trend(&self.pairs(cause, Channel::Sinkage, |_, cause, sinkage| Some((cause, -sinkage))));
+    /// Whether a channel goes further below zero under more load or slip, whichever it follows more.
+    fn grows_below_zero(&self, channel: Channel) -> bool {
+        let of = |cause| trend(&self.pairs(cause, channel, |_, cause, value| Some((cause, -value))));
         let [load, slip] = [Channel::Load, Channel::Slip].map(of);
         (if load.abs() > slip.abs() { load } else { slip }) > 0.0
     }
@@ -139,5 +143,17 @@ mod tests {
     #[test]
     fn a_gauge_that_was_zeroed_on_a_sunk_wheel_is_read() {
         assert!(read([1.0; 3], 0.02).expect("another zero").remarks().is_empty());
+    }
+
+    /// Nor is that of a torque of which too much was taken off: it still rises with slip.
+    #[test]
+    fn a_torque_with_another_zero_is_read() {
+        let row = |place: usize| {
+            let (slip, load) = (0.12 + 0.1 * (place % 4) as f64, 60.0 + 5.0 * (place / 4) as f64);
+            format!("r{place},0,{slip},{load},{}\n", 0.03 * load * slip - 6.0)
+        };
+        let csv = format!("run,t_s,slip,load_n,torque_nm\n{}", (0..12).map(row).collect::<String>());
+        let toml = "name = \"a\"\nkind = \"measured\"\n[wheel]\nradius_m = 0.15\nwidth_m = 0.1\n";
+        Campaign::parse(Path::new("a.csv"), &csv, toml).expect("an offset");
     }
 }
