@@ -53,6 +53,19 @@ pub fn robust_std(errors: impl IntoIterator<Item = f64>) -> f64 {
     PER_MEDIAN * median(errors.into_iter().map(f64::abs))
 }
 
+/// Values less their mean.
+pub fn centred(values: &[f64]) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter().map(|value| value - mean).collect()
+}
+
+/// Correlation of two columns whose means are zero; 0 where one of them is zero throughout.
+pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+    product / (squares(a) * squares(b)).sqrt().max(f64::MIN_POSITIVE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{ends, median, quantile, root_mean_square, sorted};

@@ -9,8 +9,9 @@ use super::fit::Reading;
 use super::formula::{Group, figure, rounded};
 use super::linearised::Linearised;
 use super::measurements::{KNOWN_SHARE, median};
-use super::regressors::{causes, correlation, other_causes, values};
+use super::regressors::{causes, other_causes, values};
 use super::trial::Trial;
+use crate::statistics::{centred, correlation};
 
 /// Spread over size below which a column does not vary.
 const FLAT: f64 = 1e-3;
@@ -51,7 +52,7 @@ pub fn groups(bench: &Bench<'_>, trial: &Trial<'_>, linearised: &Linearised<'_>,
     all.sort_by_key(|group| !first.contains(&group.column.as_str()));
     let mut found: Vec<Group> = Vec::new();
     for group in all.into_iter().filter(varies) {
-        if !found.iter().any(|other| correlation(&centred(other), &centred(&group)).abs() > SAME) {
+        if !found.iter().any(|other| correlation(&centred(&other.values), &centred(&group.values)).abs() > SAME) {
             found.push(group);
         }
     }
@@ -142,10 +143,5 @@ fn group(symbol: String, column: &str, values: Vec<f64>) -> Group {
 
 fn varies(group: &Group) -> bool {
     let size = group.values.iter().map(|value| value.abs()).fold(0.0, f64::max);
-    centred(group).iter().any(|value| value.abs() > FLAT * size)
-}
-
-fn centred(group: &Group) -> Vec<f64> {
-    let mean = group.values.iter().sum::<f64>() / group.values.len() as f64;
-    group.values.iter().map(|value| value - mean).collect()
+    centred(&group.values).iter().any(|value| value.abs() > FLAT * size)
 }

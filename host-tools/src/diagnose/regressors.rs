@@ -14,7 +14,7 @@ use super::linearised::{Linearised, Slopes, Term};
 use super::loose_slip::is_clock;
 use super::measurements::{KNOWN_SHARE, Measurements, column_name};
 use super::rates::speed_ratio_by_slip;
-use crate::statistics::sorted;
+use crate::statistics::{correlation, sorted};
 
 /// A column, or a product of two, about zero and one in size. What is made of slip, load, sinkage or speed is a function of
 /// the true slip and load as they were fitted, not of their readings.
@@ -252,13 +252,6 @@ fn standardised(parts: Vec<Part>, column: &Column, at: &Arc<[[f64; 2]]>) -> Opti
         values: distinct.len(),
         parts,
     })
-}
-
-/// Correlation of two columns whose means are zero.
-pub(super) fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-    let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
-    product / (squares(a) * squares(b)).sqrt().max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use super::method::{Finding, Fit, Method, network_refusal, rebound};
 use super::misfit::{by_map, misfits_of};
 use super::network::{Identification, IdentifiedRun, Question};
 use super::run_states::{RunStates, reasons_in_words};
-use super::sensor_noise::{ChannelStd, NoiseSource, SensorNoise};
+use super::sensor_noise::{NoiseSource, SensorNoise};
 use super::soil_document::SoilDocument;
 
 /// A campaign, identified.
@@ -212,14 +212,8 @@ fn told_by_one_alone(method: Method, campaign: &Campaign) -> Option<String> {
 }
 
 fn noise_document(noise: &SensorNoise) -> BTreeMap<&'static str, NoiseDocument> {
-    let entry = |channel: Channel, std: ChannelStd| (channel.name(), NoiseDocument { std: std.std, from: std.source });
-    BTreeMap::from([
-        entry(Channel::DrawbarPull, noise.drawbar_pull),
-        entry(Channel::Load, noise.load),
-        entry(Channel::Torque, noise.torque),
-        entry(Channel::Slip, noise.slip),
-        entry(Channel::Sinkage, noise.sinkage),
-    ])
+    let of_channels = noise.by_channel().into_iter();
+    of_channels.map(|(channel, one)| (channel.name(), NoiseDocument { std: one.std, from: one.source })).collect()
 }
 
 impl RunDocument {
@@ -234,19 +228,9 @@ impl RunDocument {
     }
 
     fn of(run: &IdentifiedRun) -> Self {
-        let mut document = Self::as_stated(run);
-        if run.unlearned.is_some() {
-            document.beyond_training.clone_from(&run.unlearned);
-            document.tell_nothing();
-        }
-        document
-    }
-
-    /// As the networks state it.
-    fn as_stated(run: &IdentifiedRun) -> Self {
         let question = run.question.as_ref();
         let estimate = |answer: &QueryAnswer| answer.rover.as_ref().map(SoilDocument::of_network).unwrap_or_default();
-        Self {
+        let mut document = Self {
             refused: run.refused(),
             condition_number: question.and_then(|question| question.condition_number),
             soil: question.map(|question| estimate(&question.answer)).unwrap_or_default(),
@@ -256,8 +240,13 @@ impl RunDocument {
                 wheels: question.map(|question| WheelDocument::all(&run.states, question)).unwrap_or_default(),
             }),
             widened: question.and_then(|question| question.missing.as_ref()?.in_words("networks'")),
+            beyond_training: run.beyond_training.clone(),
             ..Self::empty(&run.states)
+        };
+        if document.beyond_training.is_some() {
+            document.tell_nothing();
         }
+        document
     }
 
     fn of_finding(states: &RunStates, found: &Result<Finding, String>) -> Self {

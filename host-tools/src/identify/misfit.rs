@@ -64,15 +64,8 @@ pub fn misfits_of(
 
 /// Whether the noise of all that is weighed is stated.
 fn is_stated(campaign: &Campaign, noise: &SensorNoise) -> bool {
-    let channels = [
-        (Channel::DrawbarPull, noise.drawbar_pull),
-        (Channel::Load, noise.load),
-        (Channel::Torque, noise.torque),
-        (Channel::Slip, noise.slip),
-        (Channel::Sinkage, noise.sinkage),
-    ];
     let is_there = |channel: Channel| campaign.column(channel.name()).is_some();
-    channels.into_iter().all(|(channel, noise)| !is_there(channel) || noise.source == NoiseSource::Campaign)
+    noise.by_channel().into_iter().all(|(channel, noise)| !is_there(channel) || noise.source == NoiseSource::Campaign)
 }
 
 fn in_words(fit: &Fit, is_stated: bool) -> Option<String> {

@@ -41,7 +41,7 @@ pub struct IdentifiedRun {
     /// Why no soil explains the run by equations that the networks know, where that was tried and its residuals are no noise.
     pub misfit: Option<String>,
     /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`, where that was looked at.
-    pub unlearned: Option<String>,
+    pub beyond_training: Option<String>,
 }
 
 /// What the networks were asked about a run, and what they said.
@@ -74,7 +74,7 @@ pub fn identify(campaign: &Campaign, answer: &mut Answer<'_>) -> Result<Identifi
     let identified = |states: RunStates| {
         let question =
             if states.states.is_empty() { None } else { Some(ask(campaign, &states.states, &noise, answer)?) };
-        Ok(IdentifiedRun { states, question, misfit: None, unlearned: None })
+        Ok(IdentifiedRun { states, question, misfit: None, beyond_training: None })
     };
     let runs = run_states(campaign, &noise, Method::Network).into_iter().map(identified);
     Ok(Identification { runs: runs.collect::<Result<_, HostError>>()?, noise })
@@ -103,7 +103,7 @@ pub fn identify_rehearsed(
         let estimate = run.question.as_ref().and_then(|question| question.answer.rover.as_ref().ok());
         let found = by_map.as_ref().map(|by_map| &by_map.found);
         let beside = || beside(&Finding::from(estimate?), found?);
-        run.unlearned = found.and_then(beyond).or_else(|| at_an_end(estimate?)).or_else(beside);
+        run.beyond_training = found.and_then(beyond).or_else(|| at_an_end(estimate?)).or_else(beside);
         run.misfit = by_map.and_then(|by_map| by_map.misfit);
     }
     Ok(identification)

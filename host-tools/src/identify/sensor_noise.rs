@@ -83,6 +83,17 @@ impl SensorNoise {
         }
     }
 
+    /// That of each channel.
+    pub fn by_channel(&self) -> [(Channel, ChannelStd); 5] {
+        [
+            (Channel::DrawbarPull, self.drawbar_pull),
+            (Channel::Load, self.load),
+            (Channel::Torque, self.torque),
+            (Channel::Slip, self.slip),
+            (Channel::Sinkage, self.sinkage),
+        ]
+    }
+
     /// The noise of a mean state: infinite of a pull or a torque that none of its rows has.
     pub fn of_mean(&self, state: &MeanState) -> WheelNoise<f64> {
         let per_reading = &state.rows_per_reading;

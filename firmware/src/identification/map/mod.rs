@@ -1,11 +1,12 @@
 //! Maximum a posteriori with errors in variables: every observation's true sinkage and slip are unknown too, and the
 //! integrals of the wheel–soil equations are taken as they are.
 //!
-//! Residuals, each over its standard deviation: load and slip, and drawbar pull, torque and sinkage where these were measured (one of the
-//! first two was); and those of the beliefs ([`crate::identification::SoilPrior`]). Their slopes come with the equations (dual numbers); the true
-//! sinkage and slip are rotated out wheel by wheel, so that the work grows in proportion to the observations. Levenberg and
-//! Marquardt's steps, from three places of the prior, lead to the mode; the noise is first taken sixteen and four times as
-//! great, because the floor of the valley is bent and the narrower it is the longer the way along it.
+//! Residuals, each over its standard deviation: load and slip, and drawbar pull, torque and sinkage where these were
+//! measured (one of the first two was); and those of the beliefs ([`crate::identification::SoilPrior`]). Their slopes come
+//! with the equations (dual numbers); the true sinkage and slip are rotated out wheel by wheel, so that the work grows in
+//! proportion to the observations. Levenberg and Marquardt's steps, from three places of the prior, lead to the mode; the
+//! noise is first taken sixteen and four times as great, because the floor of the valley is bent and the narrower it is the
+//! longer the way along it. Where that ends beyond chance, the same places on stiffer and softer soil are tried, too.
 //!
 //! What is told is not the mode but mean and spread of the posterior about it, because the posterior of a small cohesion has
 //! one long end: normal distributions are mixed along ln c, and along ln K and φ where they are not known well. The mode is given

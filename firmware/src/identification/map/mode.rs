@@ -35,10 +35,14 @@ pub(super) fn best_mode<const N: usize, S: Scalar>(problem: &Problem<'_, S>) -> 
             break;
         }
         for start in STARTS {
-            // Under much noise what is believed would draw it back to the middle.
-            let blurs = if stiffness == 0.0 { &BLURS[..] } else { &[] };
-            let start = coordinates(stiffness, start);
-            let Some(state) = ways.approach(problem, blurs, &start, &held, &patience) else { continue };
+            let start = problem.forward.unknowns.inside(&coordinates(stiffness, start));
+            // Under much noise what is believed would draw any other back to the middle.
+            let state = if stiffness == 0.0 {
+                ways.approach(problem, &start, &held, &patience)
+            } else {
+                Some(problem.start(&start))
+            };
+            let Some(state) = state else { continue };
             let Some(found) = descend(problem, state, &held, &patience) else { continue };
             ways.steps += found.steps;
             if best.as_ref().is_none_or(|best| found.fit.cost < best.fit.cost) {
@@ -84,19 +88,18 @@ struct Ways<S> {
 }
 
 impl<S: Scalar> Ways<S> {
-    /// Goes from a start through blurs; none where an earlier way has come by.
+    /// Goes from a start through the blurs; none where an earlier way has come by.
     fn approach<const N: usize>(
         &mut self,
         problem: &Problem<'_, S>,
-        blurs: &[f64],
         start: &Point<S>,
         held: &Held,
         patience: &Patience<S>,
     ) -> Option<State<S, N>> {
         let rough = Patience { steps: 10, gain: S::constant(0.1), ..*patience };
-        let mut state = problem.start(&problem.forward.unknowns.inside(start));
-        for (blur, passed) in blurs.iter().zip(&mut self.passed) {
-            let blurred = Problem { blur: S::constant(*blur), ..*problem };
+        let mut state = problem.start(start);
+        for (blur, passed) in BLURS.into_iter().zip(&mut self.passed) {
+            let blurred = Problem { blur: S::constant(blur), ..*problem };
             let Some(found) = descend(&blurred, state.clone(), held, &rough) else { continue };
             self.steps += found.steps;
             state = found.fit.state;

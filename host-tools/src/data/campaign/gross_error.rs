@@ -175,6 +175,7 @@ mod tests {
         let said = Campaign::parse(Path::new("small.csv"), csv, toml).expect_err("no such wheel").to_string();
         assert!(said.contains("at most 0.000 m where radius_m is 0.000000001 m"), "{said}");
     }
+
     /// A load in kilograms, and a force at the rim in the torque's column: no single row is beyond what can be.
     #[test]
     fn forces_beyond_most_of_what_a_wheel_feels_are_in_other_units() {

@@ -1,6 +1,7 @@
 //! Channels whose sign is turned against that of the format.
 
 use crate::error::HostError;
+use crate::statistics::{centred, correlation};
 
 use super::{Campaign, Channel};
 
@@ -95,11 +96,8 @@ impl Campaign {
 /// The correlation of pairs; 0 where it is not clear.
 fn trend(pairs: &[(f64, f64)]) -> f64 {
     let count = pairs.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(|pair| pair.0), mean(|pair| pair.1));
-    let sum = |of: &dyn Fn(f64, f64) -> f64| pairs.iter().map(|pair| of(pair.0 - x, pair.1 - y)).sum::<f64>();
-    let squares = sum(&|dx, _| dx * dx) * sum(&|_, dy| dy * dy);
-    let correlation = sum(&|dx, dy| dx * dy) / squares.sqrt();
+    let (x, y): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+    let correlation = correlation(&centred(&x), &centred(&y));
     let errors = correlation.abs() * ((count - 2.0) / (1.0 - correlation * correlation).max(1e-12)).sqrt();
     if correlation.abs() > TOGETHER && errors > BEYOND_CHANCE { correlation } else { 0.0 }
 }
