@@ -99,3 +99,19 @@ fn an_effect_of_open_form_leaves_nothing_told_that_another_form_denies() {
     }
     println!("another form is told of in {doubted} of 12");
 }
+
+/// A gain error of the torque that is declared and whose size the data have to tell: the networks take it for none. Declared with its size it is nothing.
+#[test]
+fn what_declared_effects_would_move_is_not_told_by_networks_that_know_none() {
+    let soil = prior::soil([800.0, 0.60, 0.012, 1.0, 2e6, 0.3, 0.15]);
+    let with = |tables: &str| {
+        let campaign = campaign(&soil, tables, |load_n| load_n, 5);
+        let found = identify_rehearsed(&campaign, false, &mut |query| Ok(pipeline::answer(query))).expect("identified");
+        run(&Document::of(&campaign, &found))
+    };
+    let open = with("[declared]\neffects = [\"torque-scale\"]\n");
+    assert!(KEYS.iter().all(|key| open[key]["identifiable"] == false), "{open}");
+    assert!(open["beyond_training"].to_string().contains("not known to the method: torque-scale"), "{open}");
+    let known = with("[declared]\neffects = [\"torque-scale\"]\n[declared.torque-scale]\ngain = 0.0\n");
+    assert!(known["beyond_training"].is_null() && known["friction_angle_rad"]["identifiable"] == true, "{known}");
+}

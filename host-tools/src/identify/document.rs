@@ -8,10 +8,9 @@ use serde::Serialize;
 use crate::data::campaign::{Campaign, Channel, Provenance};
 use crate::digits::counted;
 
-use super::beside_map::beside;
 use super::followed;
 use super::method::{Finding, Fit, Method, network_refusal, rebound};
-use super::misfit::{by_map, misfits_of};
+use super::misfit::{ByMap, by_map, misfits_of};
 use super::network::{Identification, IdentifiedRun, Question};
 use super::run_states::{RunStates, reasons_in_words};
 use super::sensor_noise::{NoiseSource, SensorNoise};
@@ -59,7 +58,8 @@ pub struct RunDocument {
     /// Why no soil explains the run, where its residuals are no noise; then nothing in the estimate is called identifiable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub misfit: Option<String>,
-    /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`; then nothing in the estimate is called identifiable.
+    /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`, or is moved by declared effects that
+    /// they have not learned; then nothing in the estimate is called identifiable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_training: Option<String>,
     /// Which channels' noise is not independent from row to row, and how much less rows tell for it.
@@ -142,11 +142,11 @@ impl Document {
             let runs = runs.iter().map(|(states, found)| RunDocument::of_finding(states, found)).collect();
             return Self::new(method, campaign, noise, misfits, runs);
         }
-        let by_map = by_map(&method.sees(campaign), noise);
+        let by_map = by_map(campaign, method.knows_effects(), noise);
         let of_run = |(states, found): &(RunStates, Result<Finding, String>)| {
             let mut document = RunDocument::of_finding(states, found);
             if let Some((found, by_map)) = found.as_ref().ok().zip(by_map.get(&states.run)) {
-                document.hold_against(found, &by_map.found);
+                document.hold_against(found, by_map, campaign);
             }
             document
         };
@@ -268,9 +268,9 @@ impl RunDocument {
         self.tell_nothing();
     }
 
-    /// Calls nothing identifiable where `map` says another soil.
-    fn hold_against(&mut self, found: &Finding, by_map: &Finding) {
-        if let Some(why) = beside(found, by_map) {
+    /// Calls nothing identifiable where `map` denies what was found.
+    fn hold_against(&mut self, found: &Finding, by_map: &ByMap, campaign: &Campaign) {
+        if let Some(why) = by_map.denies(found, campaign) {
             self.remarks.push(why);
             self.tell_nothing();
         }

@@ -15,6 +15,8 @@ use rayon::prelude::*;
 use crate::data::campaign::{Campaign, Channel, Knowledge};
 use crate::digits::significant;
 
+use super::beside_map::beside;
+use super::ignored_effects::{BothWays, moved};
 use super::method::{FARTHEST, Finding, Fit, Method, NEAR_NOTHING, answer};
 use super::on_curve::evidence;
 use super::run_states::run_states;
@@ -36,18 +38,37 @@ pub struct ByMap {
     pub misfit: Option<String>,
     /// The soil.
     pub found: Finding,
+    /// The soil once it knows effects that are declared and that the answers beside it ignore; none where there are none.
+    pub with_effects: Option<Finding>,
 }
 
-/// What `map` says of runs, by their names; of those that it does not refuse.
-pub fn by_map(campaign: &Campaign, noise: &SensorNoise) -> BTreeMap<String, ByMap> {
+/// What `map` says of runs, by their names; of those that it does not refuse. It knows what a campaign declares where the answers that are
+/// held against it do (`know_effects`).
+pub fn by_map(campaign: &Campaign, know_effects: bool, noise: &SensorNoise) -> BTreeMap<String, ByMap> {
     let is_stated = is_stated(campaign, noise);
+    let seen = campaign.as_seen(know_effects);
+    let ignores = !know_effects && !campaign.declared.effects.is_empty();
     let runs = run_states(campaign, noise, Method::Map);
     let asked = |run: super::RunStates| {
-        let found = answer(Method::Map, &evidence(Method::Map, campaign, noise, &run.states)).ok()?;
+        let ask = |campaign| answer(Method::Map, &evidence(Method::Map, campaign, noise, &run.states)).ok();
+        let found = ask(&seen)?;
         let misfit = found.fit.and_then(|fit| in_words(&fit, is_stated));
-        Some((run.run, ByMap { misfit, found }))
+        let with_effects = ignores.then(|| ask(campaign)).flatten();
+        Some((run.run, ByMap { misfit, found, with_effects }))
     };
     runs.into_par_iter().filter_map(asked).collect()
+}
+
+impl ByMap {
+    /// Why an answer that knows as much as `found` does tells nothing: `map` says another soil, or effects that it ignores are worth more
+    /// than its standard deviations. None where neither is so.
+    pub fn denies(&self, answer: &Finding, campaign: &Campaign) -> Option<String> {
+        let ignored = || {
+            let both_ways = BothWays { with: self.with_effects.as_ref()?, without: &self.found };
+            moved(answer, &both_ways, &campaign.declared.ids())
+        };
+        beside(answer, &self.found).or_else(ignored)
+    }
 }
 
 /// Why runs are explained by no soil, by their names, of fits that are there already, of a method that weighs what is known of the soil: and

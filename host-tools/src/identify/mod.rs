@@ -12,6 +12,7 @@ pub mod condition;
 mod document;
 mod each_run;
 mod followed;
+mod ignored_effects;
 mod layout;
 mod logarithmic;
 mod memory;

@@ -10,7 +10,6 @@ use crate::error::HostError;
 use crate::prior::Range;
 
 use super::bend::Bends;
-use super::beside_map::beside;
 use super::beyond_training::{at_an_end, beyond};
 use super::combine::MeanState;
 use super::condition::condition_number;
@@ -40,7 +39,8 @@ pub struct IdentifiedRun {
     pub question: Option<Question>,
     /// Why no soil explains the run by equations that the networks know, where that was tried and its residuals are no noise.
     pub misfit: Option<String>,
-    /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`, where that was looked at.
+    /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`, or is moved by effects that they have
+    /// not learned, where that was looked at.
     pub beyond_training: Option<String>,
 }
 
@@ -93,17 +93,16 @@ pub fn identify_rehearsed(
     answer: &mut Answer<'_>,
 ) -> Result<Identification, HostError> {
     let mut identification = identify(campaign, answer)?;
-    let seen = campaign.as_seen(know_effects);
-    if seen.declared.effects.is_empty() {
+    if campaign.as_seen(know_effects).declared.effects.is_empty() {
         identification.runs.iter_mut().filter_map(|run| run.question.as_mut()).for_each(Question::rehearse);
     }
-    let mut by_map = by_map(&seen, &identification.noise);
+    let mut by_map = by_map(campaign, know_effects, &identification.noise);
     for run in &mut identification.runs {
         let by_map = by_map.remove(&run.states.run);
         let estimate = run.question.as_ref().and_then(|question| question.answer.rover.as_ref().ok());
-        let found = by_map.as_ref().map(|by_map| &by_map.found);
-        let beside = || beside(&Finding::from(estimate?), found?);
-        run.beyond_training = found.and_then(beyond).or_else(|| at_an_end(estimate?)).or_else(beside);
+        let beyond = by_map.as_ref().and_then(|by_map| beyond(&by_map.found));
+        let denied = || by_map.as_ref()?.denies(&Finding::from(estimate?), campaign);
+        run.beyond_training = beyond.or_else(|| at_an_end(estimate?)).or_else(denied);
         run.misfit = by_map.and_then(|by_map| by_map.misfit);
     }
     Ok(identification)
