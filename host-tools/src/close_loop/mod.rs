@@ -89,12 +89,16 @@ pub fn close(
         errors: errors_of_soil(&compare(&tables, &rovers)),
         estimates: estimates(&on_campaign(campaign, &tables), fits, truth),
     };
+    let flown = found.wheel.map(|(wheel, loss)| {
+        let losses = [loss, found.loss];
+        let provenance = Provenance { plan: &options.plan, world: after, fifth: Candidate::SHIPPED, losses };
+        table_file(wheel, found.rover, &provenance)
+    });
+    let flown = flown.transpose()?;
     // Both at the end: a table of an earlier campaign must not stand beside the declaration of this one.
     write_text(&path, &declaration)?;
-    if let Some((wheel, loss)) = found.wheel {
-        let provenance =
-            Provenance { plan: &options.plan, world: after, fifth: Candidate::SHIPPED, losses: [loss, found.loss] };
-        write_text(&table, &table_file(wheel, found.rover, &provenance).to_text())?;
+    if let Some(flown) = flown {
+        write_text(&table, &flown.to_text())?;
     }
     Ok(Closed { forces, soil: Some(soil) })
 }

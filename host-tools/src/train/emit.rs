@@ -6,6 +6,7 @@ use kapvik_table_file::{Block, TableFile};
 use super::fifth_input::Candidate;
 use super::plan::Plan;
 use super::world::World;
+use crate::error::HostError;
 use crate::prior::{self, Range};
 
 /// The note that says which effects the networks were trained with.
@@ -38,8 +39,28 @@ pub struct Provenance<'a> {
 }
 
 /// The file of two tables.
-pub fn table_file(wheel: WheelTable, rover: RoverTable, provenance: &Provenance<'_>) -> TableFile {
-    TableFile { notes: notes(provenance), blocks: blocks(wheel, rover) }
+///
+/// # Errors
+/// Where a network cannot fly.
+pub fn table_file(wheel: WheelTable, rover: RoverTable, provenance: &Provenance<'_>) -> Result<TableFile, HostError> {
+    let can_fly = [wheel.network.cannot_overflow(), rover.network.cannot_overflow()];
+    check_networks(provenance.losses, can_fly)?;
+    Ok(TableFile { notes: notes(provenance), blocks: blocks(wheel, rover) })
+}
+
+/// Refuses networks that cannot fly, of their losses and of whether their sums stay within 32 bits: per-wheel and rover network.
+fn check_networks(losses: [f64; 2], can_fly: [bool; 2]) -> Result<(), HostError> {
+    for ((name, loss), can_fly) in ["per-wheel", "rover"].into_iter().zip(losses).zip(can_fly) {
+        let wrong = if !loss.is_finite() {
+            format!("its held-out loss is {loss}")
+        } else if !can_fly {
+            "its sums can overflow 32 bits".to_owned()
+        } else {
+            continue;
+        };
+        return Err(HostError::Failed(format!("the {name} network has diverged: {wrong}; no table is written")));
+    }
+    Ok(())
 }
 
 /// The numbers of two tables, as their file has them.
@@ -136,4 +157,19 @@ fn range(range: Range, unit: &str) -> String {
     let Range { low, high, logarithmic } = range;
     let kind = if logarithmic { "logarithmic" } else { "uniform" };
     format!("{low} ... {high} {unit} {kind}").replace("  ", " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_network_that_has_diverged_is_refused() {
+        assert!(check_networks([-1.2, -3.0], [true; 2]).is_ok());
+        let said = |losses, can_fly| check_networks(losses, can_fly).expect_err("refused").to_string();
+        assert!(said([-1.2, f64::NAN], [true; 2]).contains("the rover network has diverged: its held-out loss is NaN"));
+        assert!(
+            said([-1.2, -3.0], [false, true]).contains("the per-wheel network has diverged: its sums can overflow")
+        );
+    }
 }
