@@ -219,6 +219,7 @@ fn descriptions_that_are_wrong_are_refused_by_line_and_column() {
         (SOIL.replace("k_phi = 2407400.0\n", ""), "s.toml:1:1: k_phi is missing"),
         (SOIL.replace("c1 = 0.18\n", ""), "s.toml:1:1: c1 is missing"),
         (SOIL.replace("K = 0.0114\n", ""), "s.toml:1:1: K is missing"),
+        (format!("[note]\n[soil]\n{}", SOIL.replace("K = 0.0114\n", "")), "s.toml:2:1: K is missing"),
         (
             SOIL.replace("phi = 0.5567600313861911", "phi = 31.9"),
             "s.toml:5:7: phi = 31.9: expected a number from 0 to 1.5708",

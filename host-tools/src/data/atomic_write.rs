@@ -32,8 +32,12 @@ pub fn write_atomically(
         write(&mut out)?;
         return out.flush().map_err(failed);
     }
-    // A link stays a link: what it points to is replaced.
-    let target = if there.is_some() { path.canonicalize().map_err(failed)? } else { path.to_path_buf() };
+    // A link stays a link: what it points to is replaced, or made.
+    let target = match fs::read_link(path) {
+        _ if there.is_some() => path.canonicalize().map_err(failed)?,
+        Ok(to) => path.parent().unwrap_or(Path::new("")).join(to),
+        Err(_) => path.to_path_buf(),
+    };
     let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -48,6 +52,8 @@ pub fn write_atomically(
     write(&mut out)?;
     out.flush().map_err(failed)?;
     drop(out);
+    // Before the name leads to it: a power cut leaves what was there, or this.
+    file.as_file().sync_all().map_err(failed)?;
     file.persist(&target).map_err(|error| failed(error.error))?;
     Ok(())
 }
@@ -109,6 +115,19 @@ mod tests {
             write_atomically(&path, |out| out.write_all(content.as_bytes()).map_err(HostError::file(&path)))
                 .expect("written");
             assert_eq!(fs::read_to_string(&path).expect("readable"), content);
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_one_whether_or_not_its_file_is_there() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let link = folder.path().join("latest.csv");
+        std::os::unix::fs::symlink("today.csv", &link).expect("a link");
+        for content in ["made", "replaced"] {
+            write_text(&link, content).expect("written");
+            assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+            assert_eq!(fs::read_to_string(folder.path().join("today.csv")).expect("readable"), content);
         }
     }
 }

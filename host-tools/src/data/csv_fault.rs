@@ -17,9 +17,8 @@ impl Fault {
     /// A line that ends in a carriage return alone, which would run into the next one, or a quote that is never closed, behind which the rest
     /// would vanish into one field; none where there is neither.
     pub fn of(text: &str) -> Option<Self> {
-        let open = text.rfind('"').filter(|_| text.matches('"').count() % 2 == 1);
-        let open =
-            open.map(|at| (at, "a quote is not closed: expected another (a quote within a field is written twice)"));
+        let open = open_quote(text)
+            .map(|at| (at, "a quote is not closed: expected another (a quote within a field is written twice)"));
         let alone = text.match_indices('\r').find(|(at, _)| !text[at + 1..].starts_with('\n'));
         let alone = || alone.map(|(at, _)| (at, "a line ends in a carriage return alone: expected a line feed"));
         open.or_else(alone).map(|(at, message)| Self::behind(&text[..at], message))
@@ -50,6 +49,20 @@ impl Fault {
     }
 }
 
+/// Where the last quote stands of the first line that has an odd number of them, in a text that has; behind it all quotes would be turned.
+fn open_quote(text: &str) -> Option<usize> {
+    let quotes = |text: &str| text.matches('"').count();
+    if quotes(text).is_multiple_of(2) {
+        return None;
+    }
+    let mut start = 0;
+    text.split_inclusive('\n').find_map(|line| {
+        let at = start + line.rfind('"').unwrap_or(0);
+        start += line.len();
+        (!quotes(line).is_multiple_of(2)).then_some(at)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -58,6 +71,7 @@ mod tests {
     fn a_fault_is_in_a_field_of_a_line() {
         let place = |text: &str| Fault::of(text).map(|fault| (fault.line, fault.field));
         assert_eq!(place("a,b\n1,\"2\n"), Some((2, 2)));
+        assert_eq!(place("a,b\n1,\"2\n\"3\",4\n\"5\",\"6\"\n"), Some((2, 2)), "whole quotes below it");
         assert_eq!(place("a,b\r\n\"1,5\",2\r3,4\n"), Some((2, 2)));
         assert_eq!(place("a,b\r\n\"1,5\",\"2\"\r\n"), None);
     }

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::toml_file::TomlFile;
+use crate::digits::significant;
 use crate::error::HostError;
 
 /// What a file says of one parameter.
@@ -77,27 +78,31 @@ impl SoilTable {
     /// Where the file cannot be read, a key is unknown, missing, without a value or outside its range.
     pub fn read_complete(path: &Path) -> Result<Soil<f64>, HostError> {
         let file = TomlFile::read(path)?;
-        file.section_or_whole::<Self>("soil")?.complete(&file)
+        Self::complete(&file.section_or_whole("soil")?, &file)
     }
 
     /// The soil of the equations. `eta` is 0 where it is absent, and so is `k_c` beside `k_phi`; all else must be there.
     ///
     /// # Errors
-    /// At the key, in `file`.
-    pub fn complete(&self, file: &TomlFile) -> Result<Soil<f64>, HostError> {
-        let (cohesive_modulus, frictional_modulus) = self.moduli(file)?;
-        let soil = Soil {
-            sinkage_exponent: required(file, "n", &self.n)?,
+    /// At the key, in `file`; where one is missing, at the table.
+    fn complete(table: &Spanned<Self>, file: &TomlFile) -> Result<Soil<f64>, HostError> {
+        let soil = table.get_ref();
+        let required = |name: &str, parameter: &Option<Spanned<StatedNumber>>| {
+            let missing = || file.error_at(table, format!("{name} is missing: the equations need it"));
+            optional(file, name, parameter)?.ok_or_else(missing)
+        };
+        let (cohesive_modulus, frictional_modulus) = Self::moduli(table, file)?;
+        Ok(Soil {
+            sinkage_exponent: required("n", &soil.n)?,
             cohesive_modulus,
             frictional_modulus,
-            cohesion_pa: required(file, "c", &self.c)?,
-            friction_angle_rad: required(file, "phi", &self.phi)?,
-            shear_modulus_m: required(file, "K", &self.shear_modulus)?,
-            peak_stress_c1: required(file, "c1", &self.c1)?,
-            peak_stress_c2: required(file, "c2", &self.c2)?,
-            rebound_ratio: optional(file, "eta", &self.eta)?.unwrap_or(0.0),
-        };
-        Ok(soil)
+            cohesion_pa: required("c", &soil.c)?,
+            friction_angle_rad: required("phi", &soil.phi)?,
+            shear_modulus_m: required("K", &soil.shear_modulus)?,
+            peak_stress_c1: required("c1", &soil.c1)?,
+            peak_stress_c2: required("c2", &soil.c2)?,
+            rebound_ratio: optional(file, "eta", &soil.eta)?.unwrap_or(0.0),
+        })
     }
 
     /// Refuses a stiffness that stands twice.
@@ -114,14 +119,17 @@ impl SoilTable {
     }
 
     /// k_c and k_phi, however the file gives them.
-    fn moduli(&self, file: &TomlFile) -> Result<(f64, f64), HostError> {
-        self.check_stiffness(file)?;
-        let k_c = optional(file, "k_c", &self.k_c)?;
-        let k_phi = optional(file, "k_phi", &self.k_phi)?;
-        match (optional(file, "k_eff", &self.k_eff)?, k_phi) {
+    fn moduli(table: &Spanned<Self>, file: &TomlFile) -> Result<(f64, f64), HostError> {
+        let soil = table.get_ref();
+        soil.check_stiffness(file)?;
+        let k_c = optional(file, "k_c", &soil.k_c)?;
+        let k_phi = optional(file, "k_phi", &soil.k_phi)?;
+        match (optional(file, "k_eff", &soil.k_eff)?, k_phi) {
             (Some(k_eff), _) => Ok((0.0, k_eff)),
             (None, Some(k_phi)) => Ok((k_c.unwrap_or(0.0), k_phi)),
-            (None, None) => Err(file.error_at_start("k_phi is missing: expected k_phi (with k_c) in Pa/m^n, or k_eff")),
+            (None, None) => {
+                Err(file.error_at(table, "k_phi is missing: expected k_phi (with k_c) in Pa/m^n, or k_eff"))
+            }
         }
     }
 }
@@ -155,19 +163,14 @@ impl SoilRange {
         if value.is_finite() && (least..=greatest).contains(&value) {
             return Ok(());
         }
-        Err(if least == f64::NEG_INFINITY {
+        Err(if least == f64::NEG_INFINITY || !value.is_finite() {
             "a finite number".to_owned()
-        } else if greatest.is_finite() && value.is_finite() {
-            format!("a number from {least} to {greatest:.4}")
+        } else if greatest.is_finite() {
+            format!("a number from {least} to {}", significant(greatest, 5))
         } else {
             format!("a number of {least} or more")
         })
     }
-}
-
-fn required(file: &TomlFile, name: &str, parameter: &Option<Spanned<StatedNumber>>) -> Result<f64, HostError> {
-    optional(file, name, parameter)?
-        .ok_or_else(|| file.error_at_start(format!("{name} is missing: the equations need it")))
 }
 
 fn optional(file: &TomlFile, name: &str, parameter: &Option<Spanned<StatedNumber>>) -> Result<Option<f64>, HostError> {
@@ -175,9 +178,6 @@ fn optional(file: &TomlFile, name: &str, parameter: &Option<Spanned<StatedNumber
     let refuse =
         |found: String, expected: &str| Err(file.error_at(parameter, format!("{name} = {found}: expected {expected}")));
     match *parameter.get_ref() {
-        StatedNumber::Exact(value) | StatedNumber::Known(Known { value, .. }) if !value.is_finite() => {
-            refuse(value.to_string(), "a finite number")
-        }
         StatedNumber::Exact(value) | StatedNumber::Known(Known { value, .. }) => match SoilRange::of(name).check(value)
         {
             Ok(()) => Ok(Some(value)),

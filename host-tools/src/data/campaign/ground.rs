@@ -179,26 +179,26 @@ pub(super) fn knowledge(
     parameter: &Spanned<StatedNumber>,
     range: SoilRange,
 ) -> Result<Knowledge, HostError> {
-    let refuse = |what: String| Err(file.error_at(parameter, format!("{name}: {what}")));
+    let refuse = |what: String| Err(file.error_at(parameter, format!("{name}{what}")));
     let (known, low, high) = match *parameter.get_ref() {
         StatedNumber::Exact(value) => (Knowledge::Value { value, std: 0.0 }, value, value),
         StatedNumber::Known(Known { value, std }) => {
             if !(std >= 0.0 && std.is_finite()) {
-                return refuse(format!("std = {std}: expected a standard deviation of 0 or more"));
+                return refuse(format!(": std = {std}: expected a standard deviation of 0 or more"));
             }
             (Knowledge::Value { value, std }, value, value)
         }
         StatedNumber::Free(Bounds { min, max }) => {
             // Also where one of them is not a number.
             if min.partial_cmp(&max) != Some(Ordering::Less) {
-                return refuse(format!("min = {min}, max = {max}: expected min below max"));
+                return refuse(format!(": min = {min}, max = {max}: expected min below max"));
             }
             (Knowledge::Between { min, max }, min, max)
         }
     };
     for value in [low, high] {
         if let Err(expected) = range.check(value) {
-            return refuse(format!("{value}: expected {expected}"));
+            return refuse(format!(" = {value}: expected {expected}"));
         }
     }
     Ok(known)
