@@ -19,7 +19,7 @@ use crate::progress::bar;
 use crate::simulate::effects::{EffectError, RoverEffects};
 use crate::simulate::faults::{FAILURES, Failure, Fault, OF_FRAMES};
 use crate::simulate::ground_soils::{Becomes, Change};
-use crate::simulate::{Options, RATE_HZ, Scenario, Traverse};
+use crate::simulate::{Options, RATE_HZ, Scenario, SimulationError, Traverse};
 
 use super::numbers::above_zero_at_most;
 use super::soil_argument;
@@ -104,9 +104,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), HostError> {
         faults,
     };
     let traverse = Traverse::new(arguments.scenario, arguments.seed, &rover, &options).map_err(|error| {
-        HostError::Failed(match &arguments.rover {
-            Some(path) => format!("{}: {error}", path.display()),
-            None => error.to_string(),
+        HostError::Failed(match (&arguments.rover, &error) {
+            (Some(path), SimulationError::Standing) => format!("{}: {error}", path.display()),
+            (_, SimulationError::NoRadius) => format!("--effect {error}"),
+            _ => error.to_string(),
         })
     })?;
     check_times(&options.faults, traverse.frames(), arguments.rate)?;
@@ -223,10 +224,13 @@ fn fault(failure: Failure, id: &str, value: &str) -> Result<Fault, String> {
 
 /// Effects with one more. A wrong name is told before a wrong number.
 fn with_effect(mut effects: RoverEffects, id: &str, value: &str) -> Result<RoverEffects, String> {
-    let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
-    effects.set(id, number.unwrap_or(0.0)).map_err(|error| match error {
+    let in_words = |error: EffectError| match error {
         EffectError::Unknown(_) => format!("{error}, {}", FAILURES.map(|(name, _)| name).join(", ")),
         EffectError::Refused(reason) => reason,
-    })?;
-    number.map(|_| effects).ok_or_else(|| format!("`{value}`: expected a number"))
+    };
+    RoverEffects::check_name(id).map_err(in_words)?;
+    let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{value}`: expected a number"))?;
+    effects.set(id, number).map_err(in_words)?;
+    Ok(effects)
 }

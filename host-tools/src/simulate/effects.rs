@@ -7,7 +7,7 @@
 
 use std::ops::RangeInclusive;
 
-use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Effects, Form, effect_info};
+use kapvik_firmware::terramechanics::effects::{CATALOGUE, EffectInfo, Effects, Form, ParameterInfo, effect_info};
 use thiserror::Error;
 
 use crate::digits::spaced_unit;
@@ -101,32 +101,33 @@ impl RoverEffects {
     /// What is wrong with the name or the value: there is no such effect or parameter, it means nothing on a rover, or the value is outside
     /// its bounds, which those of sensors do not have.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), EffectError> {
-        if let Some(own) = OWN.iter().find(|own| own.id == name) {
-            if !own.range.contains(&value) {
-                return refused(format!("{value}: expected {} to {}", own.range.start(), own.range.end()));
+        match Named::find(name)? {
+            Named::Own(OwnEffect { range, .. }) if !range.contains(&value) => {
+                refused(format!("{value}: expected {} to {}", range.start(), range.end()))
             }
-            (own.place)(self, value);
-            return Ok(());
+            Named::Own(own) => {
+                (own.place)(self, value);
+                Ok(())
+            }
+            Named::OfLibrary { info, about, .. } if !info.any_size && !(about.low..=about.high).contains(&value) => {
+                let (name, unit) = (about.name, spaced_unit(about.unit));
+                refused(format!("{name} = {value}: expected {} to {}{unit}", about.low, about.high))
+            }
+            Named::OfLibrary { info, about, beside } => {
+                for (name, value) in beside.iter().chain([&(about.name, value)]) {
+                    self.library.set(info.id, name, *value);
+                }
+                Ok(())
+            }
         }
-        let (id, parameter) = id_and_parameter(name);
-        let info = effect_info(id).ok_or_else(|| EffectError::Unknown(id.to_owned()))?;
-        let parameter = match parameter {
-            Some(parameter) => parameter,
-            None => self.take_form(info)?,
-        };
-        let Some(about) = info.parameter(parameter) else {
-            let names: Vec<_> = info.parameters.iter().map(|parameter| parameter.name).collect();
-            return refused(format!("{id} has no parameter `{parameter}`: expected {}", names.join(", ")));
-        };
-        if let Some(reason) = lacks(id, parameter) {
-            return refused(format!("{name} means nothing on a rover: {reason}. What does: {}", known()));
-        }
-        if !info.any_size && !(about.low..=about.high).contains(&value) {
-            let unit = spaced_unit(about.unit);
-            return refused(format!("{parameter} = {value}: expected {} to {}{unit}", about.low, about.high));
-        }
-        self.library.set(id, parameter, value);
-        Ok(())
+    }
+
+    /// Whether a name is one that [`Self::set`] takes a value for.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check_name(name: &str) -> Result<(), EffectError> {
+        Named::find(name).map(|_| ())
     }
 
     /// What [`Self::set`] sets by a name; nothing by one that it refuses.
@@ -143,20 +144,53 @@ impl RoverEffects {
         };
         parameters.into_iter().map(|parameter| (info.id, Some(parameter))).collect()
     }
+}
 
-    /// Sets what the first form that shows on a rover has set, and gives its first free parameter.
-    fn take_form(&mut self, info: &'static EffectInfo) -> Result<&'static str, EffectError> {
-        let Some(form) = form_on_a_rover(info) else {
-            let reason = info.parameters.iter().find_map(|parameter| lacks(info.id, parameter.name));
-            let reason = reason.unwrap_or("it has no form");
-            return refused(format!("{} means nothing on a rover: {reason}. What does: {}", info.id, known()));
-        };
-        for (name, value) in form.set {
-            self.library.set(info.id, name, *value);
+/// What a name stands for.
+enum Named {
+    Own(&'static OwnEffect),
+    OfLibrary {
+        info: &'static EffectInfo,
+        /// What gets the value.
+        about: &'static ParameterInfo,
+        /// What else its form sets.
+        beside: &'static [(&'static str, f64)],
+    },
+}
+
+impl Named {
+    fn find(name: &str) -> Result<Self, EffectError> {
+        if let Some(own) = OWN.iter().find(|own| own.id == name) {
+            return Ok(Self::Own(own));
         }
-        let nothing = || EffectError::Refused(format!("{} has nothing to set", info.id));
-        form.free.first().copied().ok_or_else(nothing)
+        let (id, parameter) = id_and_parameter(name);
+        let info = effect_info(id).ok_or_else(|| EffectError::Unknown(id.to_owned()))?;
+        let (parameter, beside) = match parameter {
+            Some(parameter) => (parameter, &[][..]),
+            None => {
+                let form = shown_form(info)?;
+                let first = form.free.first().copied();
+                (first.ok_or_else(|| EffectError::Refused(format!("{id} has nothing to set")))?, form.set)
+            }
+        };
+        let Some(about) = info.parameter(parameter) else {
+            let names: Vec<_> = info.parameters.iter().map(|parameter| parameter.name).collect();
+            return refused(format!("{id} has no parameter `{parameter}`: expected {}", names.join(", ")));
+        };
+        match lacks(id, parameter) {
+            Some(reason) => refused(format!("{name} means nothing on a rover: {reason}. What does: {}", known())),
+            None => Ok(Self::OfLibrary { info, about, beside }),
+        }
     }
+}
+
+/// The first form that shows on a rover.
+fn shown_form(info: &'static EffectInfo) -> Result<&'static Form, EffectError> {
+    form_on_a_rover(info).ok_or_else(|| {
+        let reason = info.parameters.iter().find_map(|parameter| lacks(info.id, parameter.name));
+        let reason = reason.unwrap_or("it has no form");
+        EffectError::Refused(format!("{} means nothing on a rover: {reason}. What does: {}", info.id, known()))
+    })
 }
 
 /// The two halves of ID.PARAMETER, of which there may be the first alone.
@@ -231,6 +265,13 @@ mod tests {
         assert_eq!(get("force-drift", "load_n_per_h"), Some(720.0));
         assert_eq!(get("shear-hump", "share"), Some(1.0), "what the form has set");
         assert_eq!(get("drive-friction", "viscous_nm_s"), Some(0.5));
+    }
+
+    #[test]
+    fn what_is_refused_sets_nothing() {
+        let mut effects = RoverEffects::default();
+        assert!(effects.set("shear-hump", 99.0).is_err());
+        assert_eq!(effects, RoverEffects::default());
     }
 
     /// Whatever a name changes is among its parts, and those of another id are others.

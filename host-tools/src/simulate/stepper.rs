@@ -120,6 +120,13 @@ impl Residual for Step<'_> {
     }
 }
 
+/// No motion balances the forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoBalance {
+    /// The time after which none does, s.
+    pub after_s: f64,
+}
+
 impl Stepper {
     /// The rover standing at rest on all its wheels with its differential axis at x = 0; `None` where the ground does not hold it so.
     pub fn at_rest(world: &World) -> Option<(Self, Instant)> {
@@ -147,14 +154,16 @@ impl Stepper {
 
     /// The instant at a later time, with the wheels at the rim speeds that are told of each time.
     ///
+    /// None where it is there already.
+    ///
     /// # Errors
-    /// The time, s, after which no balance is found.
+    /// Where no balance is found.
     pub fn advance(
         &mut self,
         world: &World,
         to_s: f64,
         rim_speeds_m_s: impl Fn(f64) -> PerWheel<f64>,
-    ) -> Result<Option<Instant>, f64> {
+    ) -> Result<Option<Instant>, NoBalance> {
         let mut reached = None;
         while self.time_s < to_s {
             let steps = libm::ceil((to_s - self.time_s) / self.step_s - 1.0e-6).max(1.0);
@@ -164,11 +173,11 @@ impl Stepper {
             if reached.is_some() {
                 self.time_s = time_s;
                 self.step_s = (2.0 * step_s).min(LONGEST_STEP_S);
-            } else {
-                self.step_s = 0.5 * step_s;
+                continue;
             }
+            self.step_s = 0.5 * step_s;
             if self.step_s < SHORTEST_STEP_S {
-                return Err(self.time_s);
+                return Err(NoBalance { after_s: self.time_s });
             }
         }
         Ok(reached)

@@ -18,7 +18,7 @@ use super::programme::Programme;
 use super::scenario::{Draw, Scenario};
 use super::sensors::{add_noise, readings};
 use super::sliding::Sliding;
-use super::stepper::Stepper;
+use super::stepper::{NoBalance, Stepper};
 use crate::data::rover_file::RoverFile;
 use crate::data::sensor_channels::standard_deviations;
 use crate::data::truth_file::{TrueSoil, Truth, WheelTruth};
@@ -208,7 +208,7 @@ impl Traverse {
         let rim_speeds = |time_s: f64| self.programme.at(time_s).map_wheels(|turn| turn.rim_speed_m_s);
         let reached = self.stepper.advance(&self.world, to_s, rim_speeds);
         let x_m = self.instant.motion.pose.x;
-        let reached = reached.map_err(|time_s| SimulationError::Stuck { time_s, x_m })?;
+        let reached = reached.map_err(|NoBalance { after_s }| SimulationError::Stuck { time_s: after_s, x_m })?;
         self.instant = reached.unwrap_or(self.instant);
         let Motion { pose, rim_speed_m_s, .. } = &self.instant.motion;
         match self.sliding.is_seen(rim_speed_m_s, pose.x) {

@@ -112,7 +112,9 @@ fn at_own_load(
     const LEAST_LOAD_N: f64 = 1.0e-3;
     // Without such an effect the first answer is the last, whatever load is said.
     let at = |ln_load: f64| on_soil.forces(conditions, slip, libm::exp(ln_load), sinkage_m);
-    let mut ln_load = libm::log(50.0);
+    // Where the search starts, about a wheel's load on Kapvik; what it finds is the same from elsewhere.
+    const START_N: f64 = 50.0;
+    let mut ln_load = libm::log(START_N);
     let mut truth = at(ln_load)?;
     if !on_soil.effects.follow_load() {
         return Ok(truth);

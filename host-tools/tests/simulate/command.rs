@@ -144,7 +144,7 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         fs::write(folder.0.path().join("r.toml"), rover).expect("written");
         is_refused(&folder, &["--rover", "r.toml"], expected);
     }
-    let cases: [(&[&str], &str); 21] = [
+    let cases: [(&[&str], &str); 23] = [
         (&["--rover", "none.toml"], "none.toml: "),
         (&["--soil", "butter"], "butter: expected a file S.toml, or a soil of the catalogue: seed-table-1,"),
         (&["--soil", "none.toml"], "none.toml: "),
@@ -156,6 +156,8 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
         ),
         (&["--effect", "latency"], "--effect latency: expected ID=VALUE"),
         (&["--effect", "latency=late"], "--effect latency=late: `late`: expected a number"),
+        (&["--effect", "interface-friction=abc"], "--effect interface-friction=abc: `abc`: expected a number"),
+        (&["--effect", "multi-pass.m2=x"], "--effect multi-pass.m2=x: `x`: expected a number"),
         (&["--effect", "nan=load@1-2"], "--effect nan=load@1-2: `load`: expected a column"),
         (&["--effect", "nan=gyro_*"], "--effect nan=gyro_*: `gyro_*`: expected SENSOR@T1-T2"),
         (
@@ -186,7 +188,7 @@ fn mistakes_are_told_in_one_line_and_leave_nothing_behind() {
             &["--effect", "drive-friction.viscous_nm_s=0.1", "--effect", "drive-viscosity=0.2"],
             "--effect drive-viscosity=0.2: it sets what `drive-friction.viscous_nm_s` has set",
         ),
-        (&["--scenario", "slope", "--soil", "snow-us"], ""),
+        (&["--scenario", "slope", "--soil", "snow-us"], "the rover does not stand on all its wheels"),
     ];
     for (arguments, expected) in cases {
         is_refused(&Folder::new(), arguments, expected);
@@ -229,7 +231,7 @@ fn no_drive_has_more_frames_than_can_be_counted() {
 fn what_was_there_survives_a_refusal() {
     let folder = Folder::new();
     fs::write(folder.0.path().join("a.csv"), "before").expect("written");
-    is_refused(&folder, &["--scenario", "slope", "--soil", "snow-us"], "");
+    is_refused(&folder, &["--scenario", "slope", "--soil", "snow-us"], "the rover does not stand on all its wheels");
     assert_eq!(folder.text("a.csv"), "before");
 }
 
