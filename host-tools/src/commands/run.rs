@@ -35,7 +35,7 @@ pub struct Arguments {
     /// The table of networks that flies, as `kapvik train` writes it [default: that of the source tree]
     #[arg(long, value_name = "WEIGHTS")]
     weights: Option<PathBuf>,
-    /// Where the report goes [default: target/kapvik-run/report.html]
+    /// Where the report goes [default: kapvik-run/report.html in the build folder of this checkout, `target`]
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
     /// Where the picture of the estimates goes, if it is wanted by itself

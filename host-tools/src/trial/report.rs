@@ -126,8 +126,11 @@ fn tally(drives: &mut dyn Iterator<Item = &Drive>, quantity: Quantity) -> Tally 
 }
 
 /// A figure of some drives, which `without` gives with one of them left out or with none, and one standard error of it: what other
-/// drives of the same kind would change (Tukey 1958). Frames of a drive belong together.
+/// drives of the same kind would change (Tukey 1958); infinite of fewer than two. Frames of a drive belong together.
 fn jackknife(drives: usize, without: impl Fn(Option<usize>) -> f64) -> Measured {
+    if drives < 2 {
+        return Measured { value: without(None), standard_error: f64::INFINITY };
+    }
     let count = drives as f64;
     let figures: Vec<f64> = (0..drives).map(|place| without(Some(place))).collect();
     let mean = figures.iter().sum::<f64>() / count;

@@ -26,6 +26,7 @@ pub fn execute() -> Result<(), HostError> {
     println!("\n{:<20} {:>14}", "flight image", "bytes");
     println!("{:<20} {:>14}", "flash", memory.flash_bytes);
     println!("{:<20} {:>14}", "static RAM", memory.static_ram_bytes);
-    println!("{:<20} {:>14}", "stack, before a query", stack.unwrap_or_default());
+    let stack = stack.map_or_else(|| "unknown".to_owned(), |bytes| bytes.to_string());
+    println!("{:<20} {stack:>14}", "stack, before a query");
     Ok(())
 }
