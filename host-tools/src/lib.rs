@@ -30,3 +30,4 @@ mod target_folder;
 mod terminal_table;
 pub mod train;
 pub mod trial;
+pub mod wheel_quantity;

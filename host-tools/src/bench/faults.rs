@@ -71,7 +71,7 @@ fn late_drives(catalogue: &Catalogue) -> BTreeMap<String, Vec<String>> {
             let Excess { wheel, quantity, deviation, undisturbed } = late;
             format!(": {quantity} of {wheel} off by {deviation:.2} standard deviations, without the fault by {undisturbed:.2}")
         });
-        drives.entry(format!("{scenario:?} {seed}")).or_default().push(format!("{:?}{late}", outcome.case));
+        drives.entry(format!("{scenario} {seed}")).or_default().push(format!("{:?}{late}", outcome.case));
     }
     drives
 }

@@ -9,7 +9,7 @@ mod header;
 pub mod misspelling;
 pub mod number_stream;
 pub mod outputs;
-mod rover_fault;
+pub mod rover_fault;
 pub mod rover_file;
 pub mod sensor_channels;
 pub mod soil_file;

@@ -77,7 +77,8 @@ fn size_m(suspension: &Suspension<f64>) -> f64 {
     suspension.front_hub.x - rear.x + 2.0 * suspension.half_track_m
 }
 
-fn geometry_in_words(error: GeometryError) -> &'static str {
+/// What a person is told of a rover that the flight library refuses.
+pub fn geometry_in_words(error: GeometryError) -> &'static str {
     match error {
         GeometryError::Weight => "no rover weighs this: expected a mass and a gravity above 0",
         GeometryError::Wheel => "no wheel has this size: expected a radius and a width above 0 m",

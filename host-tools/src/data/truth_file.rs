@@ -10,6 +10,7 @@ use super::number_stream::{NumberStream, Row};
 use super::sensor_channels::WHEEL_NAMES;
 use super::time_column::{self, TimeColumn};
 use crate::error::HostError;
+use crate::wheel_quantity::WheelQuantity;
 
 /// The soil at one place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -76,18 +77,10 @@ pub fn truth_path(frames: &Path) -> PathBuf {
 /// Names of the columns, in the order of [`values`].
 fn names() -> Vec<String> {
     let wheel = |wheel: &str| {
-        [
-            format!("slip_{wheel}"),
-            format!("resistive_torque_{wheel}_nm"),
-            format!("contact_angle_{wheel}_rad"),
-            format!("normal_load_{wheel}_n"),
-            format!("drawbar_pull_{wheel}_n"),
-            format!("sinkage_{wheel}_m"),
-            format!("side_force_{wheel}_n"),
-        ]
-        .into_iter()
-        .chain(soil_names().map(|name| format!("{name}_{wheel}")))
-        .collect::<Vec<_>>()
+        let estimated = WheelQuantity::ALL.map(WheelQuantity::column);
+        let quantities = estimated.into_iter().chain([("sinkage_", "_m"), ("side_force_", "_n")]);
+        let quantities = quantities.map(|(before, behind)| format!("{before}{wheel}{behind}"));
+        quantities.chain(soil_names().map(|name| format!("{name}_{wheel}"))).collect::<Vec<_>>()
     };
     let body = ["x_m", "z_m", "pitch_rad", "roll_rad"].map(str::to_owned);
     WHEEL_NAMES.into_iter().flat_map(wheel).chain(soil_names().map(str::to_owned)).chain(body).collect()
@@ -105,9 +98,9 @@ fn soil_values(soil: &TrueSoil) -> [Option<f64>; 5] {
 /// The values of a row, in the order of [`names`].
 fn values(truth: &Truth) -> Vec<Option<f64>> {
     let wheel = |wheel: &WheelTruth| {
-        let forces = [wheel.resistive_torque_nm, wheel.contact_angle_rad, wheel.normal_load_n, wheel.drawbar_pull_n];
-        let forces = forces.into_iter().chain([wheel.sinkage_m, wheel.side_force_n]).map(Some);
-        [wheel.slip].into_iter().chain(forces).chain(soil_values(&wheel.soil)).collect::<Vec<_>>()
+        let estimated = WheelQuantity::ALL.map(|quantity| quantity.truth(wheel));
+        let further = [wheel.sinkage_m, wheel.side_force_n].map(Some);
+        estimated.into_iter().chain(further).chain(soil_values(&wheel.soil)).collect::<Vec<_>>()
     };
     let body = [truth.x_m, truth.z_m, truth.pitch_rad, truth.roll_rad].map(Some);
     truth.wheels.iter_wheels().flat_map(wheel).chain(soil_values(&truth.soil)).chain(body).collect()

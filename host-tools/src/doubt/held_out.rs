@@ -6,19 +6,20 @@ use kapvik_firmware::estimator::doubt::{DoubtMemory, DoubtNetwork, OUTPUTS, QUAN
 
 use super::drives::{Driven, NOMINAL};
 use super::loss::loss;
-use super::rows::{Known, Row, SideRows};
+use super::rows::{Known, OF_WHEEL, Row, SideRows};
+use crate::simulate::Scenario;
 use crate::terminal_table::{align_right, plain_table};
+use crate::wheel_quantity::WheelQuantity;
 
-/// What is stated: of each wheel, and of each bogie.
-const STATED: [&str; QUANTITIES + 1] =
-    ["resistive torque", "slip", "contact angle", "normal load", "drawbar pull", "bogie's pull"];
+/// What is stated: of each wheel, and of each bogie its pull.
+const STATED: usize = QUANTITIES + 1;
 
 /// Errors within one and within two standard deviations, and the loss.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Tally {
     rows: u64,
     loss: f64,
-    within: [[u64; STATED.len()]; 2],
+    within: [[u64; STATED]; 2],
 }
 
 /// The same rows as the filters state them and with the network.
@@ -69,9 +70,8 @@ impl Tally {
 
     /// Their means over all that is stated.
     pub fn mean_shares(&self) -> [f64; 2] {
-        let sum = (0..STATED.len()).map(|stated| self.shares(stated));
-        sum.fold([0.0; 2], |[one, two], [first, second]| [one + first, two + second])
-            .map(|sum| sum / STATED.len() as f64)
+        let sum = (0..STATED).map(|stated| self.shares(stated));
+        sum.fold([0.0; 2], |[one, two], [first, second]| [one + first, two + second]).map(|sum| sum / STATED as f64)
     }
 
     fn add(&mut self, other: &Self) {
@@ -113,16 +113,16 @@ pub fn flown(network: &DoubtNetwork, rows: &[Row]) -> Vec<[f32; OUTPUTS]> {
 /// Both tables: scenario by scenario, and all of them together, quantity by quantity.
 pub fn tables(driven: &[Driven; NOMINAL.len()], sets: &[BeforeAfter; NOMINAL.len()]) -> String {
     let mut scenarios = headed(&["scenario", "drives", "rows"], &["loss", "after"]);
-    let names = NOMINAL.iter().map(|scenario| format!("{scenario:?}"));
+    let names = NOMINAL.iter().map(Scenario::to_string);
     for ((name, driven), set) in names.zip(driven).zip(sets) {
         scenarios.add_row(of_scenario(name, driven.drives, set));
     }
     let total = BeforeAfter::total(sets);
     scenarios.add_row(of_scenario("all".to_owned(), driven.iter().map(|driven| driven.drives).sum(), &total));
     let mut quantities = headed(&["quantity"], &[]);
-    for (stated, name) in STATED.iter().enumerate() {
+    for (stated, name) in OF_WHEEL.map(WheelQuantity::name).into_iter().chain(["bogie's pull"]).enumerate() {
         let shares = percentages(total.before.shares(stated), total.after.shares(stated));
-        quantities.add_row(std::iter::once((*name).to_owned()).chain(shares));
+        quantities.add_row(std::iter::once(name.to_owned()).chain(shares));
     }
     align_right(&mut scenarios);
     align_right(&mut quantities);

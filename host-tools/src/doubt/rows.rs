@@ -8,6 +8,7 @@ use nalgebra::Cholesky;
 
 use crate::data::truth_file::WheelTruth;
 use crate::trial::consistency::correlation;
+use crate::wheel_quantity::WheelQuantity;
 
 /// A side of a drive, in the order of time: a row for each frame in which the network was run.
 pub type SideRows = Vec<Row>;
@@ -45,7 +46,16 @@ pub struct Precision {
 const OF_STARTS: f64 = 1.5;
 
 /// Errors of the quantities of a wheel, or their variances, in the order of the network's outputs.
-type OfWheel = [f64; 5];
+type OfWheel = [f64; OF_WHEEL.len()];
+
+/// What the doubts of a wheel are of, in the order of the network's outputs.
+pub(super) const OF_WHEEL: [WheelQuantity; 5] = [
+    WheelQuantity::ResistiveTorque,
+    WheelQuantity::Slip,
+    WheelQuantity::ContactAngle,
+    WheelQuantity::NormalLoad,
+    WheelQuantity::DrawbarPull,
+];
 
 impl Row {
     /// A row of which nothing is known yet.
@@ -96,13 +106,11 @@ fn wheel_errors(estimate: &WheelEstimate, truth: &WheelTruth) -> Option<OfWheel>
     if matches!(estimate.activity, WheelActivity::Lifted | WheelActivity::Blocked) {
         return None;
     }
-    Some([
-        f64::from(estimate.resistive_torque_nm.value) - truth.resistive_torque_nm,
-        f64::from(estimate.slip?.value) - truth.slip?,
-        f64::from(estimate.contact_angle_rad.value) - truth.contact_angle_rad,
-        f64::from(estimate.normal_load_n.value) - truth.normal_load_n,
-        f64::from(estimate.drawbar_pull_n.value) - truth.drawbar_pull_n,
-    ])
+    let mut errors = OfWheel::default();
+    for (place, quantity) in errors.iter_mut().zip(OF_WHEEL) {
+        *place = quantity.error(estimate, truth)?;
+    }
+    Some(errors)
 }
 
 fn variances(stated: &WheelCovariance<f32>) -> OfWheel {

@@ -22,6 +22,7 @@ use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_firmware::soil::QueryAnswer;
 use kapvik_firmware::wheel_state::SoilQuery;
 
+use crate::data::rover_fault::geometry_in_words;
 use crate::error::HostError;
 use crate::qemu::{Binary, Clock, Image, LogLine, LogView, Machine, MemoryUse};
 use crate::setup::{self, Toolchain};
@@ -174,7 +175,7 @@ impl FlightComputer {
         match self.ask(&Request::Configure(*rover))? {
             Reply::Configured(Ok(())) => Ok(()),
             Reply::Configured(Err(error)) => {
-                Err(HostError::Failed(format!("the flight computer refuses this rover: {error:?}")))
+                Err(HostError::Failed(format!("the flight computer refuses this rover: {}", geometry_in_words(error))))
             }
             other => Err(unexpected(&other)),
         }

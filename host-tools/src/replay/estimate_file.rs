@@ -3,12 +3,13 @@
 use std::fmt::Arguments;
 use std::io::Write;
 
-use kapvik_firmware::estimator::{Estimate, WheelActivity, WheelEstimate};
+use kapvik_firmware::estimator::{WheelActivity, WheelEstimate};
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::soil::{ParameterEstimate, SoilEstimate};
 
 use crate::data::sensor_channels::WHEEL_NAMES;
 use crate::data::time_column::write_seconds;
+use crate::wheel_quantity::WheelQuantity;
 
 /// A field of a row.
 enum Field {
@@ -105,15 +106,11 @@ fn fields(estimate: &FrameEstimate, mut put: impl FnMut(Arguments<'_>, Field)) {
 }
 
 fn wheel_fields(name: &str, wheel: &WheelEstimate, put: &mut impl FnMut(Arguments<'_>, Field)) {
-    let mut quantity = |before: &str, unit: &str, estimate: Option<Estimate>| {
-        put(format_args!("{before}_{name}{unit}"), Field::Number(estimate.map(|estimate| estimate.value)));
-        put(format_args!("{before}_{name}{unit}_std"), Field::Number(estimate.map(|estimate| estimate.std)));
-    };
-    quantity("slip", "", wheel.slip);
-    quantity("resistive_torque", "_nm", Some(wheel.resistive_torque_nm));
-    quantity("contact_angle", "_rad", Some(wheel.contact_angle_rad));
-    quantity("normal_load", "_n", Some(wheel.normal_load_n));
-    quantity("drawbar_pull", "_n", Some(wheel.drawbar_pull_n));
+    for quantity in WheelQuantity::ALL {
+        let ((before, behind), estimate) = (quantity.column(), quantity.estimate(wheel));
+        put(format_args!("{before}{name}{behind}"), Field::Number(estimate.map(|estimate| estimate.value)));
+        put(format_args!("{before}{name}{behind}_std"), Field::Number(estimate.map(|estimate| estimate.std)));
+    }
 }
 
 fn soil_fields(after: &str, soil: Option<&SoilEstimate>, put: &mut impl FnMut(Arguments<'_>, Field)) {
@@ -140,6 +137,8 @@ fn activity(activity: WheelActivity) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use kapvik_firmware::estimator::Estimate;
+
     use super::*;
 
     fn written(estimates: &[FrameEstimate]) -> Vec<Vec<String>> {

@@ -7,6 +7,7 @@ use kapvik_firmware::rover::{PerWheel, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 
 use super::raw_sensors::{links, rockers, wide};
+use crate::wheel_quantity::WheelQuantity;
 
 /// What the raw sensors say of one wheel; none where one of the sensors that it takes gave nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,6 +22,19 @@ pub struct NaiveWheel {
     pub normal_load_n: Option<f64>,
     /// Mass times the accelerometer's x, shared by the load cells, N.
     pub drawbar_pull_n: Option<f64>,
+}
+
+impl NaiveWheel {
+    /// What they say of a quantity.
+    pub fn of(&self, quantity: WheelQuantity) -> Option<f64> {
+        match quantity {
+            WheelQuantity::Slip => self.slip,
+            WheelQuantity::ResistiveTorque => self.resistive_torque_nm,
+            WheelQuantity::ContactAngle => self.contact_angle_rad,
+            WheelQuantity::NormalLoad => self.normal_load_n,
+            WheelQuantity::DrawbarPull => self.drawbar_pull_n,
+        }
+    }
 }
 
 /// What the raw sensors of a frame say.

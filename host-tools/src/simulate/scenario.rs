@@ -1,6 +1,6 @@
 //! The drives that can be asked for by name. Each draws its details from the seed.
 
-use std::fmt::Display;
+use std::fmt::{self, Display, Formatter};
 
 use clap::ValueEnum;
 use kapvik_firmware::rover::{Axle, PerSide, PerWheel, Rover, Side};
@@ -64,10 +64,17 @@ pub struct Draw<'a> {
     pub soil: Option<Soil<f64>>,
 }
 
+impl Display for Scenario {
+    /// By the name that the command line takes.
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        self.to_possible_value().map_or(Ok(()), |value| formatter.write_str(value.get_name()))
+    }
+}
+
 impl Scenario {
     /// A drive of this kind, from such a seed, that fails, and why.
     pub fn failed(self, seed: u64, why: impl Display) -> HostError {
-        HostError::Failed(format!("{self:?}, seed {seed}: {why}"))
+        HostError::Failed(format!("{self}, seed {seed}: {why}"))
     }
 
     /// A drive of this kind; `None` where the prior has no soil on which this rover could do it.

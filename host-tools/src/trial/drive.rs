@@ -16,6 +16,7 @@ use crate::error::HostError;
 use crate::identifiability::bound::Bound;
 use crate::replay::naive::{TrailingMean, naive};
 use crate::simulate::{Options, Scenario, Traverse};
+use crate::wheel_quantity::WheelQuantity;
 
 /// What is compared with the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -50,6 +51,18 @@ impl Quantity {
         Self::SplitPull,
         Self::LoadSplitPull,
     ];
+
+    /// That of a wheel's quantity, the drawbar pull split by torque, of a front wheel or of one of a bogie.
+    pub fn of_wheel(quantity: WheelQuantity, is_front: bool) -> Self {
+        match quantity {
+            WheelQuantity::Slip => Self::Slip,
+            WheelQuantity::ResistiveTorque => Self::Torque,
+            WheelQuantity::ContactAngle => Self::ContactAngle,
+            WheelQuantity::NormalLoad => Self::Load,
+            WheelQuantity::DrawbarPull if is_front => Self::FrontPull,
+            WheelQuantity::DrawbarPull => Self::SplitPull,
+        }
+    }
 
     /// Whether its estimate comes with a standard deviation.
     pub fn states_std(self) -> bool {
@@ -134,18 +147,14 @@ impl Drive {
         let (Some(covariances), Some(innovations)) = (estimator.covariances(), estimator.innovations()) else { return };
         let wheels = estimate.wheels.zip_wheels(covariances).zip_wheels(truth.wheels);
         for (place, ((wheel, covariance), truth)) in wheels.iter_wheels().enumerate() {
-            if let (Some(slip), Some(true_slip)) = (wheel.slip, truth.slip) {
-                let torque = f64::from(wheel.resistive_torque_nm.value) - truth.resistive_torque_nm;
-                let error = [torque, f64::from(slip.value) - true_slip];
-                if let Some(square) = normalised_square(error, &covariance.torque_slip) {
-                    self.filter_1.add(index, place, square, 2.0);
-                }
+            let of_filter_1 = errors([WheelQuantity::ResistiveTorque, WheelQuantity::Slip], wheel, truth);
+            if let Some(square) = of_filter_1.and_then(|errors| normalised_square(errors, &covariance.torque_slip)) {
+                self.filter_1.add(index, place, square, 2.0);
             }
-            if is_front(place) {
-                let error = errors_of_contact(wheel, truth);
-                if let Some(square) = normalised_square(error, &covariance.contact) {
-                    self.filter_2.add(index, place, square, 3.0);
-                }
+            let of_contact = [WheelQuantity::ContactAngle, WheelQuantity::NormalLoad, WheelQuantity::DrawbarPull];
+            let of_filter_2 = errors(of_contact, wheel, truth).filter(|_| is_front(place));
+            if let Some(square) = of_filter_2.and_then(|errors| normalised_square(errors, &covariance.contact)) {
+                self.filter_2.add(index, place, square, 3.0);
             }
         }
         let [of_wheels, of_angles, of_forces] = &mut self.innovations;
@@ -164,12 +173,14 @@ impl Drive {
     }
 }
 
-fn errors_of_contact(wheel: &WheelEstimate, truth: &WheelTruth) -> [f64; 3] {
-    [
-        f64::from(wheel.contact_angle_rad.value) - truth.contact_angle_rad,
-        f64::from(wheel.normal_load_n.value) - truth.normal_load_n,
-        f64::from(wheel.drawbar_pull_n.value) - truth.drawbar_pull_n,
-    ]
+/// Errors of some quantities; none where one of them has none.
+fn errors<const N: usize>(
+    quantities: [WheelQuantity; N],
+    wheel: &WheelEstimate,
+    truth: &WheelTruth,
+) -> Option<[f64; N]> {
+    let errors = quantities.map(|quantity| quantity.error(wheel, truth));
+    errors.iter().all(Option::is_some).then(|| errors.map(Option::unwrap_or_default))
 }
 
 fn add_innovation<const M: usize>(

@@ -10,6 +10,7 @@ use super::Quantity;
 use super::tally::Tally;
 use crate::data::truth_file::Truth;
 use crate::replay::naive::NaiveWheel;
+use crate::wheel_quantity::WheelQuantity;
 
 /// Errors of a drive.
 #[derive(Debug, Clone, Copy, Default)]
@@ -43,31 +44,15 @@ impl Errors {
     ) {
         let wheels = estimate.wheels.zip_wheels(now.zip_wheels(*second)).zip_wheels(truth.wheels);
         for (place, ((wheel, (now, second)), truth)) in wheels.iter_wheels().enumerate() {
-            let raw = |value: fn(&NaiveWheel) -> Option<f64>| [value(now), value(second)];
-            let mut take = |quantity, estimate, raw, truth: f64| self.take_one(quantity, estimate, raw, truth);
-            if let (Some(slip), Some(truth)) = (wheel.slip, truth.slip) {
-                take(Quantity::Slip, slip, raw(|raw| raw.slip), truth);
+            for quantity in WheelQuantity::ALL {
+                let (Some(estimate), Some(truth)) = (quantity.estimate(wheel), quantity.truth(truth)) else { continue };
+                let raw = [now, second].map(|raw| raw.of(quantity));
+                self.take_one(Quantity::of_wheel(quantity, is_front(place)), estimate, raw, truth);
             }
-            take(
-                Quantity::Torque,
-                wheel.resistive_torque_nm,
-                raw(|raw| raw.resistive_torque_nm),
-                truth.resistive_torque_nm,
-            );
-            take(
-                Quantity::ContactAngle,
-                wheel.contact_angle_rad,
-                raw(|raw| raw.contact_angle_rad),
-                truth.contact_angle_rad,
-            );
-            take(Quantity::Load, wheel.normal_load_n, raw(|raw| raw.normal_load_n), truth.normal_load_n);
-            let pull = raw(|raw| raw.drawbar_pull_n);
-            let by_load = Estimate { value: wheel.drawbar_pull_by_load_n, std: 0.0 };
-            if is_front(place) {
-                take(Quantity::FrontPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
-            } else {
-                take(Quantity::SplitPull, wheel.drawbar_pull_n, pull, truth.drawbar_pull_n);
-                take(Quantity::LoadSplitPull, by_load, pull, truth.drawbar_pull_n);
+            if !is_front(place) {
+                let by_load = Estimate { value: wheel.drawbar_pull_by_load_n, std: 0.0 };
+                let raw = [now, second].map(|raw| raw.drawbar_pull_n);
+                self.take_one(Quantity::LoadSplitPull, by_load, raw, truth.drawbar_pull_n);
             }
         }
         let raw_pull = |wheels: &PerWheel<NaiveWheel>| {

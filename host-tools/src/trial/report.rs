@@ -28,7 +28,7 @@ pub struct Trial {
 /// Drives a scenario once for each seed.
 pub fn trial(scenario: Scenario, seeds: std::ops::Range<u64>, rover: &Rover<f64>) -> Trial {
     let options = Options::default();
-    let progress = bar(format!("{scenario:?}"), (seeds.end - seeds.start) as usize);
+    let progress = bar(scenario.to_string(), (seeds.end - seeds.start) as usize);
     let results: Vec<Result<Drive, HostError>> =
         seeds.into_par_iter().progress_with(progress).map(|seed| Drive::run(scenario, seed, rover, &options)).collect();
     let mut trial = Trial { scenario, drives: Vec::new(), failures: Vec::new() };

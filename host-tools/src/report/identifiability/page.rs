@@ -8,7 +8,7 @@ use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
 use crate::parameter::Parameter;
 use crate::report::page::head;
-use crate::report::sentence::capitalised;
+use crate::report::sentence::as_sentence;
 
 /// Orders are sentences: they wrap.
 const STYLE: &str = "table.numbers td.manoeuvre { white-space: normal; min-width: 17rem; }";
@@ -29,7 +29,7 @@ pub fn page(told: &Observability) -> String {
                 main {
                     section {
                         h2 { "Advice" }
-                        p { strong { (capitalised(&told.advice.sentence(&told.question))) } }
+                        p { strong { (as_sentence(&told.advice.sentence(&told.question))) } }
                         (manoeuvres(told))
                     }
                     section {

@@ -6,14 +6,14 @@ use super::{Observability, assumptions};
 use crate::identifiability::advice::{order, percent};
 use crate::identifiability::search::Finding;
 use crate::parameter::Parameter;
-use crate::report::sentence::capitalised;
+use crate::report::sentence::as_sentence;
 use crate::report::terminal::wrapped;
 use crate::terminal_table::{align_right, plain_table};
 
 /// The sentence, the table of manoeuvres, and what it rests on.
 pub fn terminal(told: &Observability) -> String {
     let mut text = format!("{}, on {}\n\n", told.rover, told.soil);
-    text += &wrapped("", &capitalised(&told.advice.sentence(&told.question)));
+    text += &wrapped("", &as_sentence(&told.advice.sentence(&told.question)));
     text += "\n";
     for (name, finding) in named(told) {
         text += &wrapped("", &format!("{name}: {}", order(finding)));

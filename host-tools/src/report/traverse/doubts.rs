@@ -1,7 +1,7 @@
 //! What the sensors show otherwise than rover file and agreement say, for a reader of the report.
 
 use super::findings::TraverseFindings;
-use crate::report::sentence::capitalised;
+use crate::report::sentence::as_sentence;
 
 /// What a reader must know where they do.
 pub fn doubts(findings: &TraverseFindings) -> Option<String> {
@@ -12,5 +12,5 @@ pub fn doubts(findings: &TraverseFindings) -> Option<String> {
 /// A key or a column has no capital letter.
 fn sentence(said: &str) -> String {
     let begins_with_name = said.split(' ').next().is_some_and(|word| word.contains('_'));
-    if begins_with_name { format!("{said}.") } else { capitalised(said) }
+    if begins_with_name { format!("{said}.") } else { as_sentence(said) }
 }

@@ -52,7 +52,7 @@ impl TraverseFindings {
         match &self.origin {
             Origin::Recorded(name) => name.clone(),
             Origin::Simulated { scenario, seed } => {
-                format!("a simulated drive ({scenario:?}, seed {seed})").to_lowercase()
+                format!("a simulated drive ({scenario}, seed {seed})")
             }
         }
     }

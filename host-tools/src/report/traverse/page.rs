@@ -9,7 +9,7 @@ use super::errors;
 use super::findings::{Origin, TraverseFindings};
 use super::soil_chart::SoilChart;
 use super::time_axis::{Spread, spreads};
-use super::wheel_chart::WHEEL_CHARTS;
+use super::wheel_chart::WheelChart;
 use crate::identify::network_refusal;
 use crate::parameter::Parameter;
 use crate::replay::{REASONS, REPEATS, SensorTrouble, filter_lines, troubles};
@@ -18,8 +18,9 @@ use crate::report::draw::{Scale, line, path};
 use crate::report::facts;
 use crate::report::legend::entry;
 use crate::report::page::head;
-use crate::report::sentence::capitalised;
+use crate::report::sentence::as_sentence;
 use crate::trial::errors::Errors;
+use crate::wheel_quantity::WheelQuantity;
 
 /// The page.
 pub fn page(findings: &TraverseFindings) -> String {
@@ -120,7 +121,7 @@ fn wheels(findings: &TraverseFindings) -> Markup {
     html! {
         section {
             h2 { "What the wheels feel" }
-            @for chart in &WHEEL_CHARTS { (chart.svg(&findings.samples)) }
+            @for quantity in WheelQuantity::ALL { (WheelChart(quantity).svg(&findings.samples)) }
             (legend(findings, false))
         }
     }
@@ -169,7 +170,7 @@ fn sensors(findings: &TraverseFindings) -> Markup {
     html! {
         section {
             h2 { "Sensors" }
-            @for line in findings.remarks.iter().chain(&filters) { p { (capitalised(line)) } }
+            @for line in findings.remarks.iter().chain(&filters) { p { (as_sentence(line)) } }
             @if troubles.is_empty() && filters.is_empty() {
                 p { "Every reading of every sensor was used." }
             } @else if !troubles.is_empty() {

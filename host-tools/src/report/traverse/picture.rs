@@ -6,20 +6,20 @@ use super::CHART_CSS;
 use super::findings::TraverseFindings;
 use super::soil_chart::{self, SoilChart};
 use super::time_axis::WIDTH;
-use super::wheel_chart::{self, WHEEL_CHARTS};
+use super::wheel_chart::{self, WheelChart};
 use crate::parameter::Parameter;
 use crate::report::draw::px;
 use crate::report::page::DRAW_CSS;
+use crate::wheel_quantity::WheelQuantity;
 
 const BORDER: f64 = 14.0;
 const GAP: f64 = 10.0;
-/// What the picture shows of the wheels, by title.
-const SHOWN: [&str; 2] = ["Contact angle", "Drawbar pull"];
+/// What the picture shows of the wheels.
+const SHOWN: [WheelQuantity; 2] = [WheelQuantity::ContactAngle, WheelQuantity::DrawbarPull];
 
 /// Contact angles and drawbar pulls of the wheels, then the soil under the rover, over time.
 pub fn picture(findings: &TraverseFindings) -> String {
-    let wheels = WHEEL_CHARTS.iter().filter(|chart| SHOWN.contains(&chart.title));
-    let wheels = wheels.map(|chart| (chart.draw(&findings.samples), wheel_chart::HEIGHT));
+    let wheels = SHOWN.into_iter().map(|shown| (WheelChart(shown).draw(&findings.samples), wheel_chart::HEIGHT));
     let soils = [Parameter::FrictionAngle, Parameter::ShearModulus];
     let soils = soils.map(|parameter| (SoilChart { parameter, findings }.draw(), soil_chart::HEIGHT));
     let mut top = BORDER;

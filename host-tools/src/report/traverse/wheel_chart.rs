@@ -1,13 +1,13 @@
 //! One quantity of the six wheels over time: six plots side by side on one scale.
 
-use kapvik_firmware::estimator::{Estimate, WheelEstimate};
 use maud::{Markup, html};
 
 use super::samples::{Sample, Samples};
 use super::time_axis::{self, LEFT, RIGHT, Spread, WIDTH, runs, spreads};
-use crate::data::truth_file::WheelTruth;
 use crate::report::draw::{Anchor, Scale, bottom_axis, left_axis, page_chart, path, text};
+use crate::report::sentence::capitalised;
 use crate::statistics::sorted;
+use crate::wheel_quantity::WheelQuantity;
 
 /// Height of a row of plots.
 pub const HEIGHT: f64 = 176.0;
@@ -17,57 +17,20 @@ const GAP: f64 = 26.0;
 /// The wheels in words, in the order of the files.
 const WHEELS: [&str; 6] = ["front left", "middle left", "rear left", "front right", "middle right", "rear right"];
 
-/// What is drawn.
-pub struct WheelChart {
-    /// Its name.
-    pub title: &'static str,
-    unit: &'static str,
-    /// From SI units to the shown one.
-    factor: f64,
-    estimated: fn(&WheelEstimate) -> Option<Estimate>,
-    truth: fn(&WheelTruth) -> Option<f64>,
-}
-
-/// What is estimated of each wheel.
-pub const WHEEL_CHARTS: [WheelChart; 5] = [
-    WheelChart { title: "Slip", unit: "", factor: 1.0, estimated: |wheel| wheel.slip, truth: |wheel| wheel.slip },
-    WheelChart {
-        title: "Resistive torque",
-        unit: "N·m",
-        factor: 1.0,
-        estimated: |wheel| Some(wheel.resistive_torque_nm),
-        truth: |wheel| Some(wheel.resistive_torque_nm),
-    },
-    WheelChart {
-        title: "Contact angle",
-        unit: "°",
-        factor: 180.0 / std::f64::consts::PI,
-        estimated: |wheel| Some(wheel.contact_angle_rad),
-        truth: |wheel| Some(wheel.contact_angle_rad),
-    },
-    WheelChart {
-        title: "Normal load",
-        unit: "N",
-        factor: 1.0,
-        estimated: |wheel| Some(wheel.normal_load_n),
-        truth: |wheel| Some(wheel.normal_load_n),
-    },
-    WheelChart {
-        title: "Drawbar pull",
-        unit: "N",
-        factor: 1.0,
-        estimated: |wheel| Some(wheel.drawbar_pull_n),
-        truth: |wheel| Some(wheel.drawbar_pull_n),
-    },
-];
+/// The chart of a quantity of all wheels.
+pub struct WheelChart(pub WheelQuantity);
 
 impl WheelChart {
+    fn title(&self) -> String {
+        capitalised(self.0.name())
+    }
+
     /// The six plots, at the origin.
     pub fn draw(&self, samples: &Samples) -> Markup {
         let scale = self.scale(samples);
-        let unit = if self.unit.is_empty() { String::new() } else { format!(", {}", self.unit) };
+        let unit = if self.0.unit().is_empty() { String::new() } else { format!(", {}", self.0.unit()) };
         html! {
-            (text("title", (LEFT, 14.0), Anchor::Start, &format!("{}{unit}", self.title)))
+            (text("title", (LEFT, 14.0), Anchor::Start, &format!("{}{unit}", self.title())))
             (left_axis(&scale, (LEFT, WIDTH - RIGHT)))
             @for (place, wheel) in WHEELS.iter().enumerate() { (self.plot(samples, &scale, place, wheel)) }
             (time_axis::name(WIDTH - RIGHT, BOTTOM))
@@ -76,7 +39,7 @@ impl WheelChart {
 
     /// The six plots in an SVG element of their own.
     pub fn svg(&self, samples: &Samples) -> Markup {
-        let words = format!("{} of the six wheels over time, with one and two standard deviations", self.title);
+        let words = format!("{} of the six wheels over time, with one and two standard deviations", self.title());
         page_chart((WIDTH, HEIGHT), &words, &self.draw(samples))
     }
 
@@ -99,15 +62,15 @@ impl WheelChart {
 
     fn spread(&self, sample: &Sample, place: usize) -> Option<Spread> {
         let wheel = sample.estimate.wheels.iter_wheels().nth(place)?;
-        let estimate = (self.estimated)(wheel)?;
-        let (value, std) = (self.factor * f64::from(estimate.value), self.factor * f64::from(estimate.std));
+        let estimate = self.0.estimate(wheel)?;
+        let [value, std] = [estimate.value, estimate.std].map(|number| self.0.shown(number.into()));
         let [inner, outer] = [1.0, 2.0].map(|stds| [value - stds * std, value + stds * std]);
         Some(Spread { time_s: sample.time_s(), value, inner, outer })
     }
 
     fn true_value(&self, sample: &Sample, place: usize) -> Option<f64> {
         let wheel = sample.truth.as_ref()?.wheels.iter_wheels().nth(place)?;
-        (self.truth)(wheel).map(|value| self.factor * value).filter(|value| value.is_finite())
+        self.0.truth(wheel).map(|value| self.0.shown(value)).filter(|value| value.is_finite())
     }
 
     /// A scale that holds nearly all values with their standard deviations: the first moments, when nothing is known, and

@@ -1,11 +1,12 @@
 //! How far the estimates of a frame are from the truth, in their own standard deviations.
 
-use kapvik_firmware::estimator::{Estimate, WheelEstimate};
+use kapvik_firmware::estimator::WheelEstimate;
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::PerWheel;
 
 use crate::data::sensor_channels::WHEEL_NAMES;
 use crate::data::truth_file::{Truth, WheelTruth};
+use crate::wheel_quantity::WheelQuantity;
 
 /// An estimate that is farther off than allowed, in its standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,16 +35,13 @@ impl Deviations {
 
     /// The deviation that is farthest above `limit` and above what it is in `others`; none where no one is.
     pub fn worst(&self, limit: f64, others: &Self) -> Option<Excess> {
-        const QUANTITIES: [&str; 5] = ["slip", "torque", "contact angle", "load", "drawbar pull"];
         let pairs = self.0.iter_wheels().zip(others.0.iter_wheels()).zip(WHEEL_NAMES);
-        let excesses = pairs.flat_map(|((deviations, others), wheel)| {
-            deviations.iter().zip(others).zip(QUANTITIES).map(move |((deviation, other), quantity)| Excess {
-                wheel,
-                quantity,
-                deviation: *deviation,
-                undisturbed: *other,
-            })
-        });
+        let excesses =
+            pairs.flat_map(|((deviations, others), wheel)| {
+                deviations.iter().zip(others).zip(WheelQuantity::ALL).map(move |((deviation, other), quantity)| {
+                    Excess { wheel, quantity: quantity.name(), deviation: *deviation, undisturbed: *other }
+                })
+            });
         let above = |excess: &Excess| excess.deviation - limit.max(excess.undisturbed);
         excesses.filter(|excess| above(excess) > 0.0).max_by(|a, b| above(a).total_cmp(&above(b)))
     }
@@ -56,14 +54,9 @@ impl Deviations {
 }
 
 fn of_wheel(wheel: &WheelEstimate, truth: &WheelTruth) -> [f64; 5] {
-    let deviation =
-        |estimate: Estimate, truth: f64| (f64::from(estimate.value) - truth).abs() / f64::from(estimate.std);
-    let slip = truth.slip.map_or(0.0, |truth| wheel.slip.map_or(f64::INFINITY, |slip| deviation(slip, truth)));
-    [
-        slip,
-        deviation(wheel.resistive_torque_nm, truth.resistive_torque_nm),
-        deviation(wheel.contact_angle_rad, truth.contact_angle_rad),
-        deviation(wheel.normal_load_n, truth.normal_load_n),
-        deviation(wheel.drawbar_pull_n, truth.drawbar_pull_n),
-    ]
+    WheelQuantity::ALL.map(|quantity| match (quantity.estimate(wheel), quantity.truth(truth)) {
+        (_, None) => 0.0,
+        (None, Some(_)) => f64::INFINITY,
+        (Some(estimate), Some(truth)) => (f64::from(estimate.value) - truth).abs() / f64::from(estimate.std),
+    })
 }
