@@ -293,6 +293,11 @@ fn note_surprises(sensors: &mut PerSensor<SensorHealth>, surprises: &PerSide<Sur
             count(&mut sensor.surprising);
         }
     }
+    for (sensor, surprised) in sensors.motor_torque.iter_wheels_mut().zip(wheels.iter_wheels()) {
+        if surprised.motor_torque {
+            count(&mut sensor.surprising);
+        }
+    }
     for (sensor, surprised) in sensors.load_cell.iter_wheels_mut().zip(wheels.iter_wheels()) {
         if surprised.load_cell {
             count(&mut sensor.surprising);

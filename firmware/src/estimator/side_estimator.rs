@@ -173,6 +173,7 @@ impl<S: Scalar> SideEstimator<S> {
     /// Takes a frame.
     pub fn tick(&mut self, step_s: S, frame: &SideFrame<S>, attitude: &Attitude<S>) -> Surprises {
         let mut surprises = Surprises::default();
+        let frame = &self.without_glitches(step_s, frame, &mut surprises);
         self.doubt.take_turns(step_s.to_f32());
         self.unfelt_pitch_variance = attitude.unfelt_variance();
         let readings = self.side_readings(step_s, frame);
@@ -197,6 +198,21 @@ impl<S: Scalar> SideEstimator<S> {
         self.follow_compaction(travel_m);
         self.follow_track(step_s, frame.gyro_rad_s.z);
         surprises
+    }
+
+    /// The frame without what drives say of their torques where that is a glitch.
+    fn without_glitches(&mut self, step_s: S, frame: &SideFrame<S>, surprises: &mut Surprises) -> SideFrame<S> {
+        let mut frame = *frame;
+        let step = [step_s, self.speed_m_s() * step_s];
+        let wheels = self.wheels.as_mut().zip(self.since_start.as_ref()).zip(surprises.wheels.as_mut());
+        let told = frame.motor_torque_nm.as_mut().zip(frame.wheel_rate_rad_s);
+        for (((filter, since_start), surprise), (torque, rate)) in wheels.zip(told).into_array() {
+            let said = (*torque, self.rover.noise.motor_torque_nm);
+            let believed = filter.believed_torque_nm(step, said, rate, since_start.has_settled());
+            surprise.motor_torque = torque.is_some() && believed.is_none();
+            *torque = believed;
+        }
+        frame
     }
 
     fn side_readings(&mut self, step_s: S, frame: &SideFrame<S>) -> SideReadings<S> {

@@ -10,6 +10,7 @@ mod gain_of_speed;
 mod process;
 #[cfg(test)]
 mod tests;
+mod torque_glitch;
 
 use super::activity::BLOCKED;
 use super::camera_error::CameraError;
@@ -25,6 +26,7 @@ use super::watch::{Contradiction, Watch};
 use crate::filter::{Fate, Gaussian, Innovation, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
+use torque_glitch::TorqueGlitch;
 
 pub(super) use process::TORQUE_DRIFT_NM;
 
@@ -94,6 +96,7 @@ pub(super) struct SlipTorqueFilter<S> {
     torque_per_slip_nm: S,
     scale: Scale<S>,
     swing: Swing<S>,
+    glitch: TorqueGlitch<S>,
     inertia: DriveInertia<S>,
     torque_rate: WalkRate<S>,
     slip_rate: WalkRate<S>,
@@ -126,6 +129,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
             torque_per_slip_nm: gain_of_speed::torque_per_slip_nm(held_nm, &scale),
             scale,
             swing: Swing::new(),
+            glitch: TorqueGlitch::new(),
             inertia: DriveInertia::steady(),
             torque_rate: WalkRate::new(phase).forgetting(TORQUE_FORGOTTEN),
             slip_rate: WalkRate::new(phase + 2),
@@ -220,7 +224,8 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         self.link_rate_rad_s = readings.link_rate_rad_s;
         self.follow_gain(readings);
         self.learn_rates(step_s, travel_m, readings);
-        self.swing.take(readings.motor_torque_nm, readings.motor_torque_std_nm * self.scale.torque);
+        let said_nm = readings.motor_torque_nm.or(self.glitch.may_swing_nm());
+        self.swing.take(said_nm, readings.motor_torque_std_nm * self.scale.torque);
         let swings = readings.side_swings || self.swings();
         let says_most = swings || readings.speeds.rate_rad_s.is_none();
         let by_drive = readings.motor_torque_nm.filter(|_| says_most);

@@ -11,6 +11,8 @@ pub(super) struct WheelSurprises {
     pub wheel_rate: bool,
     /// By the velocimeter, as the hub's speed.
     pub hub_speed: bool,
+    /// By the drive's torque.
+    pub motor_torque: bool,
     /// By the load cell.
     pub load_cell: bool,
 }
