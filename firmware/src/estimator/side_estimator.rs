@@ -29,6 +29,8 @@ use crate::filter::Innovation;
 use crate::rover::{Axes, PerAxle, Planar, RollingMotion, Rover, Side, body_moment_nm};
 use crate::scalar::Scalar;
 
+/// A velocity of the axis that is off by so many standard deviations is a glitch, and nothing to tell the wheels.
+const GLITCH: f64 = 8.0;
 /// Below this force on its cell a wheel is lifted, over its load at rest; or below three standard deviations, but not above the other.
 const LIFTED: f64 = 0.03;
 const GREATEST_LIFTED: f64 = 0.09;
@@ -176,7 +178,7 @@ impl<S: Scalar> SideEstimator<S> {
         let frame = &self.without_glitches(step_s, frame, &mut surprises);
         self.doubt.take_turns(step_s.to_f32());
         self.unfelt_pitch_variance = attitude.unfelt_variance();
-        let readings = self.side_readings(step_s, frame);
+        let mut readings = self.side_readings(step_s, frame);
         self.silent = frame.silent(&readings.axis_velocity_m_s);
         self.follow_rims(step_s, &frame.wheel_rate_rad_s, readings.axis_velocity_m_s.x);
         let slopes = *self.sinking.slopes();
@@ -184,6 +186,10 @@ impl<S: Scalar> SideEstimator<S> {
         self.told.angles =
             self.angles.tick(step_s, self.rims.speed_m_s(), &slopes, attitude, &readings, &self.rover.noise);
         surprises.of_side(&self.told.angles);
+        let [of_velocity, ..] = &self.told.angles.residuals;
+        if of_velocity.is_beyond(S::constant(GLITCH)) {
+            readings.axis_velocity_m_s.x = None;
+        }
         // What the torques and the memory said of the frame before is asked once more, of the forces.
         let turned = self.angles.angles().zip(before).map(|(now, before)| now - before);
         let corrections = self.corrections.as_mut().zip(turned).into_array();

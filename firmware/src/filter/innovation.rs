@@ -62,6 +62,11 @@ impl<T: Scalar> Residual<T> {
         matches!(self.fate, Fate::Used | Fate::Rejected).then(|| self.innovation / self.std)
     }
 
+    /// Whether it is rejected for being off by more than so many standard deviations.
+    pub fn is_beyond(&self, stds: T) -> bool {
+        self.fate == Fate::Rejected && self.innovation.abs() > stds * self.std
+    }
+
     /// The innovation where it is used, else zero.
     pub(super) fn used(&self) -> T {
         if self.fate == Fate::Used { self.innovation } else { T::zero() }
