@@ -22,6 +22,15 @@ pub(super) struct Attitude<S> {
     since_s: S,
 }
 
+/// An inertial sensor that says what the other and the pitch before speak against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Contradicted {
+    /// It feels something else than gravity.
+    Accelerometer,
+    /// Its rate jumped for a frame.
+    Gyro,
+}
+
 /// How far the accelerometer may be from what the gyro says, in variances, before it is thought to feel something else
 /// than gravity; and for how many frames.
 const GATE: f64 = 16.0;
@@ -108,7 +117,7 @@ impl<S: Scalar> Attitude<S> {
         noise_m_s2 * noise_m_s2 + turned
     }
 
-    /// Takes the inertial sensors' readings and the speed forward. Gives whether the accelerometer was surprising.
+    /// Takes the inertial sensors' readings and the speed forward. Gives which of them was surprising.
     pub fn tick(
         &mut self,
         accel: Axes<Option<S>>,
@@ -116,28 +125,35 @@ impl<S: Scalar> Attitude<S> {
         speed_m_s: Option<S>,
         step_s: S,
         noise: &SensorNoise<S>,
-    ) -> bool {
+    ) -> Option<Contradicted> {
         self.felt_rad = None;
+        let (rate_before, _) = self.rate_rad_s;
         self.turn(gyro, step_s, noise.gyro_rad_s);
         let accelerates = self.accelerates(speed_m_s, step_s, noise.velocity_m_s);
         let Axes { x: Some(x), y, z: Some(z) } = accel else {
             self.carry_force();
-            return false;
+            return None;
         };
         if z < S::constant(LEAST_UPRIGHT_M_S2) {
             self.carry_force();
-            return true;
+            return Some(Contradicted::Accelerometer);
         }
         let in_plane = (x * x + z * z).sqrt();
         let angle = S::constant(core::f64::consts::FRAC_PI_2) - (x / in_plane).acos();
         let noise = (noise.accel_m_s2 * noise.accel_m_s2 + accelerates * accelerates).sqrt() / in_plane;
         let innovation = angle - self.pitch.mean;
         let variance = self.pitch.variance + noise * noise;
-        let surprising = innovation * innovation > S::constant(GATE) * variance;
+        let is_beyond = |innovation: S| innovation * innovation > S::constant(GATE) * variance;
+        let jumped = step_s * (self.rate_rad_s.0 - rate_before);
+        let of_gyro = is_beyond(innovation) && !is_beyond(innovation + jumped);
+        if of_gyro {
+            self.turn_as_before(rate_before, jumped, step_s);
+        }
+        let surprising = is_beyond(innovation) && !of_gyro;
         if surprising && self.contradictions < PATIENCE {
             self.contradictions += 1;
             self.carry_force();
-            return true;
+            return Some(Contradicted::Accelerometer);
         }
         if surprising {
             self.pitch.variance = innovation * innovation;
@@ -146,7 +162,19 @@ impl<S: Scalar> Attitude<S> {
         self.specific_force = Axes { x, y: y.unwrap_or(self.specific_force.y), z };
         (self.felt_rad, self.felt_std_rad) = (Some(angle), noise);
         let _ = self.pitch.update(angle, noise * noise);
-        surprising
+        match (surprising, of_gyro) {
+            (true, _) => Some(Contradicted::Accelerometer),
+            (false, true) => Some(Contradicted::Gyro),
+            (false, false) => None,
+        }
+    }
+
+    /// The accelerometer bears out the rate of the frame before, rad/s, and not the angle by which the gyro has jumped since, rad.
+    fn turn_as_before(&mut self, rate_rad_s: S, jumped_rad: S, step_s: S) {
+        let std = S::constant(UNSEEN_TURN);
+        self.rate_rad_s = (rate_rad_s, std);
+        self.pitch.mean -= jumped_rad;
+        self.pitch.variance += step_s * step_s * std * std;
     }
 
     /// Turns what was felt last to where the pitch is now: it stands until the accelerometer is believed again.
@@ -198,7 +226,7 @@ pub fn pitch_rate<S: Scalar>(turn: Axes<S>, felt: Axes<S>) -> S {
 
 #[cfg(test)]
 mod tests {
-    use super::Attitude;
+    use super::{Attitude, Contradicted};
     use crate::rover::{Axes, Rover};
 
     /// On level ground, ten frames a second: the pitch after each frame of a rover that moves at these speeds, m/s.
@@ -211,7 +239,7 @@ mod tests {
             before = speed;
             let gyro = Axes { x: Some(0.0), y: Some(0.0), z: Some(0.0) };
             let surprised = attitude.tick(accel, gyro, Some(speed), 0.1, &noise);
-            assert!(!surprised, "at {speed} m/s");
+            assert_eq!(surprised, None, "at {speed} m/s");
             attitude.pitch_rad()
         })
     }
@@ -228,6 +256,21 @@ mod tests {
     fn what_speeds_up_on_the_way_does_not_tilt() {
         let [.., before, during, after] = pitches([0.02, 0.02, 0.02, 0.05, 0.05]);
         assert!([before, during, after].iter().all(|pitch| pitch.abs() < 0.001), "{before} {during} {after}");
+    }
+
+    /// Minus a tenth of a radian a second for one frame: the pitch goes on, and no frame after it is doubted.
+    #[test]
+    fn a_glitch_of_the_gyro_tilts_nothing() {
+        let noise = Rover::<f64>::assumed().noise;
+        let mut attitude = Attitude::new(9.81);
+        let accel = Axes { x: Some(0.0), y: Some(0.0), z: Some(9.81) };
+        for frame in 0..100 {
+            let rate = if frame == 50 { -0.1 } else { 0.0 };
+            let gyro = Axes { x: Some(0.0), y: Some(rate), z: Some(0.0) };
+            let surprised = attitude.tick(accel, gyro, Some(0.02), 0.1, &noise);
+            assert_eq!(surprised, (frame == 50).then_some(Contradicted::Gyro), "frame {frame}");
+            assert!(attitude.pitch_rad().abs() < 1.0e-3, "frame {frame}: {}", attitude.pitch_rad());
+        }
     }
 
     /// A rover whose accelerometer falls silent on the level and that climbs a slope then: gravity is where the gyro carries it, and not known as

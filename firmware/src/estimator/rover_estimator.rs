@@ -1,6 +1,6 @@
 //! The estimators of the whole rover: a frame in, the state of every wheel out.
 
-use super::attitude::Attitude;
+use super::attitude::{Attitude, Contradicted};
 use super::estimate::SideEstimate;
 use super::health::{EstimatorHealth, PerSensor, SensorHealth};
 use super::sensor_gate::{Repeats, SensorGates, count};
@@ -113,9 +113,15 @@ impl<S: Scalar> RoverEstimator<S> {
         let readings = self.common.gates.admit(frame.readings(), &mut self.common.health.sensors);
         let readings = readings.map(|reading| reading.map(S::from_f32));
         let speed = readings.velocity.x;
-        if self.common.attitude.tick(readings.accel, readings.gyro, speed, step_s, &self.common.rover.noise) {
-            let accel = &mut self.common.health.sensors.accel;
-            [&mut accel.x, &mut accel.z].into_iter().for_each(|sensor| count(&mut sensor.surprising));
+        let noise = &self.common.rover.noise;
+        let contradicted = self.common.attitude.tick(readings.accel, readings.gyro, speed, step_s, noise);
+        let PerSensor { accel, gyro, .. } = &mut self.common.health.sensors;
+        match contradicted {
+            Some(Contradicted::Accelerometer) => {
+                [&mut accel.x, &mut accel.z].into_iter().for_each(|sensor| count(&mut sensor.surprising));
+            }
+            Some(Contradicted::Gyro) => count(&mut gyro.y.surprising),
+            None => {}
         }
         let repeating = self.common.gates.repeating_rates();
         let rover_gained = rover_gained(left_side, right_side);

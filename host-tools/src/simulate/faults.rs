@@ -16,6 +16,8 @@ pub enum Failure {
     Infinity,
     /// It says a million.
     Outlier,
+    /// It says minus three times what it would: within its range, and wrong.
+    Glitch,
     /// It repeats what it said last before.
     Stuck,
     /// It says exactly zero, as a dead one does to a logger that has no word for it.
@@ -27,10 +29,11 @@ pub enum Failure {
 }
 
 /// Names of the failures on the command line. A frame that repeats is one whose sensors are all stuck.
-pub const FAILURES: [(&str, Failure); 8] = [
+pub const FAILURES: [(&str, Failure); 9] = [
     ("nan", Failure::Nan),
     ("inf", Failure::Infinity),
     ("outlier", Failure::Outlier),
+    ("glitch", Failure::Glitch),
     ("stuck", Failure::Stuck),
     ("zero", Failure::Zero),
     ("dropout", Failure::Dropout),
@@ -142,6 +145,7 @@ impl Faults {
                     Failure::Nan => Some(f32::NAN),
                     Failure::Infinity => Some(f32::INFINITY),
                     Failure::Outlier => Some(1.0e6),
+                    Failure::Glitch => value.map(|value| -3.0 * value),
                     Failure::Stuck => before,
                     Failure::Zero => Some(0.0),
                     Failure::Dropout => None,

@@ -13,6 +13,8 @@ const STEEPEST_NM_PER_M: f64 = 80.0;
 const CONTACT_M: f64 = 0.03;
 /// And its noise, in standard deviations of one reading.
 const BY_NOISE: f64 = 6.0;
+/// A change of more than this part of that goes on.
+const CLIMBS: f64 = 0.5;
 /// An encoder answers that shows this part of what a jump would do to its rate.
 const ANSWERS: f64 = 0.5;
 
@@ -21,6 +23,8 @@ const ANSWERS: f64 = 0.5;
 pub(super) struct TorqueGlitch<S> {
     /// The last that was, N·m; none where the last frame had none.
     believed_nm: Option<S>,
+    /// By how much it had changed, N·m.
+    changed_nm: S,
     /// What was not, in the last frame, N·m.
     denied_nm: Option<S>,
     /// Whether what was said in the frame before that was not, either.
@@ -30,7 +34,7 @@ pub(super) struct TorqueGlitch<S> {
 impl<S: Scalar> TorqueGlitch<S> {
     /// Nothing was said yet.
     pub fn new() -> Self {
-        Self { believed_nm: None, denied_nm: None, again: false }
+        Self { believed_nm: None, changed_nm: S::zero(), denied_nm: None, again: false }
     }
 
     /// What was not believed in the last frame, N·m, where the torque may swing: nor was it in the frame before.
@@ -40,15 +44,19 @@ impl<S: Scalar> TorqueGlitch<S> {
 
     /// Believes whatever is said.
     fn believe(&mut self, torque_nm: Option<S>) {
-        *self = Self { believed_nm: torque_nm, ..Self::new() };
+        let changed_nm = torque_nm.zip(self.believed_nm).map_or(S::zero(), |(now, before)| now - before);
+        *self = Self { believed_nm: torque_nm, changed_nm, ..Self::new() };
     }
 
-    /// Whether a torque is a glitch: farther than `limit_nm` from the last that was believed, and from what was denied in the frame before,
-    /// without an answer to what it has jumped by.
+    /// Whether a torque is a glitch: farther than `limit_nm` from the last that was believed, without an answer to what it has jumped by, and
+    /// neither a step that was denied in the frame before nor a climb that goes on.
     fn is_glitch(&mut self, torque_nm: S, limit_nm: S, is_answered: impl FnOnce(S) -> bool) -> bool {
-        let is_near = |other: &S| (torque_nm - *other).abs() <= limit_nm;
-        let Some(before) = self.believed_nm.filter(|before| !is_near(before)) else { return false };
-        if self.denied_nm.as_ref().is_some_and(is_near) || is_answered(torque_nm - before) {
+        let Some(before) = self.believed_nm else { return false };
+        let jump = torque_nm - before;
+        let same_way = |change: S| jump * change > S::zero();
+        let stays = |denied: S| same_way(denied - before) && jump.abs() > (denied - before).abs() - limit_nm;
+        let climbs = same_way(self.changed_nm) && self.changed_nm.abs() > S::constant(CLIMBS) * limit_nm;
+        if jump.abs() <= limit_nm || climbs || self.denied_nm.is_some_and(stays) || is_answered(jump) {
             return false;
         }
         self.again = self.denied_nm.replace(torque_nm).is_some();
@@ -106,6 +114,7 @@ mod tests {
         assert_eq!(believed(&[1.0, 4.0, 4.1, 4.0]), [true, false, true, true]);
         assert_eq!(believed(&[1.0, 4.0, -2.0, 1.0]), [true, false, false, true], "two spikes that are not alike");
         assert_eq!(believed(&[1.0, 1.4, 1.8, 2.2]), [true; 4], "a climb");
+        assert_eq!(believed(&[1.0, 2.0, 3.0, 4.5]), [true, false, true, true], "a steep climb");
     }
 
     #[test]

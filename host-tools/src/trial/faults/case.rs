@@ -63,7 +63,7 @@ impl Case {
             Failure::Stuck => GateCounts { stuck: frames.saturating_sub(BELIEVED_FRAMES), ..healthy },
             Failure::Dropout => GateCounts { missing: frames, ..healthy },
             // No sensor of the catalogue says zero.
-            Failure::Zero | Failure::SkipFrames => healthy,
+            Failure::Glitch | Failure::Zero | Failure::SkipFrames => healthy,
         }
     }
 }
