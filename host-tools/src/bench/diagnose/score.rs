@@ -138,6 +138,10 @@ fn print_unlisted(trials: &[Trial]) {
         holds(trial, |answer| answer.sees_following(unlisted.channel, unlisted.column))
     });
     println!("  and the right column        {column}");
+    for (name, of_sensors) in [("following a cause", false), ("an error of a sensor", true)] {
+        let half: Vec<_> = cases.iter().filter(|(unlisted, _)| unlisted.is_of_a_sensor() == of_sensors).collect();
+        println!("  {name:<28}{}", Share::of(&half, |(_, trial)| is_right(trial)));
+    }
 }
 
 fn print_clean(trials: &[Trial]) {

@@ -25,10 +25,15 @@ impl Unlisted {
     pub fn extra_column(&self) -> Option<&'static str> {
         Channel::from_name(self.column).is_none().then_some(self.column)
     }
+
+    /// Whether it is what a sensor makes of its own quantity.
+    pub fn is_of_a_sensor(&self) -> bool {
+        self.column == self.channel.name()
+    }
 }
 
 /// All of them.
-pub const UNLISTED: [Unlisted; 11] = [
+pub const UNLISTED: [Unlisted; 15] = [
     Unlisted {
         law: "torque linear in temperature",
         channel: Channel::Torque,
@@ -128,6 +133,39 @@ pub const UNLISTED: [Unlisted; 11] = [
         wants: || Wants { passes: true, ..Wants::columns(&[Channel::Torque, Channel::Pass]) },
         act: Act::State(|place, state: &mut State, size| {
             state.torque_nm += size * moment_nm(place) * (place.setting.pass - 1.0);
+        }),
+    },
+    Unlisted {
+        law: "gain of the drawbar pull's sensor",
+        channel: Channel::DrawbarPull,
+        column: "drawbar_pull_n",
+        wants: || Wants::columns(&[Channel::DrawbarPull]),
+        act: Act::State(|_, state, size| state.drawbar_pull_n *= 1.0 + size),
+    },
+    Unlisted {
+        law: "gain of the sinkage's sensor",
+        channel: Channel::Sinkage,
+        column: "sinkage_m",
+        wants: || Wants::columns(&[Channel::Sinkage]),
+        act: Act::State(|_, state, size| state.sinkage_m *= 1.0 + size),
+    },
+    Unlisted {
+        law: "friction in the guide of the drawbar pull's sensor",
+        channel: Channel::DrawbarPull,
+        column: "drawbar_pull_n",
+        wants: || Wants::columns(&[Channel::DrawbarPull]),
+        act: Act::State(|place, state, size| {
+            let (pull_n, most_n) = (state.drawbar_pull_n, size * place.site.load_n);
+            state.drawbar_pull_n -= pull_n.clamp(-most_n, most_n);
+        }),
+    },
+    Unlisted {
+        law: "torque sensor that saturates",
+        channel: Channel::Torque,
+        column: "torque_nm",
+        wants: || Wants::columns(&[Channel::Torque]),
+        act: Act::State(|place, state, size| {
+            state.torque_nm /= 1.0 + size * state.torque_nm.abs() / moment_nm(place);
         }),
     },
 ];
