@@ -143,7 +143,9 @@ fn unexplained(selected: &Selected<'_>, left_over: &[LeftOver], is_beyond_noise:
     };
     let is_told = |left: &&LeftOver| selected.left.iter().any(|structure| structure.channel == left.channel);
     let others = left_over.iter().filter(|left| !is_told(left)).map(of_no_column);
-    let mut found: Vec<_> = selected.left.iter().map(entry).chain(others).take(MOST_UNEXPLAINED).collect();
+    let of_sensor = selected.rival.iter().filter_map(|rival| rival.unexplained(selected.model()));
+    let of_columns = selected.left.iter().map(entry);
+    let mut found: Vec<_> = of_sensor.chain(of_columns).chain(others).take(MOST_UNEXPLAINED).collect();
     if found.is_empty() && selected.found.is_empty() && is_beyond_noise {
         found.extend(selected.guilty.iter().filter(|guilty| guilty.explains_a_misfit()).map(entry));
     }

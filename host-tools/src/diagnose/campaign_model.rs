@@ -10,9 +10,10 @@ use crate::data::campaign::Campaign;
 
 use super::fit::{CHANNELS, Coordinate, Latent, Model, Prediction};
 use super::measurements::Measurements;
+use super::sensor_law::SensorLaw;
 use super::site::{Bare, Carried, SLOTS, Site, Sloped};
 use super::soil_coordinates::{SoilParameter, Treatment, treatments};
-use super::specification::Specification;
+use super::specification::{EffectForm, Specification};
 
 /// Derivatives of the largest model that there can be: all of the soil free, and every parameter of every effect.
 const MOST: usize = SoilParameter::ALL.len() + most_effect_parameters() + SLOTS;
@@ -38,6 +39,8 @@ pub struct CampaignModel<'a> {
     soil_free: Vec<SoilParameter>,
     effects: Effects<f64>,
     effects_free: Vec<(&'static str, &'static str)>,
+    /// What sensors make of what the wheel does, beyond the effects.
+    sensors: Vec<SensorLaw>,
     coordinates: Vec<Coordinate>,
 }
 
@@ -56,7 +59,12 @@ impl<'a> CampaignModel<'a> {
             }
         }
         let (effects, free) = specification.effects(measurements);
-        let effects_free = free.iter().map(|free| (free.id, free.parameter)).collect();
+        let effects_free: Vec<_> = free.iter().map(|free| (free.id, free.parameter)).collect();
+        let of_sensor = |effect: &EffectForm| {
+            let place = effects_free.iter().position(|(id, _)| *id == effect.info.id)?;
+            SensorLaw::of(effect, measurements, soil_free.len() + place)
+        };
+        let sensors = specification.effects.iter().filter_map(of_sensor).collect();
         coordinates.extend(free.into_iter().map(|free| free.coordinate));
         Self {
             measurements,
@@ -67,6 +75,7 @@ impl<'a> CampaignModel<'a> {
             soil_free,
             effects,
             effects_free,
+            sensors,
             coordinates,
         }
     }
@@ -134,7 +143,9 @@ impl<'a> CampaignModel<'a> {
         let predict = |(row, latent): (&usize, &mut Latent)| {
             sloped.predict(&self.measurements.conditions[*row], latent, &mut carried)
         };
-        rows.iter().zip(latents).map(predict).collect()
+        let mut predictions: Vec<Prediction> = rows.iter().zip(latents).map(predict).collect::<Option<_>>()?;
+        self.sensors.iter().for_each(|sensor| sensor.read(parameters, &mut predictions));
+        Some(predictions)
     }
 }
 
@@ -163,7 +174,9 @@ impl Model for CampaignModel<'_> {
         let values = |(row, latent): (&usize, &mut Latent)| {
             bare.values(&self.measurements.conditions[*row], latent, &mut carried)
         };
-        rows.iter().zip(latents).map(values).collect()
+        let mut values: Vec<_> = rows.iter().zip(latents).map(values).collect::<Option<_>>()?;
+        self.sensors.iter().for_each(|sensor| sensor.read_values(parameters, &mut values));
+        Some(values)
     }
 }
 
@@ -189,7 +202,6 @@ mod tests {
     use super::*;
     use crate::data::campaign::{Carried as Campaigns, Knowledge};
     use crate::diagnose::fit::Start;
-    use crate::diagnose::specification::EffectForm;
 
     /// The last step to the sinkage takes its slope, which is summed in another order where there are more of them.
     fn check_rounding(one: f64, other: f64) {

@@ -63,6 +63,7 @@ pub fn caveats(campaign: &Campaign, measurements: &Measurements, selected: &Sele
         .chain(untold(campaign, selected))
         .chain(far_from_stated(campaign, model))
         .chain(selected.left.iter().filter_map(says_the_same))
+        .chain(selected.rival.iter().filter_map(|rival| rival.in_words(measurements)))
         .collect()
 }
 

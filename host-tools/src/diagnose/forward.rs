@@ -6,6 +6,7 @@ use super::mimicry::{is_mimic, is_own_law};
 use super::pairs::{Known, Pair, alone, from_ahead, from_known};
 use super::residual_search::{Structure, search};
 use super::selection::{Judged, Step, look_ahead};
+use super::sensor_rival::{Rival, alone_on, rival};
 use super::steps::Steps;
 use super::trial::Trial;
 
@@ -29,6 +30,8 @@ pub struct Selected<'a> {
     pub left: Vec<Structure>,
     /// The column that the declared model's residuals follow most, beyond chance or not.
     pub guilty: Option<Structure>,
+    /// A law of a sensor that took the place of effects, or is not told from those that were found.
+    pub rival: Option<Rival<'a>>,
 }
 
 /// An effect that earned its place, and the field that it won in.
@@ -65,7 +68,7 @@ impl<'a> Selected<'a> {
 
 /// Adds effects to a model while they earn their place.
 pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) + Sync)) -> Selected<'a> {
-    let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None };
+    let mut selected = Selected { base, found: Vec::new(), last: None, left: Vec::new(), guilty: None, rival: None };
     let mut known: Option<Left> = None;
     let steps = Steps::new(bench);
     while selected.found.len() < MOST_EFFECTS {
@@ -111,7 +114,25 @@ pub fn select<'a>(bench: &Bench<'a>, base: Trial<'a>, progress: &(dyn Fn(&str) +
         selected.left = left(bench, selected.model(), selected.dispersion(), known);
     }
     selected.left.retain(Structure::is_significant);
+    held_against_sensors(bench, &mut selected);
     selected
+}
+
+/// Takes off the effects in whose place a law of a sensor that stands in no list explains the data better; where nothing was found and no
+/// column accused, looks for such a law all the same.
+fn held_against_sensors<'a>(bench: &Bench<'a>, selected: &mut Selected<'a>) {
+    if selected.found.is_empty() {
+        let is_open = selected.left.is_empty();
+        selected.rival = if is_open { alone_on(bench, &selected.base, selected.dispersion()) } else { None };
+        return;
+    }
+    let Some(found) = rival(bench, selected) else { return };
+    if found.takes_place {
+        let displaced = selected.found.drain(found.stay..);
+        selected.last = displaced.into_iter().next().map(|displaced| displaced.step);
+        selected.left.clear();
+    }
+    selected.rival = Some(found);
 }
 
 /// What the last winner leaves, and the dispersion by which that was judged.

@@ -3,7 +3,8 @@
 //! As data flow: `measurements` of a campaign and a `specification` of effects make a `campaign_model`, which `fit` fits;
 //! `trial` holds both, on the `bench` of the campaign. `selection` fits every one of the `candidates` on top of a model and tests
 //! it against chance; `residual_search` does the same with every column as it stands; `forward` adds what earns its place, and
-//! without `lone_rows` that would bear it alone. `held_out_errors` does it all again without some runs, in
+//! without `lone_rows` that would bear it alone; `sensor_rival` holds what was found against errors of sensors that stand in no list,
+//! whose laws are in `sensor_law`. `held_out_errors` does it all again without some runs, in
 //! `folds`, to predict those; `formula_search` looks for a law of what is left; `assemble` writes the `document`. Beside all that,
 //! `force_channels` holds loads that are set and side forces that should be none against what sensors follow, without any model of
 //! the soil.
@@ -49,6 +50,8 @@ mod rates;
 mod regressors;
 mod residual_search;
 mod selection;
+mod sensor_law;
+mod sensor_rival;
 mod sentence;
 mod settings;
 mod shared_place;

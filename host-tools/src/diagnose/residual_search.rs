@@ -291,7 +291,7 @@ fn wave(regressor: &Regressor) -> Option<Vec<Term>> {
 
 /// Share of the squares of a channel's residual, in units of its noise, that is gone. What the rows of a run have in common
 /// belongs to it: an offset of the run takes up what the run's column does.
-fn share(before: &Fit, after: &Fit, channel: Reading) -> f64 {
+pub fn share(before: &Fit, after: &Fit, channel: Reading) -> f64 {
     let squares = |fit: &Fit| -> f64 { fit.whole_standardised(channel).map(|value| value.powi(2)).sum() };
     (1.0 - squares(after) / squares(before).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
 }

@@ -26,7 +26,7 @@ const SECONDS: usize = 3;
 /// Candidates that are fitted to the end.
 const FINISHED: usize = 6;
 /// Difference in ln likelihood from the best beyond which none of them is in question.
-const IN_QUESTION: f64 = 15.0;
+pub const IN_QUESTION: f64 = 15.0;
 /// Share of the best gain in ln posterior at a short look, and how much less than that, from which a candidate may still lead.
 const PROMISING_SHARE: f64 = 0.5;
 const PROMISING_LESS: f64 = 10.0;

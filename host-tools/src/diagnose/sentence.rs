@@ -38,6 +38,7 @@ fn sentence(document: &Diagnosis, campaign: &Campaign, open: &Open) -> String {
     let of = &campaign.name;
     let left = document.unexplained.first().map(|left| match left.regressor.as_str() {
         _ if left.is_along_runs() => format!("{} along runs (t_s)", left.channel),
+        column if column == left.channel => format!("{} against its own reading", left.channel),
         column => format!("{} against {column}", left.channel),
     });
     match document.verdict {
