@@ -22,7 +22,8 @@ fn other_table(folder: &Path) -> PathBuf {
     let (wheel, loss) = trained.wheel.expect("it was asked for");
     let provenance = Provenance { plan: &plan, world: &world, fifth: Candidate::SHIPPED, losses: [loss, trained.loss] };
     let path = folder.join("other.table");
-    fs::write(&path, table_file(wheel, trained.rover, &provenance).to_text()).expect("a folder for tests");
+    fs::write(&path, table_file(wheel, trained.rover, &provenance).expect("networks that fly").to_text())
+        .expect("a folder for tests");
     path
 }
 

@@ -37,7 +37,9 @@ use crate::error::HostError;
 pub use document::{Document, NoiseDocument, RunDocument, WheelDocument};
 pub use each_run::{identify_beside, identify_by};
 pub use method::{Method, network_refusal};
-pub use network::{Identification, IdentifiedRun, Question, assumed_soil, at_edge, identify, identify_rehearsed};
+pub use network::{
+    Identification, IdentifiedRun, OUTSIDE, Question, assumed_soil, at_edge, identify, identify_rehearsed,
+};
 pub use rehearsal::Missing;
 pub use run_states::RunStates;
 pub use sensor_noise::{NoiseSource, SensorNoise};

@@ -21,6 +21,9 @@ use super::rehearsal::{Missing, OfTraining, missing};
 use super::run_states::{RunStates, check_columns, run_states};
 use super::{Answer, SensorNoise};
 
+/// What is said of wheels that the networks have not learned.
+pub const OUTSIDE: &str = "outside the range that the networks were trained on, and not to be relied on";
+
 /// A campaign, identified.
 #[derive(Debug, Clone)]
 pub struct Identification {
@@ -40,7 +43,7 @@ pub struct IdentifiedRun {
     /// Why no soil explains the run by equations that the networks know, where that was tried and its residuals are no noise.
     pub misfit: Option<String>,
     /// Why the soil is one that the networks have not learned, or may be one, or is another by `map`, or is moved by effects that they have
-    /// not learned, where that was looked at.
+    /// not learned, or the wheels are in a state that they have not, where that was looked at.
     pub beyond_training: Option<String>,
 }
 
@@ -102,7 +105,8 @@ pub fn identify_rehearsed(
         let estimate = run.question.as_ref().and_then(|question| question.answer.rover.as_ref().ok());
         let beyond = by_map.as_ref().and_then(|by_map| beyond(&by_map.found));
         let denied = || by_map.as_ref()?.denies(&Finding::from(estimate?), campaign);
-        run.beyond_training = beyond.or_else(|| at_an_end(estimate?)).or_else(denied);
+        let outside = || estimate?.outside_training_range.then(|| OUTSIDE.to_owned());
+        run.beyond_training = beyond.or_else(|| at_an_end(estimate?)).or_else(denied).or_else(outside);
         run.misfit = by_map.and_then(|by_map| by_map.misfit);
     }
     Ok(identification)

@@ -5,7 +5,7 @@ use kapvik_firmware::soil::ParameterEstimate;
 
 use super::{Outcome, REASONS, REPEATS, troubles};
 use crate::digits::counted;
-use crate::identify::network_refusal;
+use crate::identify::{OUTSIDE, network_refusal};
 
 /// The outcome, line by line.
 pub fn lines(outcome: &Outcome) -> Vec<String> {
@@ -36,8 +36,8 @@ fn soil_line(soil: &RoverSoil) -> String {
         format!("{:.digits$} ± {:.digits$}{mark}", factor * parameter.value, factor * parameter.std)
     };
     let outside = match estimate.outside_training_range {
-        true => "; outside the range that the networks were trained on, and not to be relied on",
-        false => "",
+        true => format!("; {OUTSIDE}"),
+        false => String::new(),
     };
     format!(
         "soil at the end: c {} Pa, φ {}°, K {} mm (± one standard deviation; ? = cannot be told from these data){outside}",

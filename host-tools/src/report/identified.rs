@@ -32,7 +32,7 @@ pub fn identified(document: &Document) -> String {
 
 /// Why there is no estimate, or none that can be relied on as the method states it.
 pub fn remark(run: &RunDocument) -> String {
-    let no_soil = run.no_soil.as_ref().map(|why| format!("no soil: {why}"));
+    let no_soil = run.no_soil.as_ref().map(|why| format!("not to be relied on: {why}"));
     let said = [&run.misfit, &run.beyond_training, &run.widened]
         .into_iter()
         .flatten()

@@ -21,6 +21,7 @@ fn failures_change_their_columns_at_their_time_and_nothing_else() {
         (Failure::Outlier, "*_rr_*", 3),
         (Failure::Stuck, "velocity_*_m_s", 3),
         (Failure::Zero, "accel_*", 3),
+        (Failure::Glitch, "motor_torque_*", 6),
         (Failure::Dropout, "*", 30),
     ] {
         let fault = Fault::new(failure, pattern, (4.0, 5.0)).expect("a fault");
@@ -39,6 +40,7 @@ fn failures_change_their_columns_at_their_time_and_nothing_else() {
                     Failure::Nan => Some(f32::NAN),
                     Failure::Infinity => Some(f32::INFINITY),
                     Failure::Outlier => Some(1.0e6),
+                    Failure::Glitch => usual.map(|value| -3.0 * value),
                     Failure::Stuck => before,
                     Failure::Zero => Some(0.0),
                     Failure::Dropout | Failure::SkipFrames => None,
