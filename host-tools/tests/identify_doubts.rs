@@ -87,17 +87,18 @@ fn a_cohesion_that_may_be_nothing_is_not_told_but_bounded() {
 fn an_effect_of_open_form_leaves_nothing_told_that_another_form_denies() {
     let soil = prior::soil([800.0, 0.60, 0.012, 1.0, 2e6, 0.3, 0.15]);
     let truths = [soil.cohesion_pa, soil.friction_angle_rad, soil.shear_modulus_m];
-    let mut doubted = 0;
+    let (mut doubted, mut told) = (0, 0);
     for seed in 0..12 {
         let run = by_map(&soil, "[declared]\neffects = [\"force-bias\"]\n", |load_n| load_n + 3.0, seed);
         doubted += usize::from(run["remarks"].to_string().contains("force-bias in the form"));
+        told += usize::from(run["friction_angle_rad"]["identifiable"] == true);
         for (key, truth) in KEYS.into_iter().zip(truths) {
             let [value, std] = ["value", "std"].map(|part| run[key][part].as_f64().expect("a number"));
             let is_wrong = run[key]["identifiable"] == true && (value - truth).abs() > 4.0 * std;
             assert!(!is_wrong, "seed {seed}: {key} is {truth}: {run}");
         }
     }
-    println!("another form is told of in {doubted} of 12");
+    assert!(doubted > 0 && told > 0, "another form is told of in {doubted} of 12, φ in {told}");
 }
 
 /// A gain error of the torque that is declared and whose size the data have to tell: the networks take it for none. Declared with its size it is nothing.

@@ -19,7 +19,7 @@ use super::side_frame::{SENSORS, SideFrame};
 use super::since_start::SinceStart;
 use super::sinking::Sinking;
 use super::slip_by_speeds::SpeedReadings;
-use super::slip_torque::{self, SlipTorqueFilter, WheelReadings};
+use super::slip_torque::{self, DriveReadings, SlipTorqueFilter, WheelReadings};
 use super::surprise::Surprises;
 use super::track::{Met, Track};
 use super::troubles::Troubles;
@@ -209,12 +209,17 @@ impl<S: Scalar> SideEstimator<S> {
     /// The frame without what drives say of their torques where that is a glitch.
     fn without_glitches(&mut self, step_s: S, frame: &SideFrame<S>, surprises: &mut Surprises) -> SideFrame<S> {
         let mut frame = *frame;
-        let step = [step_s, self.speed_m_s() * step_s];
+        let travel_m = self.speed_m_s() * step_s;
         let wheels = self.wheels.as_mut().zip(self.since_start.as_ref()).zip(surprises.wheels.as_mut());
         let told = frame.motor_torque_nm.as_mut().zip(frame.wheel_rate_rad_s);
         for (((filter, since_start), surprise), (torque, rate)) in wheels.zip(told).into_array() {
-            let said = (*torque, self.rover.noise.motor_torque_nm);
-            let believed = filter.believed_torque_nm(step, said, rate, since_start.has_settled());
+            let readings = DriveReadings {
+                torque_nm: *torque,
+                torque_std_nm: self.rover.noise.motor_torque_nm,
+                rate_rad_s: rate,
+                settled: since_start.has_settled(),
+            };
+            let believed = filter.believed_torque_nm(step_s, travel_m, &readings);
             surprise.motor_torque = torque.is_some() && believed.is_none();
             *torque = believed;
         }

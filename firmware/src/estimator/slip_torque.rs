@@ -26,9 +26,11 @@ use super::watch::{Contradiction, Watch};
 use crate::filter::{Fate, Gaussian, Innovation, SigmaPointFilter};
 use crate::rover::Rover;
 use crate::scalar::Scalar;
+
 use torque_glitch::TorqueGlitch;
 
 pub(super) use process::TORQUE_DRIFT_NM;
+pub(super) use torque_glitch::DriveReadings;
 
 pub use super::slip_torque_model::{MEASUREMENTS, STATES, SlipTorqueModel};
 

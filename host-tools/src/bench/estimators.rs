@@ -1,9 +1,12 @@
 //! How good the estimators of wheel forces are on simulated drives.
 
+use std::path::PathBuf;
+
 use clap::Args;
-use kapvik_firmware::rover::Rover;
 
 use super::estimators_soil;
+use crate::data::rover_file::RoverFile;
+use crate::error::HostError;
 use crate::simulate::Scenario;
 use crate::statistics::Measured;
 use crate::trial::consistency::WILD;
@@ -27,6 +30,9 @@ pub struct EstimatorArguments {
     /// Scenarios; without: those that the README reports
     #[arg(long, value_enum)]
     scenario: Vec<Scenario>,
+    /// The rover that drives, which its estimators know [default: the assumed set K0]
+    #[arg(long, value_name = "R.toml")]
+    rover: Option<PathBuf>,
 }
 
 /// The scenarios that are reported.
@@ -37,17 +43,22 @@ pub const REPORTED: [Scenario; 6] =
 const PLANE: [Scenario; 3] = [Scenario::Level, Scenario::Spread, Scenario::Slope];
 
 /// Drives and prints.
-pub fn run(arguments: &EstimatorArguments) {
+///
+/// # Errors
+/// Where the rover file cannot be read or there is no such rover.
+pub fn run(arguments: &EstimatorArguments) -> Result<(), HostError> {
+    let RoverFile { rover, .. } = RoverFile::read_or_assumed(arguments.rover.as_deref())?;
     let scenarios = if arguments.scenario.is_empty() { REPORTED.to_vec() } else { arguments.scenario.clone() };
     for scenario in scenarios {
-        let trial = trial(scenario, arguments.seed..arguments.seed + arguments.drives, &Rover::assumed());
+        let trial = trial(scenario, arguments.seed..arguments.seed + arguments.drives, &rover);
         print(&trial);
         estimators_soil::print(&trial);
     }
+    Ok(())
 }
 
 fn print(trial: &Trial) {
-    println!("\n{:?}, {} drives", trial.scenario, trial.drives.len());
+    println!("\n{}, {} drives", trial.scenario, trial.drives.len());
     trial.failures.iter().for_each(|failure| println!("  no drive: {failure}"));
     println!("  {:16} {:>9} {:>9} {:>13} {:>9}   within 1 σ, 2 σ, %", "", "RMSE", "raw", "ratio", "bias");
     let errors = trial.errors();

@@ -147,7 +147,7 @@ mod tests {
         assert!(closed.forces.contains("4.100") && closed.forces.contains("1.800"), "{}", closed.forces);
         let rows = soil.errors.lines().filter(|line| line.contains("before") || line.contains("after")).count();
         assert_eq!(rows, 6, "{}", soil.errors);
-        // Both runs of the campaign have an estimate.
+        // One line for each of c, φ and K.
         assert!(
             soil.estimates.lines().filter(|line| line.contains("network after")).count() == 3,
             "{}",

@@ -59,7 +59,7 @@ impl Subject {
         match self {
             Self::Closing(arguments) => closing::run(&arguments)?,
             Self::Diagnose(arguments) => diagnose::execute(&arguments)?,
-            Self::Estimators(arguments) => estimators::run(&arguments),
+            Self::Estimators(arguments) => estimators::run(&arguments)?,
             Self::Faults(arguments) => faults::run(&arguments),
             Self::Filter => filter::execute()?,
             Self::Forward => forward::print(),

@@ -2,7 +2,7 @@
 
 use kapvik_firmware::sensor_frame::SensorFrame;
 
-use crate::data::sensor_channels::{names, values_mut};
+use crate::data::sensor_channels::{names, values};
 
 /// The rhythms of all sensors, as far as the rows that were read tell them.
 #[derive(Debug, Clone)]
@@ -26,19 +26,15 @@ impl Default for Rhythms {
 impl Rhythms {
     /// Takes the next row.
     pub fn take(&mut self, row: &SensorFrame) {
-        let mut row = *row;
-        let time_us = row.time_us;
-        for (rhythm, value) in self.sensors.iter_mut().zip(values_mut(&mut row)) {
-            if value.is_some() {
-                rhythm.speak(time_us);
-            }
+        for (rhythm, _) in self.sensors.iter_mut().zip(values(row)).filter(|(_, value)| value.is_some()) {
+            rhythm.speak(row.time_us);
         }
     }
 
     /// The period of that sensor in these rows which speaks most often, µs; none where none has spoken twice.
     pub fn shortest_us(&self, rows: [&SensorFrame; 2]) -> Option<u64> {
-        let [mut one, mut other] = rows.map(|row| *row);
-        let values = values_mut(&mut one).zip(values_mut(&mut other));
+        let [one, other] = rows.map(values);
+        let values = one.into_iter().zip(other);
         let speaking = self.sensors.iter().zip(values).filter(|(_, (one, other))| one.is_some() || other.is_some());
         speaking.filter_map(|(rhythm, _)| rhythm.period_us()).min()
     }

@@ -64,17 +64,25 @@ impl<S: Scalar> TorqueGlitch<S> {
     }
 }
 
+/// What a drive says in a frame.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::estimator) struct DriveReadings<S> {
+    /// Its torque, N·m.
+    pub torque_nm: Option<S>,
+    /// One standard deviation of that, N·m.
+    pub torque_std_nm: S,
+    /// Its encoder, rad/s.
+    pub rate_rad_s: Option<S>,
+    /// Whether its wheel rolls as it will.
+    pub settled: bool,
+}
+
 impl<S: Scalar> SlipTorqueFilter<S> {
-    /// What the drive says of its torque, N·m, if it is believed, of a wheel that has `settled` and whose encoder says a rate, rad/s.
+    /// What the drive says of its torque, N·m, if it is believed, in a step over so much travel.
     #[inline(never)] // flash is scarcer than the time of a call
-    pub fn believed_torque_nm(
-        &mut self,
-        [step_s, travel_m]: [S; 2],
-        (torque_nm, std_nm): (Option<S>, S),
-        rate_rad_s: Option<S>,
-        settled: bool,
-    ) -> Option<S> {
-        let Some(said) = torque_nm.filter(|_| settled && !self.swings()) else {
+    pub fn believed_torque_nm(&mut self, step_s: S, travel_m: S, readings: &DriveReadings<S>) -> Option<S> {
+        let DriveReadings { torque_nm, torque_std_nm, rate_rad_s, settled } = *readings;
+        let Some(said_nm) = torque_nm.filter(|_| settled && !self.swings()) else {
             self.glitch.believe(torque_nm);
             return torque_nm;
         };
@@ -83,7 +91,7 @@ impl<S: Scalar> SlipTorqueFilter<S> {
         let per_torque = step_s * self.model.inverse_inertia;
         let gained = rate_rad_s.map_or(S::zero(), |rate| rate - self.link_rate_rad_s - rate_before);
         let answers = |jump: S| gained / (per_torque * jump) > S::constant(ANSWERS);
-        if self.glitch.is_glitch(said, S::constant(BY_NOISE) * std_nm + steepest_nm, answers) {
+        if self.glitch.is_glitch(said_nm, S::constant(BY_NOISE) * torque_std_nm + steepest_nm, answers) {
             return None;
         }
         self.glitch.believe(torque_nm);
