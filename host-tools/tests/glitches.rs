@@ -4,18 +4,14 @@
 mod drive_errors;
 mod driven;
 mod failing;
+mod faulty_drives;
 mod recorded;
 
-use drive_errors::drive_errors;
-use failing::failing;
-use kapvik_firmware::rover::Rover;
 use kapvik_host::data::sensor_channels;
+use kapvik_host::simulate::Scenario;
 use kapvik_host::simulate::faults::{Failure, Fault};
-use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::Quantity;
 use kapvik_host::trial::errors::Errors;
-use rayon::prelude::*;
-use recorded::recorded;
 
 /// Seeds that development has not looked at.
 const SEEDS: std::ops::Range<u64> = 8320..8324;
@@ -40,12 +36,7 @@ const QUANTITIES: [Quantity; 6] = [
 ];
 
 fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
-    let of_drive = |seed| {
-        let rover = Rover::assumed();
-        let drive = recorded(scenario, seed, &rover, &Options::default());
-        drive_errors(&rover, &failing(&drive, faults.to_vec()).collect::<Vec<_>>())
-    };
-    SEEDS.into_par_iter().map(of_drive).collect::<Vec<Errors>>().into_iter().sum()
+    faulty_drives::errors(scenario, SEEDS, faults)
 }
 
 #[test]

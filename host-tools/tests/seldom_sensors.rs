@@ -4,13 +4,12 @@
 mod drive_errors;
 mod driven;
 mod failing;
+mod faulty_drives;
 mod recorded;
 #[path = "../../firmware/tests/support/worse.rs"]
 mod worse;
 
-use drive_errors::drive_errors;
 use driven::driven;
-use failing::failing;
 use kapvik_firmware::pipeline::FrameEstimate;
 use kapvik_firmware::rover::Rover;
 use kapvik_host::data::truth_file::Truth;
@@ -18,7 +17,6 @@ use kapvik_host::simulate::faults::{Failure, Fault};
 use kapvik_host::simulate::{Options, Scenario};
 use kapvik_host::trial::Quantity;
 use kapvik_host::trial::errors::Errors;
-use rayon::prelude::*;
 use recorded::recorded;
 use worse::worse;
 
@@ -28,12 +26,7 @@ const SEEDS: std::ops::Range<u64> = 8300..8304;
 const LONGEST_S: f64 = 120.0;
 
 fn errors(scenario: Scenario, faults: &[Fault]) -> Errors {
-    let of_drive = |seed| {
-        let rover = Rover::assumed();
-        let drive = recorded(scenario, seed, &rover, &Options::default());
-        drive_errors(&rover, &failing(&drive, faults.to_vec()).collect::<Vec<_>>())
-    };
-    SEEDS.into_par_iter().map(of_drive).collect::<Vec<Errors>>().into_iter().sum()
+    faulty_drives::errors(scenario, SEEDS, faults)
 }
 
 /// Errors may grow to four times those with all readings, give or take one, and so many must be within two standard deviations.
