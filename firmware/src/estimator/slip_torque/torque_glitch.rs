@@ -3,7 +3,8 @@
 //! A torque that jumps either turns its wheel faster, which the encoder shows at once, or meets as much more from the soil, and then stays.
 //! One that does neither is a reading that is off. Believed, it speaks against the encoder first, and then as a moment on the links: one frame
 //! in twenty was enough for pulls to be off by fifty newtons. So a jump without an answer is left out for a frame; it counts from the next on
-//! that says the same. On simulated drives over ground of every kind none is left out of a wheel that rolls.
+//! that says the same. On simulated drives over plane ground, hills, slopes, rocks and other soils none is left out; where a wheel blocks,
+//! it is here and there the first of a climb.
 
 use super::SlipTorqueFilter;
 use crate::scalar::Scalar;
