@@ -8,6 +8,7 @@ use kapvik_firmware::filter::{Fate, Innovation};
 use kapvik_firmware::rover::{PerSide, Rover};
 use kapvik_firmware::sensor_frame::SensorFrame;
 use kapvik_host::simulate::{Options, Scenario, Traverse};
+use kapvik_host::wheel_quantity::WheelQuantity;
 use rayon::prelude::*;
 use worse::worse;
 
@@ -30,18 +31,11 @@ fn difference(single: Estimate, double: Estimate) -> [f64; 2] {
 
 fn of_wheel(single: &WheelEstimate, double: &WheelEstimate) -> [[f64; 2]; 5] {
     assert_eq!(single.activity, double.activity);
-    let slip = match (single.slip, double.slip) {
+    WheelQuantity::ALL.map(|quantity| match (quantity.estimate(single), quantity.estimate(double)) {
         (Some(single), Some(double)) => difference(single, double),
         (None, None) => [0.0; 2],
         _ => [f64::INFINITY; 2],
-    };
-    [
-        slip,
-        difference(single.resistive_torque_nm, double.resistive_torque_nm),
-        difference(single.contact_angle_rad, double.contact_angle_rad),
-        difference(single.normal_load_n, double.normal_load_n),
-        difference(single.drawbar_pull_n, double.drawbar_pull_n),
-    ]
+    })
 }
 
 /// Differences of one quantity over a drive, over the standard deviation: of values, and of standard deviations.

@@ -7,7 +7,7 @@ use super::sensor_gate::{Repeats, SensorGates, count};
 use super::side_estimate::{Believed, HubForces, WheelCovariance};
 use super::side_estimator::{SideEstimator, SideInnovations};
 use super::side_frame::SideFrame;
-use super::surprise::Surprises;
+use super::surprise::{Surprises, WheelSurprises};
 use super::troubles::Troubles;
 use super::whole_balance::{Steadiness, balanced};
 use crate::rover::{PerSide, PerWheel, Rover, Side};
@@ -294,19 +294,17 @@ fn note_surprises(sensors: &mut PerSensor<SensorHealth>, surprises: &PerSide<Sur
     ];
     shared.into_iter().filter(|(_, surprised)| *surprised).for_each(|(sensor, _)| count(&mut sensor.surprising));
     let wheels = surprises.as_ref().map(|side| side.wheels);
-    for (sensor, surprised) in sensors.wheel_rate.iter_wheels_mut().zip(wheels.iter_wheels()) {
-        if surprised.wheel_rate {
-            count(&mut sensor.surprising);
-        }
-    }
-    for (sensor, surprised) in sensors.motor_torque.iter_wheels_mut().zip(wheels.iter_wheels()) {
-        if surprised.motor_torque {
-            count(&mut sensor.surprising);
-        }
-    }
-    for (sensor, surprised) in sensors.load_cell.iter_wheels_mut().zip(wheels.iter_wheels()) {
-        if surprised.load_cell {
-            count(&mut sensor.surprising);
-        }
-    }
+    count_wheels(&mut sensors.wheel_rate, &wheels, |wheel| wheel.wheel_rate);
+    count_wheels(&mut sensors.motor_torque, &wheels, |wheel| wheel.motor_torque);
+    count_wheels(&mut sensors.load_cell, &wheels, |wheel| wheel.load_cell);
+}
+
+/// Counts a sensor of the wheels where it surprised.
+fn count_wheels(
+    sensors: &mut PerWheel<SensorHealth>,
+    wheels: &PerWheel<WheelSurprises>,
+    surprised: impl Fn(&WheelSurprises) -> bool,
+) {
+    let each = sensors.iter_wheels_mut().zip(wheels.iter_wheels());
+    each.filter(|(_, wheel)| surprised(wheel)).for_each(|(sensor, _)| count(&mut sensor.surprising));
 }

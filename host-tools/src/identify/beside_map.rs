@@ -26,13 +26,7 @@ pub fn beside(found: &Finding, by_map: &Finding) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// φ as told, c and K not.
-    fn found(degrees: f64, std_degrees: f64) -> Finding {
-        let untold = Statement::normal(1.0, 1.0);
-        let told = Statement::normal(degrees.to_radians(), std_degrees.to_radians());
-        Finding::of([untold, Statement { identifiable: true, ..told }, untold])
-    }
+    use crate::identify::method::told_of_friction_angle as found;
 
     #[test]
     fn what_both_tell_and_tell_apart_is_denied() {

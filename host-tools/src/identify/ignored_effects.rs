@@ -46,13 +46,7 @@ fn shift(with: &Statement, without: &Statement) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// φ as told, c and K not.
-    fn found(degrees: f64, std_degrees: f64) -> Finding {
-        let untold = Statement::normal(1.0, 1.0);
-        let told = Statement::normal(degrees.to_radians(), std_degrees.to_radians());
-        Finding::of([untold, Statement { identifiable: true, ..told }, untold])
-    }
+    use crate::identify::method::told_of_friction_angle as found;
 
     fn said(with: &Finding, without: &Finding) -> Option<String> {
         moved(&found(30.0, 1.0), &BothWays { with, without }, &["torque-scale".to_owned()])

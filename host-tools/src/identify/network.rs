@@ -96,7 +96,7 @@ pub fn identify_rehearsed(
     answer: &mut Answer<'_>,
 ) -> Result<Identification, HostError> {
     let mut identification = identify(campaign, answer)?;
-    if campaign.as_seen(know_effects).declared.effects.is_empty() {
+    if !know_effects || campaign.declared.effects.is_empty() {
         identification.runs.iter_mut().filter_map(|run| run.question.as_mut()).for_each(Question::rehearse);
     }
     let mut by_map = by_map(campaign, know_effects, &identification.noise);

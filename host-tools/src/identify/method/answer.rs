@@ -81,6 +81,14 @@ impl Finding {
     }
 }
 
+/// φ as told, c and K not.
+#[cfg(test)]
+pub fn told_of_friction_angle(degrees: f64, std_degrees: f64) -> Finding {
+    let untold = Statement::normal(1.0, 1.0);
+    let told = Statement::normal(degrees.to_radians(), std_degrees.to_radians());
+    Finding::of([untold, Statement { identifiable: true, ..told }, untold])
+}
+
 impl From<&Identified<f64>> for Finding {
     fn from(identified: &Identified<f64>) -> Self {
         let Identified { cohesion_pa, friction_angle_rad, shear_modulus_m, condition_number } = identified;

@@ -23,6 +23,8 @@ use kapvik_firmware::wheel_state::WHEELS;
 
 use crate::data::campaign::{Campaign, Channel};
 
+#[cfg(test)]
+pub use answer::told_of_friction_angle;
 pub use answer::{Finding, Fit, Statement};
 pub use bootstrap::REDRAWS;
 pub use evidence::{Assumed, Evidence, MOST_STATES, literature_bank};
