@@ -56,6 +56,15 @@ impl WheelQuantity {
         }
     }
 
+    /// The unit as it stands behind a number.
+    pub const fn spaced_unit(self) -> &'static str {
+        match self {
+            Self::Slip | Self::ContactAngle => self.unit(),
+            Self::ResistiveTorque => " N·m",
+            Self::NormalLoad | Self::DrawbarPull => " N",
+        }
+    }
+
     /// A value in SI units in that unit.
     pub fn shown(self, value: f64) -> f64 {
         if self == Self::ContactAngle { value.to_degrees() } else { value }

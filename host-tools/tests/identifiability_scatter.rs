@@ -4,7 +4,8 @@
 //! written out for level ground, all slopes by differences, and a plain Gauss–Newton iteration.
 
 use kapvik_firmware::rover::{PerAxle, Rover};
-use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::Soil;
+use kapvik_firmware::wheel_state::WheelState;
 use kapvik_host::identifiability::beforehand::{Beforehand, prior_stds};
 use kapvik_host::identifiability::cost::CostWeights;
 use kapvik_host::identifiability::manoeuvre::{Leg, Pattern, RimSpeeds};
@@ -103,10 +104,9 @@ impl Seen {
         for axle in 0..3 {
             let slip = self.slips[axle] - (1.0 - self.slips[axle].abs()) * x[SOIL];
             loads[axle] = self.loads_n[axle] - biases[axle];
-            let sinkage_m = sinkage_for_load(&rover.wheel, &soil, slip, loads[axle]).unwrap();
-            let forces = wheel_forces(&rover.wheel, &soil, slip, sinkage_m).unwrap();
-            pulls[axle] = forces.drawbar_pull_n + self.ground_n[axle];
-            torques[axle] = forces.torque_nm;
+            let state = WheelState::under_load(&rover.wheel, &soil, slip, loads[axle]).unwrap();
+            pulls[axle] = state.drawbar_pull_n + self.ground_n[axle];
+            torques[axle] = state.torque_nm;
         }
         let ([p1, p2, p3], [w1, w2, w3], [t1, t2, t3]) = (pulls, loads, torques);
         let half_n = 0.5 * rover.mass_kg * rover.gravity_m_s2;
@@ -138,10 +138,8 @@ impl TrueLeg {
     fn new(driven: &DrivenLeg, measured_s: f64) -> Self {
         let Rover { wheel, noise, .. } = Rover::<f64>::assumed();
         let (soil, wheels, speed) = (soil_of(&truth()), driven.drive.wheels.into_array(), driven.drive.hub_speed_m_s);
-        let torques_nm = wheels.map(|state| {
-            let sinkage_m = sinkage_for_load(&wheel, &soil, state.slip, state.load_n).unwrap();
-            wheel_forces(&wheel, &soil, state.slip, sinkage_m).unwrap().torque_nm
-        });
+        let torques_nm =
+            wheels.map(|state| WheelState::under_load(&wheel, &soil, state.slip, state.load_n).unwrap().torque_nm);
         let (slips, loads_n) = (wheels.map(|state| state.slip), wheels.map(|state| state.load_n));
         let quiet = Seen { slips, loads_n, torques_nm, ground_n: [0.0; 3], pitch_rad: 0.0 };
         let root = 1.0 / (measured_s * FRAMES_PER_SECOND).sqrt();

@@ -1,7 +1,7 @@
 //! Six wheels at one instant on which the cost of the methods is counted, and on which they give the same bits everywhere.
 
 use crate::fingerprint::{Digest, SOILS};
-use crate::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use crate::terramechanics::{Soil, Wheel};
 use crate::wheel_state::{WheelNoise, WheelState};
 
 use super::ding::{DingBounds, ding};
@@ -110,22 +110,12 @@ const WHEELS: [(f32, f32); 6] = [(0.05, 45.0), (0.16, 80.0), (0.27, 55.0), (0.38
 
 /// What faultless sensors read on a soil that carries the wheels.
 pub fn six_wheels(soil: &Soil<f32>) -> Option<SixWheels> {
-    let mut seen = [Observation { state: state(0.0, 0.0), noise: NOISE }; 6];
+    let nothing = WheelState { drawbar_pull_n: 0.0, load_n: 0.0, torque_nm: 0.0, slip: 0.0, sinkage_m: None };
+    let mut seen = [Observation { state: nothing, noise: NOISE }; 6];
     for (observation, (slip, load_n)) in seen.iter_mut().zip(WHEELS) {
-        let sinkage_m = sinkage_for_load(&WHEEL, soil, slip, load_n).ok()?;
-        let forces = wheel_forces(&WHEEL, soil, slip, sinkage_m).ok()?;
-        observation.state = WheelState {
-            drawbar_pull_n: forces.drawbar_pull_n,
-            torque_nm: forces.torque_nm,
-            sinkage_m: Some(sinkage_m),
-            ..state(slip, load_n)
-        };
+        observation.state = WheelState::under_load(&WHEEL, soil, slip, load_n).ok()?;
     }
     Some(seen)
-}
-
-fn state(slip: f32, load_n: f32) -> WheelState<f32> {
-    WheelState { drawbar_pull_n: 0.0, load_n, torque_nm: 0.0, slip, sinkage_m: None }
 }
 
 /// The same with the first wheel's torque `off` standard deviations off, so that no two calls are alike.

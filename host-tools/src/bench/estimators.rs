@@ -104,21 +104,21 @@ fn print_pulls(trial: &Trial) {
 
 /// Ratio and coverage come with their standard errors over drives.
 fn print_tally(trial: &Trial, quantity: Quantity, tally: &Tally) {
-    let (name, unit) = match quantity {
-        Quantity::Slip => ("slip", 1.0),
-        Quantity::Torque => ("torque, N·m", 1.0),
-        Quantity::ContactAngle => ("contact angle, °", 1.0_f64.to_degrees()),
-        Quantity::Load => ("load, N", 1.0),
-        Quantity::FrontPull => ("front pull, N", 1.0),
-        Quantity::BogiePull => ("bogie pull, N", 1.0),
-        Quantity::SplitPull => ("split by torque", 1.0),
-        Quantity::LoadSplitPull => ("split by load", 1.0),
+    let name = match quantity {
+        Quantity::Slip => "slip",
+        Quantity::Torque => "torque, N·m",
+        Quantity::ContactAngle => "contact angle, °",
+        Quantity::Load => "load, N",
+        Quantity::FrontPull => "front pull, N",
+        Quantity::BogiePull => "bogie pull, N",
+        Quantity::SplitPull => "split by torque",
+        Quantity::LoadSplitPull => "split by load",
     };
     let Measured { value: ratio, standard_error: error } = trial.over_naive(quantity);
     let percent = |share: Measured| format!("{:5.1} ±{:.1}", 100.0 * share.value, 100.0 * share.standard_error);
     let covered = trial.coverage(quantity).map(percent);
     let covered = if quantity.states_std() { covered.join(", ") } else { "–".to_owned() };
-    let (rmse, naive) = (unit * tally.rmse(), unit * tally.naive_rmse());
-    let bias = unit * tally.bias();
+    let [rmse, naive, bias] =
+        [tally.rmse(), tally.naive_rmse(), tally.bias()].map(|value| quantity.kind().shown(value));
     println!("  {name:16} {rmse:9.4} {naive:9.4} {ratio:6.3} ±{error:5.3} {bias:9.4}   {covered}");
 }

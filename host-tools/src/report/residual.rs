@@ -1,6 +1,7 @@
 //! What equations 1–11 leave unexplained, with the soil that other means have measured.
 
-use kapvik_firmware::terramechanics::{Soil, Wheel, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::{Soil, Wheel};
+use kapvik_firmware::wheel_state::WheelState;
 
 use super::draw::number;
 use crate::data::campaign::{Campaign, Channel, Knowledge};
@@ -155,9 +156,9 @@ impl LeftOver {
 impl ModelState {
     /// None where the soil does not carry the load.
     pub fn at(wheel: &Wheel<f64>, soil: &Soil<f64>, slip: f64, load_n: f64) -> Option<Self> {
-        let sinkage_m = sinkage_for_load(wheel, soil, slip, load_n).ok()?;
-        let forces = wheel_forces(wheel, soil, slip, sinkage_m).ok()?;
-        Some(Self { drawbar_pull_n: forces.drawbar_pull_n, torque_nm: forces.torque_nm, sinkage_m })
+        let WheelState { drawbar_pull_n, torque_nm, sinkage_m, .. } =
+            WheelState::under_load(wheel, soil, slip, load_n).ok()?;
+        Some(Self { drawbar_pull_n, torque_nm, sinkage_m: sinkage_m? })
     }
 }
 

@@ -1,7 +1,8 @@
 //! What a drive is: ground, soil, commands, faults.
 
 use kapvik_firmware::rover::{PerSide, PerWheel, Rover};
-use kapvik_firmware::terramechanics::{Soil, sinkage_for_load, wheel_forces};
+use kapvik_firmware::terramechanics::Soil;
+use kapvik_firmware::wheel_state::WheelState;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -62,9 +63,8 @@ pub const HARD_SLIP: f64 = 0.6;
 /// Pull over load and sinkage over radius of a wheel on level ground that carries its share of the weight.
 pub fn pull_ratio(rover: &Rover<f64>, soil: &Soil<f64>, slip: f64) -> Option<(f64, f64)> {
     let load_n = rover.load_at_rest_n();
-    let sinkage_m = sinkage_for_load(&rover.wheel, soil, slip, load_n).ok()?;
-    let forces = wheel_forces(&rover.wheel, soil, slip, sinkage_m).ok()?;
-    Some((forces.drawbar_pull_n / load_n, sinkage_m / rover.wheel.radius_m))
+    let state = WheelState::under_load(&rover.wheel, soil, slip, load_n).ok()?;
+    Some((state.drawbar_pull_n / load_n, state.sinkage_m? / rover.wheel.radius_m))
 }
 
 /// A soil of the prior that meets a demand.

@@ -64,6 +64,28 @@ impl Quantity {
         }
     }
 
+    /// What is estimated of a wheel there.
+    pub const fn kind(self) -> WheelQuantity {
+        match self {
+            Self::Slip => WheelQuantity::Slip,
+            Self::Torque => WheelQuantity::ResistiveTorque,
+            Self::ContactAngle => WheelQuantity::ContactAngle,
+            Self::Load => WheelQuantity::NormalLoad,
+            Self::FrontPull | Self::BogiePull | Self::SplitPull | Self::LoadSplitPull => WheelQuantity::DrawbarPull,
+        }
+    }
+
+    /// Its name for people, the wheels that it is of behind it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FrontPull => "drawbar pull, front wheels",
+            Self::BogiePull => "drawbar pull, both wheels of a bogie",
+            Self::SplitPull => "… of one of them, split by torque",
+            Self::LoadSplitPull => "… split by load",
+            Self::Slip | Self::Torque | Self::ContactAngle | Self::Load => self.kind().name(),
+        }
+    }
+
     /// Whether its estimate comes with a standard deviation.
     pub fn states_std(self) -> bool {
         self != Self::LoadSplitPull
