@@ -118,7 +118,7 @@ impl<S: Scalar> SideEstimator<S> {
             track: Track::new(&rover.suspension),
             met: [None; 2],
             unlike_share: S::zero(),
-            doubt: Doubt::new(phase),
+            doubt: Doubt::new(rover, phase),
             silent: [S::zero(); SENSORS],
             turns: [Turn::new(); 2],
             told: SideInnovations {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use indicatif::{ParallelProgressIterator, ProgressBar};
-use kapvik_firmware::rover::{PerSide, Planar, Rover, SensorNoise, Suspension};
+use kapvik_firmware::rover::{Axes, PerSide, Planar, Rover, SensorNoise, Suspension};
 use kapvik_firmware::terramechanics::Wheel;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -36,7 +36,7 @@ const OTHER: [Scenario; 4] = [Scenario::StartStop, Scenario::SoilChange, Scenari
 /// The simulation draws from the first two streams of a drive's seed.
 const DEVIATION_STREAM: usize = 2;
 /// What noises are multiplied by.
-const NOISE_FACTORS: prior::Range = prior::Range::logarithmic(0.5, 2.0);
+const NOISE_FACTORS: prior::Range = prior::Range::logarithmic(1.0 / 6.0, 6.0);
 /// How sensors fail, for how long, s, and how long until the next one does.
 const FAILURES: [Failure; 4] = [Failure::Nan, Failure::Outlier, Failure::Stuck, Failure::Dropout];
 const FAILING_S: Range<f64> = 1.0..6.0;
@@ -63,9 +63,13 @@ const LESS_OFTEN: u32 = 6;
 const LONGEST_S: f64 = 120.0;
 /// Frames a second.
 const RATES_HZ: prior::Range = prior::Range::logarithmic(4.0, 100.0);
-/// Other rovers, and radii of their wheels.
+/// Other rovers, radii of their wheels, and what the coordinates of their hubs and pivots are multiplied by.
 const MASSES_KG: prior::Range = prior::Range::logarithmic(8.0, 900.0);
 const RADII_M: prior::Range = prior::Range::logarithmic(0.06, 0.15);
+const SHAPE_FACTORS: prior::Range = prior::Range::logarithmic(0.75, 1.35);
+/// Where the mass is, forward and up, over the coordinates of the front hub.
+const MASS_FORWARD: Range<f64> = -0.15..0.15;
+const MASS_UP: Range<f64> = 0.0..0.75;
 
 /// How many drives, and from which seed on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,6 +105,8 @@ enum Deviation {
     Rate,
     /// The rover is lighter or heavier, on wheels and links of other sizes, and the flight side is told.
     Build,
+    /// Links and mass of a rover that is as heavy are elsewhere, and the flight side is told.
+    Shape,
     /// Slip digs the wheels in.
     SlipSinkage,
     /// Torque and forces swing as grousers come to bear.
@@ -108,13 +114,14 @@ enum Deviation {
 }
 
 /// All of them but that there is none.
-const DEVIATIONS: [Deviation; 8] = [
+const DEVIATIONS: [Deviation; 9] = [
     Deviation::Noise,
     Deviation::Failures,
     Deviation::Seldom,
     Deviation::Silent,
     Deviation::Rate,
     Deviation::Build,
+    Deviation::Shape,
     Deviation::SlipSinkage,
     Deviation::GrouserRipple,
 ];
@@ -245,9 +252,9 @@ impl Journey {
 
 impl Deviation {
     /// How many times as many drives it has: links that swing with the grousers are hardest to tell from ground, no input is how often frames
-    /// come, and sensors that may be silent are many.
+    /// come, and sensors that may be silent, noises and lengths are many.
     fn times(self) -> u32 {
-        if matches!(self, Self::GrouserRipple | Self::Rate | Self::Silent) { 2 } else { 1 }
+        if matches!(self, Self::SlipSinkage | Self::Failures | Self::Seldom) { 1 } else { 2 }
     }
 
     /// The rover, and what acts on it.
@@ -264,7 +271,8 @@ impl Deviation {
             Self::Seldom => faults = silences(random)?,
             Self::Silent => faults.push(silence(random)?),
             Self::Rate => rate_hz = Some(RATES_HZ.at(random.random())),
-            Self::Build => rover = other_build(&rover, random),
+            Self::Build => rover = other_shape(&other_build(&rover, random), random),
+            Self::Shape => rover = other_shape(&rover, random),
             Self::SlipSinkage => effects = only("slip-sinkage", random.random_range(0.0..0.3))?,
             Self::GrouserRipple => effects = only("grouser-ripple", random.random_range(0.0..0.25))?,
         }
@@ -327,6 +335,22 @@ fn other_build(rover: &Rover<f64>, random: &mut ChaCha8Rng) -> Rover<f64> {
     }
 }
 
+/// Each length by itself is shorter or longer, and the mass elsewhere.
+fn other_shape(rover: &Rover<f64>, random: &mut ChaCha8Rng) -> Rover<f64> {
+    let Suspension { front_hub, bogie_pivot, middle_hub, rear_hub, half_track_m, .. } = rover.suspension;
+    let mut other = |length_m: f64| length_m * SHAPE_FACTORS.at(random.random());
+    let [front_hub, bogie_pivot, middle_hub, rear_hub] =
+        [front_hub, bogie_pivot, middle_hub, rear_hub].map(|place| Planar { x: other(place.x), z: other(place.z) });
+    let half_track_m = other(half_track_m);
+    let centre_of_mass = Axes {
+        x: front_hub.x * random.random_range(MASS_FORWARD),
+        y: 0.0,
+        z: -front_hub.z * random.random_range(MASS_UP),
+    };
+    let suspension = Suspension { front_hub, bogie_pivot, middle_hub, rear_hub, half_track_m, centre_of_mass };
+    Rover { suspension, ..*rover }
+}
+
 /// Each noise by itself is better or worse.
 fn other_noise(noise: &SensorNoise<f64>, random: &mut ChaCha8Rng) -> SensorNoise<f64> {
     let mut other = |std: f64| std * NOISE_FACTORS.at(random.random());
@@ -350,7 +374,7 @@ mod tests {
     fn no_two_drives_have_the_same_seed() {
         let plan = Plan { seed: 20_000, drives: 16 };
         let training = plan.training();
-        assert_eq!(training.len(), 3 * 32 + 4 * 16 + 7 * (5 + 3 * 2) * 3 + 4 * 3);
+        assert_eq!(training.len(), 3 * 32 + 4 * 16 + 7 * (3 + 6 * 2) * 3 + 4 * 3);
         let held_out = plan.held_out();
         assert!(held_out.iter().all(|journeys| journeys.len() == 3));
         let seeds: BTreeSet<u64> = training.iter().chain(held_out.iter().flatten()).map(|drive| drive.seed).collect();

@@ -3,6 +3,7 @@
 use core::hint::black_box;
 
 use super::OUTPUTS;
+use super::traits::TRAITS;
 use crate::estimator::contact_forces::ContactForces;
 use crate::estimator::side_estimator::SideEstimator;
 use crate::estimator::side_frame::SENSORS;
@@ -15,8 +16,9 @@ use crate::scalar::Scalar;
 /// each (9), times 2; the bends of rocker and bogie, the differences between the contact angles of neighbours, rad, the trends of these
 /// angles, rad/m (7), and how restless the ground is, 0 … 1, all times 8; the runs of innovations, of velocity up, rocker and bogie, then
 /// of three cells and the moments on bogie and rocker, in standard deviations (8), times 2; for each sensor that cannot be used in this
-/// frame 4, of encoders, drive torques and cells of the three wheels, of bogie, rocker and velocimeter (12).
-pub const INPUTS: usize = 40 + SENSORS;
+/// frame 4, of encoders, drive torques and cells of the three wheels, of bogie, rocker and velocimeter (12). Behind these are the rover's
+/// [traits](super::traits), which have signs.
+pub const INPUTS: usize = 40 + SENSORS + TRAITS;
 
 impl<S: Scalar> SideEstimator<S> {
     /// The inputs of the network, where the filters state such variances, in the order of its outputs.
@@ -53,7 +55,10 @@ impl<S: Scalar> SideEstimator<S> {
             (&self.silent, 4.0),
         ];
         let mut inputs = [0.0; INPUTS];
-        magnitudes(&parts, &mut inputs);
+        if let Some((changing, traits)) = inputs.split_last_chunk_mut() {
+            magnitudes(&parts, changing);
+            *traits = *self.doubt.traits();
+        }
         inputs
     }
 }

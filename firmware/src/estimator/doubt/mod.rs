@@ -9,15 +9,17 @@
 mod frozen;
 mod inputs;
 mod memory;
+mod traits;
 
 use crate::math::of_octaves;
 use crate::network::checksum;
 use crate::network::fixed_point::{FixedLayer, Quad, SUM_BITS, rounded};
-use crate::rover::PerAxle;
+use crate::rover::{PerAxle, Rover};
 use crate::scalar::Scalar;
 
 pub use inputs::INPUTS;
 pub use memory::{DoubtMemory, SHARE_BITS, SLOW};
+pub use traits::{TRAITS, traits};
 
 /// Neurons of the hidden layer, of which the last [`SLOW`] remember.
 pub const HIDDEN: usize = 32;
@@ -69,6 +71,8 @@ impl DoubtNetwork {
 /// How far a side's filters are believed.
 #[derive(Debug, Clone)]
 pub(super) struct Doubt {
+    /// Of the rover.
+    traits: [f32; TRAITS],
     memory: DoubtMemory,
     times: [f32; OUTPUTS],
     /// Whether this side has the turn, and whether it got it in this frame.
@@ -84,10 +88,17 @@ const FASTEST_M_S: f32 = 0.06;
 const TURN_S: f32 = 0.075;
 
 impl Doubt {
-    /// Of filters that have seen nothing, which are believed. The sides take turns, by `phase`: it is odd on one of them.
-    pub fn new(phase: usize) -> Self {
+    /// Of a rover's filters that have seen nothing, which are believed. The sides take turns, by `phase`: it is odd on one of them.
+    pub fn new<S: Scalar>(rover: &Rover<S>, phase: usize) -> Self {
         let has_turn = phase.is_multiple_of(2);
-        Self { memory: DoubtMemory::EMPTY, times: [1.0; OUTPUTS], has_turn, its_turn: false, since_s: 0.0 }
+        Self {
+            traits: traits(rover),
+            memory: DoubtMemory::EMPTY,
+            times: [1.0; OUTPUTS],
+            has_turn,
+            its_turn: false,
+            since_s: 0.0,
+        }
     }
 
     /// To be called once a frame, before anything else, with the time since the one before, s.
@@ -99,6 +110,11 @@ impl Doubt {
             self.has_turn = !self.has_turn;
             self.its_turn = self.has_turn;
         }
+    }
+
+    /// Those of the rover, which are among the inputs.
+    pub fn traits(&self) -> &[f32; TRAITS] {
+        &self.traits
     }
 
     /// Whether the network is run in this frame: in every other one, of ten a second.
@@ -139,7 +155,7 @@ pub(super) fn of_wheels<S: Scalar>(outputs: &[S; OUTPUTS]) -> PerAxle<[S; QUANTI
 #[cfg(test)]
 mod tests {
     use super::{Doubt, DoubtMemory, DoubtNetwork, GREATEST_OUTPUT, INPUTS, OUTPUTS, frozen, of_wheels, times_stated};
-    use crate::rover::PerAxle;
+    use crate::rover::{PerAxle, Rover};
 
     /// Flight relies on it: no input whatever may bring a sum past 32 bits.
     #[test]
@@ -161,7 +177,7 @@ mod tests {
 
     #[test]
     fn sides_take_turns_and_doubt_holds_until_the_next() {
-        let mut sides = [Doubt::new(0), Doubt::new(3)];
+        let mut sides = [0, 3].map(|phase| Doubt::new(&Rover::<f64>::assumed(), phase));
         let mut turns = |step_s: f32| {
             sides.iter_mut().for_each(|side| side.take_turns(step_s));
             sides.each_ref().map(Doubt::its_turn)
