@@ -24,7 +24,7 @@ pub struct EstimatorArguments {
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u64).range(2..=MOST_DRIVES))]
     drives: u64,
     /// Seed of the first drive; development has used those below 1000 and from 3000 to 3999, the network of doubt has learned from those from
-    /// 20000 to 24999, and the README reports what came of those from 9500 on
+    /// 20000 to 25999, and the README reports what came of those from 9500 on
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u64).range(..=u64::MAX - MOST_DRIVES))]
     seed: u64,
     /// Scenarios; without: those that the README reports

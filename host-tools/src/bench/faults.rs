@@ -22,7 +22,7 @@ pub struct FaultArguments {
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(2..=MOST_DRIVES))]
     drives: u64,
     /// Seed of the first drive; development has used those below 1000 and from 3000 to 3999, the network of doubt has
-    /// learned from those from 20000 to 24999
+    /// learned from those from 20000 to 25999
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u64).range(..=u64::MAX - MOST_DRIVES))]
     seed: u64,
     /// Scenarios; without: spread and hills

@@ -63,12 +63,12 @@ impl<S: Scalar> SideEstimator<S> {
     }
 }
 
-/// Variances, in these units in turn, to [`octaves`]. Behind a black box, since of a list of known length each number would have code of its
+/// Numbers, times these in turn, to [`octaves`]. Behind a black box, since of a list of known length each number would have code of its
 /// own.
 #[inline(never)] // flash is scarcer than the time of a call
-fn to_octaves<S: Scalar>(variances: &mut [S], units: &[S]) {
-    for (place, unit) in black_box(variances).iter_mut().zip(units.iter().cycle()) {
-        *place = S::from_f32(octaves((*unit * *place).to_f32()));
+pub(super) fn to_octaves<S: Scalar>(numbers: &mut [S], times: &[S]) {
+    for (place, times) in black_box(numbers).iter_mut().zip(times.iter().cycle()) {
+        *place = S::from_f32(octaves((*times * *place).to_f32()));
     }
 }
 

@@ -1,13 +1,16 @@
 //! Which rover it is, for the network that tells how far its filters err.
 
-use crate::math::octaves;
+use core::hint::black_box;
+
+use super::inputs::to_octaves;
 use crate::rover::{Rover, SensorNoise, Suspension};
 use crate::scalar::Scalar;
 
 /// Numbers that stay as they are all along a drive, in this order: octaves of the noise of encoders, drive torques, cells, angles,
 /// accelerometer, gyro and velocimeter, of the wheel's radius and of the load at rest W₀ (9); where front hub, bogie pivot, middle and rear
-/// hub are, forward and up, and how far off the body's plane (9); where the mass is, forward and up (2). Forces are over W₀, torques over
-/// W₀ r, accelerations over gravity, W₀ over r² times 1 MPa; all else in SI units; octaves are of 512 times that. Lengths are in wheel diameters.
+/// hub are, forward and up, and how far off the body's plane (9); where the mass is, forward and up (2). Noise of forces is over W₀, of
+/// torques over W₀ r, of accelerations over gravity, W₀ itself over r² times 1 MPa, all else in SI units; octaves are of 512 times that.
+/// Lengths are in wheel diameters.
 pub const TRAITS: usize = 20;
 
 /// Numbers of which octaves are told.
@@ -48,8 +51,8 @@ pub fn traits<S: Scalar>(rover: &Rover<S>) -> [f32; TRAITS] {
         centre_of_mass.z,
     ];
     let (sizes, lengths) = traits.split_at_mut(OCTAVES);
-    sizes.iter_mut().for_each(|size| *size = S::from_f32(octaves((S::constant(TIMES) * *size).to_f32())));
-    lengths.iter_mut().for_each(|length| *length = *length * per_diameter);
+    to_octaves(sizes, &[S::constant(TIMES)]);
+    black_box(lengths).iter_mut().for_each(|length| *length = *length * per_diameter);
     traits.map(S::to_f32)
 }
 
