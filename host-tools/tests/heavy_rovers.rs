@@ -44,7 +44,7 @@ fn a_heavy_rover_beats_its_raw_sensors_and_says_how_well() {
     }
 }
 
-/// On hills torque and pulls are stated wider than is true, which is the lesser evil: how wide is printed.
+/// How wide it is stated on hills is printed.
 #[test]
 fn on_hills_a_heavy_rover_claims_no_more_than_it_knows() {
     for rover in heavy_rovers() {
