@@ -103,7 +103,7 @@ enum Deviation {
     Silent,
     /// Frames are fewer or more a second.
     Rate,
-    /// The rover is lighter or heavier, on wheels and links of other sizes, and the flight side is told.
+    /// The rover is lighter or heavier, on wheels and links of other sizes and shapes, and the flight side is told.
     Build,
     /// Links and mass of a rover that is as heavy are elsewhere, and the flight side is told.
     Shape,
